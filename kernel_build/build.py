@@ -27,12 +27,8 @@ def build(names: list[str], folder: Path) -> None:
     """
     from kernel_build.layout import FILE, layout
     from kernel_build.machine_code import link
-    from stackbounce.engine.codes import FORMS
     from stackbounce.engine.entries import ENTRIES
-    from stackbounce.engine.forces import check_form
 
-    for form in FORMS.values():
-        check_form(form)
     sources, entries = digest_of_sources(), list(ENTRIES)
     objects = compile_entries(entries, names)
     targets = [TARGETS[name] for name in names]
@@ -68,7 +64,7 @@ def compile_entries(entries: list[str], names: list[str]) -> list[list[bytes]]:
     """
     from kernel_build.machine_code import compile_level
 
-    halves = [one for one in entries if one in _HALF], [one for one in entries if one not in _HALF]
+    halves = [[name for name in entries if (name in _HALF) == half] for half in (True, False)]
     os.environ["PYTHONHASHSEED"] = "0"  # numba writes what it keeps in sets in another order else
     new = get_context("spawn")
     with (

@@ -90,11 +90,10 @@ def _bits(value: float) -> int:
 def random_image(batch: int, count: int) -> Image:
     """Return the memory of random drops, and the calls that run them."""
     drawn, rigid = draw.drops_of(1, batch, count), draw.is_rigid(batch)
-    names = "mass kind stiffness exponent extra second gap velocity gravity".split()
     engine, balls = RIGID if rigid else FINITE, drawn.mass.shape[1]
     image, room = Image(), memory(engine, balls, compiled=True)
     stack, space, _ = (image.record(table.record) for table in room.arguments)
-    drops = image.record(Drops._make(getattr(drawn, name) for name in names))
+    drops = image.record(Drops._make(getattr(drawn, name) for name in Drops._fields))
     out = image.record(_outcomes(count, balls))
     none = image.record(room.no_samples.record)
     entry = engine.run_batch

@@ -45,7 +45,7 @@ Terms = dict[str, int]
 
 
 def layout() -> dict[str, Any]:
-    """Return what `layout.json` says."""
+    """Return the contents of `layout.json`."""
     return {
         "entries": {
             name: [kind.__name__ for kind in signature(entry).arguments]

@@ -120,3 +120,16 @@ def precise(drop, limit=100_000):
         [mpf(v) for v in drop.start_velocities],
         limit,
     )
+
+
+def assert_collisions(result, expected, precision=1e-11):
+    """Compare collisions, their times, and the velocities after each and at the end."""
+    scale = precision * result.drop.reference_speed
+    assert result.events["contact"].tolist() == [c.contact for c in expected.collisions]
+    for name, field in (("lower_velocity", "lower"), ("upper_velocity", "upper")):
+        values = np.array([float(getattr(c, field)) for c in expected.collisions])
+        assert np.abs(result.events[name] - values).max(initial=0.0) <= scale
+    times = np.array([float(c.time) for c in expected.collisions])
+    late = precision * times.max(initial=0.0)
+    assert np.abs(result.events["time"] - times).max(initial=0.0) <= late
+    assert np.abs(result.rebound_speeds - [float(v) for v in expected.velocities]).max() <= scale

@@ -7,12 +7,10 @@ from functools import partial
 
 import pytest
 from benchmarks.impacts import __main__ as command
-from benchmarks.impacts import runs, score, table
+from benchmarks.impacts import make_answers, runs, score, table
 from benchmarks.impacts.score import FOLDER, Malformed, score_all
 from benchmarks.peers.impacts import PEERS, by_chipmunk, by_mujoco, by_scipy, ours, worlds
 from benchmarks.peers.impacts.common import Peer, Unsupported
-
-from reference import make_impacts
 
 PROBLEMS = score.read(FOLDER / "problems.json", "problems")["problems"]
 ANSWERS = score.read(FOLDER / "answers.json", "answers")["answers"]
@@ -66,7 +64,7 @@ def test_a_problem_and_its_answer_are_as_the_readme_says(problem, answer):
     "name", [*QUICK, *(pytest.param(name, marks=pytest.mark.slow) for name in LONG)]
 )
 def test_answers_are_what_the_references_give(name):
-    assert make_impacts.answer(BY_NAME[name]) == answer_to(name)
+    assert make_answers.answer(BY_NAME[name]) == answer_to(name)
 
 
 def test_a_perfect_answer_has_full_marks():

@@ -139,7 +139,7 @@ def _law(law: Any, restitution: float, options: dict[str, float]) -> tuple[float
     made: Any = calibrate(
         law, mass=1.0, contact_time=1.0, restitution=restitution, impact_speed=1.0, **options
     )
-    relaxed = getattr(made, law.second_parameter) if law.second_parameter else 0.0
+    relaxed = getattr(made, law.fourth_number) if law.fourth_number else 0.0
     return float(np.log(made.stiffness)), float(getattr(made, law.loss)), float(relaxed)
 
 

@@ -165,7 +165,7 @@ class Theory:
         f = soft[0] / (soft[0] + soft[1])
         stiffness = values["stiffer"] * (soft[0] + soft[1]) ** -p
         loss = self._lost(f, lower.loss, upper.loss, values)
-        if self.law.second_parameter != _RELAXES:
+        if self.law.fourth_number != _RELAXES:
             return Numbers(stiffness, loss, np.zeros_like(f))
         return Numbers(stiffness, loss, _creep_time(f, lower, upper) / (1.0 + loss))
 
@@ -178,7 +178,7 @@ class Theory:
             return np.ones_like(f) if elastic else np.sqrt(f * lower**2 + (1.0 - f) * upper**2)
         if self.where == ELASTIC:
             return np.zeros_like(f)
-        if self.law.second_parameter == _RELAXES:
+        if self.law.fourth_number == _RELAXES:
             stays = f / (1.0 + lower) + (1.0 - f) / (1.0 + upper)
             return np.asarray(values["between"] * (1.0 / stays - 1.0))
         # A ball has its share of the work; a loss proportional to the compression rate also counts
@@ -194,7 +194,7 @@ class Theory:
         }
         if self.law.fixed_exponent() is None:
             options["exponent"] = float(values["exponent"])
-        if self.law.second_parameter == _RELAXES:
+        if self.law.fourth_number == _RELAXES:
             options[_RELAXES] = float(own.relaxation)
         return self.law(**options)
 
@@ -218,7 +218,7 @@ class Theory:
             return lambda varied: getattr(contacts(varied)[key][i], name)
 
         paths = {"stiffness": "stiffness", "loss": self.law.loss}
-        if self.law.second_parameter == _RELAXES:
+        if self.law.fourth_number == _RELAXES:
             paths["relaxation"] = _RELAXES
         ties: dict[str, Any] = {}
         for key in pairs:

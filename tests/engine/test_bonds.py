@@ -8,7 +8,6 @@ from scipy.integrate import solve_ivp
 
 import stackbounce as sb
 from stackbounce import errors
-from stackbounce.cli import main
 
 
 def followed(masses, contacts, velocities, gravity, until):
@@ -154,15 +153,6 @@ def test_a_plate_under_its_own_weight_is_still():
     assert np.abs(before.velocity.values[0]).max() < 1e-12
 
 
-def test_plain_python_gives_the_same_bits():
-    for masses, laws, velocities, gravity in STACKS.values():
-        start = {"impact_speed": 1.0} if velocities is None else {"velocities": velocities}
-        drop = sb.Drop([sb.Ball(m) for m in masses], laws, gravity=gravity, **start)
-        one, two = (sb.simulate(drop, compiled=compiled) for compiled in (None, False))
-        assert one.rebound_speeds.tolist() == two.rebound_speeds.tolist()
-        assert one.log == two.log
-
-
 @pytest.mark.parametrize("until", [None, 0.1, 1.0])
 def test_sweeps_and_predictions_have_the_same_numbers(until):
     drop = sb.Drop([sb.Ball(0.5), sb.Ball(0.7)], [sb.Spring(300.0), sb.Bond(900.0)], impact_speed=1)
@@ -191,15 +181,3 @@ def test_bonds_in_series_have_one_damping_over_stiffness():
     assert (both.stiffness, both.damping) == pytest.approx((2e4 / 3.0, 4.0 / 3.0))
     with pytest.raises(errors.InvalidValue, match="same damping/stiffness"):
         sb.series(sb.Bond(1e4, 2.0), sb.Bond(2e4, 3.0))
-
-
-def test_the_command_runs_a_body(tmp_path, capfd):
-    laws = [sb.Spring(2e4), sb.Bond(2e4)]
-    drop = sb.Drop([sb.Ball(0.05), sb.Ball(0.05)], laws, impact_speed=1.0)
-    path = tmp_path / "drop.toml"
-    path.write_text(drop.to_toml(), encoding="utf-8")
-    assert sb.Drop.from_toml(path) == drop
-    assert main(["simulate", str(path)]) == 0
-    out = capfd.readouterr().out
-    assert "Bond, stiffness 20000 N/m" in out
-    assert "0.9738" in out

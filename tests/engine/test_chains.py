@@ -94,10 +94,11 @@ def test_cradle_with_gaps_meets_rigid_collisions(law):
 
 
 @finite
-@pytest.mark.parametrize("count", [5, 30, 300])
+@pytest.mark.parametrize("count", [5, 30, 300, 1000])
 def test_momentum_and_energy_are_kept(law, count):
     result = row(law, count)
     assert result.status is sb.Status.FINISHED
+    assert result.collisions.tolist() == [0] + [1] * (count - 1)
     assert math.fsum(result.rebound_speeds) == pytest.approx(1.0, abs=1e-12)
     assert result.energy_retained == pytest.approx(1.0, abs=1e-11)
 
@@ -144,13 +145,6 @@ def test_solitary_wave_is_five_beads_wide():
 
 
 @pytest.mark.slow
-def test_solitary_wave_goes_with_the_fifth_root_of_the_speed():
-    speeds = np.array([1e-3, 1.0, 1e3])
-    pace = [wave(speed)[0] for speed in speeds]
-    assert np.diff(np.log(pace)) / np.diff(np.log(speeds)) == pytest.approx(0.2, abs=1e-5)
-
-
-@pytest.mark.slow
 def test_solitary_wave_against_nesterenko():
     """Within 1 % of the continuum: V = (16/25)^(1/5) (k/m)^(2/5) v_m^(1/5) beads per time.
 
@@ -160,15 +154,6 @@ def test_solitary_wave_against_nesterenko():
     assert pace == pytest.approx((0.64 * height) ** 0.2, rel=0.01)
     compression = peak_forces(row("Hertz", 100))[60] ** (2 / 3)
     assert pace == pytest.approx(math.sqrt(0.8) * compression**0.25, rel=0.015)
-
-
-@finite
-def test_a_thousand_balls(law):
-    result = row(law, 1000)
-    assert result.status is sb.Status.FINISHED
-    assert result.collisions.tolist() == [0] + [1] * 999
-    assert math.fsum(result.rebound_speeds) == pytest.approx(1.0, abs=1e-11)
-    assert result.energy_retained == pytest.approx(1.0, abs=1e-11)
 
 
 def test_spring_row_is_bessel_functions_until_it_breaks():

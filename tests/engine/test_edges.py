@@ -1,7 +1,5 @@
 """Grazing, ties, zero gaps, contacts that open at zero speed, and stacks that never touch."""
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
 
@@ -31,19 +29,6 @@ def test_zero_gaps_are_closed_from_the_start(size):
     for i in range(size):
         assert of_contact(result, i)["start"][0] == 0.0
     assert abs(result.energy_retained - 1) <= 1e-12
-
-
-@pytest.mark.parametrize("size", [2, 3])
-@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0])
-def test_zero_gaps_are_closed_from_the_start_with_power_laws(size, exponent):
-    laws = [sb.Hysteretic(1.0, exponent=exponent, restitution=0.8)] * size
-    result = sb.simulate(sb.Drop([sb.Ball(1.0)] * size, laws, impact_speed=1.0))
-    assert result.intervals["start"] == pytest.approx(0.0, abs=1e-12)
-
-
-def test_ties_are_listed_by_contact():
-    result = sb.simulate(springs([1.0] * 4, [1.0] * 4))
-    assert result.intervals["contact"].tolist() == [0, 1, 2, 3]
 
 
 def test_tiny_gaps_meet_zero_gaps():
@@ -78,8 +63,7 @@ def test_a_contact_opens_as_another_closes(stiffness):
 
 
 @pytest.mark.parametrize(
-    ("masses", "stiffness"),
-    [((1.0, 1.0), 1.0), ((1.0, 0.3), 1.0), ((1.0, 0.1), 0.4)],
+    ("masses", "stiffness"), [((1.0, 1.0), 1.0), ((1.0, 0.3), 1.0), ((1.0, 0.1), 0.4)]
 )
 def test_contacts_that_open_without_speed(masses, stiffness):
     """A drop with a zero gap, played backwards: both contacts open together, at speed 1.
@@ -97,57 +81,6 @@ def test_contacts_that_open_without_speed(masses, stiffness):
     assert result.rebound_speeds == pytest.approx([1.0, 1.0], abs=PRECISION)
     assert result.intervals["end"].max() == pytest.approx(forward.end_time, abs=1e-4)
     assert abs(result.energy_retained - 1) <= 1e-12
-
-
-def verges(family, parameters):
-    """Yield neighbouring parameters between which the number of contact intervals changes."""
-
-    def counts(x):
-        return sb.simulate(family(x)).collisions.tolist()
-
-    for low, high in pairwise(parameters):
-        before = counts(low)
-        if counts(high) != before:
-            while (middle := 0.5 * (low + high)) not in (low, high):
-                low, high = (middle, high) if counts(middle) == before else (low, middle)
-            yield low, high
-
-
-@pytest.mark.fast_cases(1)
-@pytest.mark.parametrize(
-    ("masses", "stiffness"),
-    [
-        ((1.0, 6.0), 0.2),
-        ((1.0, 20.0), 3.0),
-        ((1.0, 2.0), 0.05),
-        ((3.0, 1.0), 8.0),
-    ],
-)
-def test_contacts_on_the_verge_of_opening(masses, stiffness):
-    """Where a contact just opens, or just misses to close, the outcome does not jump."""
-
-    def family(gap):
-        return springs(masses, [1.0, stiffness], [gap])
-
-    pairs = list(verges(family, np.linspace(0.0, 8.0, 60).tolist()))
-    assert pairs
-    for low, high in pairs:
-        one, other = sb.simulate(family(low)), sb.simulate(family(high))
-        assert one.status is other.status is sb.Status.FINISHED
-        assert one.rebound_ratios == pytest.approx(other.rebound_ratios, abs=PRECISION)
-        assert abs(one.energy_retained - 1) <= 1e-12
-        assert abs(other.energy_retained - 1) <= 1e-12
-
-
-def test_single_ball():
-    result = sb.simulate(springs([2.0], [8.0], velocities=[-3.0]))
-    assert result.rebound_speeds == pytest.approx([3.0], abs=1e-14)
-    (interval,) = result.intervals
-    assert interval["start"] == 0.0
-    assert interval["end"] == pytest.approx(np.pi / 2, rel=1e-15)
-    assert interval["peak_compression"] == pytest.approx(1.5, rel=1e-15)
-    assert interval["peak_force"] == pytest.approx(12.0, rel=1e-15)
-    assert interval["impulse"] == pytest.approx(12.0, rel=1e-15)
 
 
 @pytest.mark.parametrize("stack", [springs, rigid])
@@ -168,13 +101,9 @@ def test_stacks_that_never_touch_finish_at_once(stack, floor, velocities, gap):
     assert result.energy_retained == 1.0
 
 
-def test_ball_at_rest_on_the_floor_is_struck():
-    for gap in (0.0, 0.4):
-        assert_reference([1.0, 2.0], [1.0, 3.0], [gap], [0.0, -1.0])
-
-
-def test_lowest_ball_on_its_way_up():
-    assert_reference([1.0, 2.0], [1.0, 3.0], [0.4], [0.5, -1.0])
+@pytest.mark.parametrize(("gap", "lower"), [(0.0, 0.0), (0.4, 0.0), (0.4, 0.5)])
+def test_a_lowest_ball_that_does_not_fall_is_struck(gap, lower):
+    assert_reference([1.0, 2.0], [1.0, 3.0], [gap], [lower, -1.0])
 
 
 def test_cradle_on_springs():
@@ -182,14 +111,6 @@ def test_cradle_on_springs():
     result = assert_reference([1.0] * 4, [None, 1.0, 1.0, 1.0], [0.0] * 3, [1.0, 0.0, 0.0, 0.0])
     assert result.rebound_speeds.sum() == pytest.approx(1.0, abs=1e-14)
     assert abs(result.energy_retained - 1) <= 1e-12
-
-
-@pytest.mark.parametrize("gap", [1e3, 1e6, 1e9])
-def test_huge_gaps(gap):
-    result = sb.simulate(springs([2.0, 1.0], [1.0, 1.0], [gap]))
-    separate = sb.simulate(rigid([2.0, 1.0]))
-    assert result.rebound_ratios == pytest.approx(separate.rebound_ratios, abs=PRECISION)
-    assert result.collisions.tolist() == separate.collisions.tolist()
 
 
 @pytest.mark.parametrize("drop", [rigid([1.0, 1e4]), springs([1.0, 50.0], [1.0, 1.0], [3.0])])

@@ -63,7 +63,7 @@ RANGES = {
         steep,
         wide,
     ],
-    "sine": [
+    "sine_and_cosine": [
         lambda: (uniform(-1.0, 1.0),),
         lambda: (uniform(-1e4, 1e4),),
         lambda: (uniform(-2.6e7, 2.6e7),),
@@ -71,7 +71,7 @@ RANGES = {
         lambda: (quarter_turns(),),
     ],
 }
-EXACT = {"exp": mpmath.exp, "log": mpmath.log, "power": mpmath.power, "sine": mpmath.sin}
+EXACT = {"exp": mpmath.exp, "log": mpmath.log, "power": mpmath.power}
 
 
 def units(value, exact):
@@ -83,7 +83,7 @@ def arguments(name, count):
     return [draw() for draw in RANGES[name] for _ in range(count)]
 
 
-@pytest.mark.parametrize("name", RANGES)
+@pytest.mark.parametrize("name", EXACT)
 def test_errors_are_below_one_unit(name):
     function, exact = getattr(elementary, name), EXACT[name]
     with mpmath.workprec(200):
@@ -94,9 +94,9 @@ def test_errors_are_below_one_unit(name):
 
 def test_sine_with_cosine():
     with mpmath.workprec(200):
-        for (x,) in arguments("sine", CASES):
+        for (x,) in arguments("sine_and_cosine", CASES):
             sin, cos = elementary.sine_and_cosine(x)
-            assert sin == elementary.sine(x)
+            assert units(sin, mpmath.sin(x)) < 0.9
             assert units(cos, mpmath.cos(x)) < 0.9
 
 
@@ -110,7 +110,6 @@ def test_sines_of_large_angles():
     assert elementary.sine_and_cosine(2.0**50) == elementary.sine_and_cosine(1e300) == (0.0, 1.0)
     for x in (INF, -INF, NAN):
         assert all(map(math.isnan, elementary.sine_and_cosine(x)))
-        assert math.isnan(elementary.sine(x))
 
 
 def test_limits_of_exponential_and_logarithm():
@@ -183,9 +182,9 @@ def test_an_exact_product():
             assert mpmath.mpf(a) * mpmath.mpf(b) == mpmath.mpf(product) + mpmath.mpf(rest)
 
 
-@pytest.mark.parametrize("name", [*RANGES, "sine_and_cosine", "hypotenuse", "exponent_of"])
+@pytest.mark.parametrize("name", [*RANGES, "hypotenuse", "exponent_of"])
 def test_compiled_bits(name):
-    like = {"sine_and_cosine": "sine", "hypotenuse": "power", "exponent_of": "log"}.get(name, name)
+    like = {"hypotenuse": "power", "exponent_of": "log"}.get(name, name)
     cases = arguments(like, 10_000 // len(RANGES[like]))
     special = (0.0, -0.0, 1.0, SUBNORMAL, TINY, HUGE, INF, -INF, NAN)
     cases += itertools.product(special, repeat=len(cases[0]))

@@ -1,13 +1,13 @@
 """Hysteretic contacts (section V) against closed forms and the Taylor-series reference."""
 
+import math
+
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 import stackbounce as sb
-from drops import by_contact, drop_of, masses_of
-from reference import hysteretic, make_data
+from drops import by_contact, drop_of
+from reference import make_data
 
 RESTITUTION = 1e-10
 EVENT = 1e-12  # of the contact time
@@ -21,6 +21,12 @@ def one_ball(law, mass=0.101, speed=SPEED):
     return sb.simulate(sb.Drop([sb.Ball(mass)], [law], impact_speed=speed), rtol=TIGHT)
 
 
+def quarter(power):
+    """Return the integral of dx / sqrt(1 - x**(power + 1)) from 0 to 1."""
+    s = 1.0 / (power + 1.0)
+    return math.sqrt(math.pi) * math.exp(math.lgamma(1.0 + s) - math.lgamma(0.5 + s))
+
+
 @pytest.mark.parametrize("e", [0.05, 0.3, 0.78, 0.9, 0.999, 1.0])
 @pytest.mark.parametrize("exponent", [1.0, 1.25, 1.5, 2.0, 3.0])
 def test_one_ball(e, exponent):
@@ -28,12 +34,15 @@ def test_one_ball(e, exponent):
     result = one_ball(law)
     assert abs(result.rebound_ratios[0] - e) <= RESTITUTION
     assert result.collisions.tolist() == [1]
-    expected = hysteretic.one_ball(0.101, hysteretic.Law.of_restitution(5.6e4, exponent, e), SPEED)
+    peak = ((exponent + 1.0) * 0.101 * SPEED**2 / (2.0 * 5.6e4)) ** (1.0 / (exponent + 1.0))
+    unloading = (exponent + 1.0) / e**2 - 1.0
+    lasts = peak / SPEED * (quarter(exponent) + quarter(unloading) / e)
     (interval,) = result.intervals
     assert interval["start"] == 0.0
-    assert abs(interval["end"] - float(expected.end)) <= EVENT * float(expected.end)
-    for name in ("peak_force", "peak_compression", "impulse"):
-        assert interval[name] == pytest.approx(float(getattr(expected, name)), rel=RESTITUTION)
+    assert interval["end"] == pytest.approx(lasts, rel=2.0 * EVENT)
+    assert interval["peak_compression"] == pytest.approx(peak, rel=RESTITUTION)
+    assert interval["peak_force"] == pytest.approx(5.6e4 * peak**exponent, rel=RESTITUTION)
+    assert interval["impulse"] == pytest.approx(0.101 * SPEED * (1.0 + e), rel=RESTITUTION)
 
 
 @pytest.mark.parametrize(("exponent", "unloading"), [(1.0, 2.3), (1.5, 1.5), (2.0, 7.0)])
@@ -42,27 +51,6 @@ def test_one_ball_by_exponents(exponent, unloading):
     e = ((exponent + 1) / (unloading + 1)) ** 0.5
     assert law.restitution == pytest.approx(e, rel=1e-15)
     assert abs(one_ball(law).rebound_ratios[0] - e) <= RESTITUTION
-
-
-def test_section_v_exponent():
-    """e**2 = 2/(n + 1), and e = 0.78, give n = 2.3."""
-    assert sb.Hysteretic(5.6e4, restitution=0.78).unloading_exponent == pytest.approx(2.3, abs=0.05)
-
-
-@pytest.mark.parametrize(
-    ("exponent", "factor"), [(1.0, 3.141592654), (1.5, 2.943275184), (2.0, 2.804364211)]
-)
-def test_contact_time_of_a_power_law(exponent, factor):
-    """T = C c_max / v, C = 2 sqrt(pi) Gamma(1 + s) / Gamma(1/2 + s), s = 1/(n+1)."""
-    result = one_ball(sb.Hysteretic(10.0, exponent=exponent, restitution=1.0), 2.0, 3.0)
-    (interval,) = result.intervals
-    assert interval["end"] * 3.0 / interval["peak_compression"] == pytest.approx(factor, rel=1e-9)
-
-
-def test_contact_time_of_hertz():
-    result = one_ball(sb.Hysteretic(7.0, exponent=1.5, restitution=1.0), 2.0, 3.0)
-    expected = 3.218065 * (2.0**2 / (7.0**2 * 3.0)) ** 0.2
-    assert result.end_time == pytest.approx(expected, rel=2e-7)
 
 
 @pytest.mark.parametrize("row", ROWS, ids=range(len(ROWS)))
@@ -165,25 +153,3 @@ def test_stacks_with_hysteresis_come_to_rest_where_their_curves_carry_them():
         )
         seen += size > 1
     assert seen > 20
-
-
-@given(
-    mass=st.floats(-1, 1.5).map(lambda x: 10**x),
-    stiffness=st.floats(-1, 1).map(lambda x: 10**x),
-    gap=st.floats(0.0, 3.0),
-    e=st.tuples(st.floats(0.3, 1.0), st.floats(0.3, 1.0)),
-    exponent=st.sampled_from([1.0, 1.5]),
-)
-def test_energy_never_rises(mass, stiffness, gap, e, exponent):
-    laws = [
-        sb.Hysteretic(k, exponent=exponent, restitution=x)
-        for k, x in zip((1.0, stiffness), e, strict=True)
-    ]
-    drop = sb.Drop([sb.Ball(1.0), sb.Ball(mass)], laws, gaps=[gap], impact_speed=1.0)
-    result = sb.simulate(drop, rtol=TIGHT)
-    energy = result.sample(np.linspace(0.0, 1.1 * result.end_time, 200)).energy.values
-    start = 0.5 * np.sum(masses_of(drop))
-    assert energy[0] == pytest.approx(start, rel=1e-14)
-    assert np.diff(energy).max() <= 1e-12 * start
-    assert energy[-1] == pytest.approx(result.energy_retained * start, rel=1e-12)
-    assert result.energy_retained <= 1 + 1e-12

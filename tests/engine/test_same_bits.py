@@ -21,7 +21,6 @@ SEED = 11
 BATCHES = [batch for batch in range(50) if balls_of(batch) > 1]  # of 2 to 6 balls
 EVENTS = 100  # at most
 TIMES = 20  # of samples
-DRAWN = {"law_parameter": "extra", "second_parameter": "second"}  # their names in `fuzz.draw`
 EACH = 500  # drops of a batch that the processor levels are given
 
 
@@ -40,6 +39,40 @@ def everything(result):
         sample = result.sample(np.linspace(0.0, result.end_time, TIMES))
         known += [sample[name].values for name in sample.data_vars]
     return list(map(bits, known))
+
+
+TABLE = [0.0, 0.01, 0.03, 0.1], [0.0, 0.5, 2.5, 9.0]
+SCATTERS = sb.RigidLossBySpeed(0.8, 3.0, 0.2, scatter=0.05, seed=3.0)
+SPECIAL = {  # contacts that `fuzz.draw` does not draw, masses, gravity
+    "hollow": ([sb.HollowBall(100.0, 0.05, 0.3, 0.8)] * 2, [1.0, 3.0], 0.0),
+    "tables": (
+        [sb.Tabulated(*TABLE, [0.0, 0.0, 0.7, 9.0]), sb.Tabulated(*TABLE, restitution=0.6)],
+        [1.0, 3.0],
+        0.0,
+    ),
+    "bond": ([sb.Spring(300.0), sb.Bond(2e3, 1.0), sb.Spring(100.0)], [0.5, 0.5, 0.1], 0.0),
+    "plate": ([sb.Bond(4e3, 2.0), sb.Spring(900.0)], [1.0, 2.0], 9.81),
+    "by speed": ([sb.RigidBySpeed(0.7, 1.0), SCATTERS, sb.Rigid(0.9)], [1.0, 0.5, 2.0], 9.81),
+    "scatter": ([SCATTERS] * 3, [1.0, 0.5, 2.0], 0.0),
+    "collapse": ([sb.Rigid(0.5)] * 2, [1.0, 7.999], 0.0),
+    "joined": ([sb.Rigid(e) for e in (1.0, 0.95, 0.1)], [6.0, 0.3, 1.5], 1.0),
+    "cradle": ([None] + [sb.Spring(1.0)] * 5, [1.0] * 6, 0.0),
+}
+
+
+@pytest.mark.parametrize("options", [{}, {"until": 0.7}, {"event_limit": 3}], ids=str)
+@pytest.mark.parametrize("name", SPECIAL)
+def test_plain_python_and_compiled_code_of_special_stacks(name, options):
+    laws, masses, gravity = SPECIAL[name]
+    gaps = [0.0 if isinstance(law, sb.Bond) else 0.01 for law in laws[1:]]
+    velocities = [-1.0] * (len(laws) - 1) + [-2.0]
+    balls = [sb.Ball(mass) for mass in masses]
+    drop = sb.Drop(balls, laws, gaps, velocities=velocities, gravity=gravity)
+    options = {"event_limit": EVENTS} | options
+    plain, compiled = (
+        everything(sb.simulate(drop, **options, compiled=way)) for way in (False, True)
+    )
+    assert plain == compiled
 
 
 @pytest.mark.parametrize(
@@ -84,7 +117,7 @@ def batches():
     found = []
     for batch in BATCHES[: 10_000 // EACH]:
         drawn = drops_of(SEED, batch, EACH)
-        kept = [getattr(drawn, DRAWN.get(name, name)) for name in Drops._fields]
+        kept = [getattr(drawn, name) for name in Drops._fields]
         options = Options(np.inf, 1e-6, EVENTS)
         found.append((RIGID if is_rigid(batch) else FINITE, Drops(*kept), options))
     return found
@@ -97,23 +130,23 @@ def empty(drops):
 
 def outcomes():
     """Return the bits of all outcomes of the drops of `batches`, by the level that is chosen."""
-    told, statuses = [], set()
+    found, statuses = [], set()
     for engine, drops, options in batches():
         out = empty(drops)
         memory(engine, drops.mass.shape[1], compiled=True).run_batch(
             engine.run_batch, drops, options, out
         )
         native.compiled("find_ratios")(Table(drops), Table(out))
-        told.append([bits(array) for array in out])
+        found.append([bits(array) for array in out])
         statuses |= set(out.status.tolist())
     assert sb.Status.FINISHED in statuses
-    return told
+    return found
 
 
 def springs():
     """Return the bits of the outcomes of ten thousand drops of two balls on springs."""
     drawn = drops_of(SEED, 0, 10_000)
-    kept = [getattr(drawn, DRAWN.get(name, name)) for name in Drops._fields]
+    kept = [getattr(drawn, name) for name in Drops._fields]
     drops = Drops(*kept)._replace(velocity=np.repeat(-np.abs(drawn.velocity[:, :1]), 2, axis=1))
     out = empty(drops)
     run = native.compiled("run_two_springs")
@@ -127,8 +160,8 @@ def test_processor_levels(at_level):
     known, library = levels()
     if len(known) < 2:
         pytest.skip("the library of this machine has one level")
-    told = []
+    by_level = []
     for level in known:
         at_level(library, level)
-        told.append((outcomes(), springs()))
-    assert all(one == told[0] for one in told)
+        by_level.append((outcomes(), springs()))
+    assert all(found == by_level[0] for found in by_level)

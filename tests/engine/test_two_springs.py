@@ -22,11 +22,11 @@ def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
     n, table = len(gap), (len(gap), 2)
     drops = Drops(
         mass=np.array(mass, order="C"),
-        kind=np.full(table, codes.POWER),
-        stiffness=np.array(stiffness, order="C"),
-        exponent=np.ones(table),
-        law_parameter=np.zeros(table),
-        second_parameter=np.zeros(table),
+        form=np.full(table, codes.POWER),
+        first=np.array(stiffness, order="C"),
+        second=np.ones(table),
+        third=np.zeros(table),
+        fourth=np.zeros(table),
         gap=np.column_stack([np.zeros(n), gap]),
         velocity=-np.column_stack([speed, speed]),
         gravity=np.zeros(n),
@@ -222,13 +222,6 @@ def test_neither_order_nor_company_changes_a_bit():
     for start, size in ((0, 1), (17, 2), (100, 31), (200, 33), (300, 64), (0, 0)):
         rows = slice(start, start + size)
         same(whole, solve(*(values[rows] for values in drops)), rows)
-
-
-def test_zero_gap_begins_at_once():
-    out = solve(np.ones((1, 2)), np.ones((1, 2)), np.zeros(1), np.ones(1))
-    assert out["velocity"][0].round(4).tolist() == [0.7664, 1.1886]
-    assert out["collisions"].tolist() == [[1, 1]]
-    assert out["first_touch"].tolist() == [[0.0, 0.0]]
 
 
 @pytest.mark.parametrize(

@@ -50,8 +50,7 @@ def job(kind, drops, rigid, options, times=()):
 
 def numbers_of(drops, rows):
     """Return some random drops as the engine takes them."""
-    names = "mass kind stiffness exponent extra second gap velocity gravity".split()
-    return Drops._make(np.ascontiguousarray(getattr(drops, name)[rows]) for name in names)
+    return Drops._make(np.ascontiguousarray(getattr(drops, name)[rows]) for name in Drops._fields)
 
 
 def simulated(drop, rigid, options, times=()):

@@ -39,8 +39,8 @@ def _ignore_interrupts() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def run(todo: list[_Task], workers: int) -> tuple[Tally, bool]:
-    """Run batches; return what came of them, and whether all were run."""
+def run(todo: list[_Task], workers: int) -> Tally:
+    """Run batches, or those before an interrupt; return what came of them."""
     total, begun = Tally(), time.monotonic()
     with multiprocessing.Pool(workers, _ignore_interrupts) as pool:
         try:
@@ -52,10 +52,9 @@ def run(todo: list[_Task], workers: int) -> tuple[Tally, bool]:
                 sys.stderr.flush()
         except KeyboardInterrupt:
             pool.terminate()
-            return total, False
         finally:
             sys.stderr.write("\n")
-    return total, True
+    return total
 
 
 def main() -> int:
@@ -69,7 +68,7 @@ def main() -> int:
     asked = parser.parse_args()
     begun = time.monotonic()
     todo = tasks(asked.seed, -(-asked.drops // BATCH), asked.plain, asked.other)
-    total, complete = run(todo, asked.workers)
+    total = run(todo, asked.workers)
     passed = time.monotonic() - begun
     VIOLATIONS.parent.mkdir(parents=True, exist_ok=True)
     VIOLATIONS.write_text("\n".join(text for _, text in total.violations), encoding="utf-8")
@@ -79,11 +78,10 @@ def main() -> int:
         sys.stdout.write(f"{text}\n")
     if len(total.violations) > _SHOWN:
         sys.stdout.write(f"All {len(total.violations)}: {VIOLATIONS}\n")
-    if not complete:
+    if total.drops < BATCH * len(todo):
         sys.stdout.write(f"Stopped before the end, after {total.drops} drops.\n")
-    if total.violations:
-        return 1
-    return 0 if complete else 130
+        return 1 if total.violations else 130
+    return int(bool(total.violations))
 
 
 if __name__ == "__main__":

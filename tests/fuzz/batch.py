@@ -10,13 +10,7 @@ from kernel_build.jit import compile_kernel
 from fuzz import drive
 from fuzz.draw import BATCH, Drops, balls_of, drops_of, is_rigid
 from stackbounce.engine.codes import LOG_COLUMNS
-from stackbounce.engine.stack import (
-    as_arrays,
-    in_one_room,
-    new_rigid_stack,
-    new_samples,
-    new_stack,
-)
+from stackbounce.engine.stack import as_arrays, in_one_room, new_rigid_stack, new_samples, new_stack
 from stackbounce.engine.tables import Table
 
 _LOG_ROWS = 256

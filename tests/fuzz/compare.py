@@ -99,31 +99,10 @@ def _integrated(drop: sb.Drop, options: Mapping[str, float], ball: int = -1) -> 
         velocities[ball] += _SHIFT * drop.reference_speed
     return integrate(
         [ball.mass for ball in drop.balls],
-        [None if law is None else _fields(law) for law in drop.contacts],
+        [law and law.to_mapping() for law in drop.contacts],
         drop.gaps,
         velocities,
         drop.gravity,
         options.get("until", np.inf),
         _STEPS,
     )
-
-
-def _fields(law: sb.model.ContactLaw) -> dict[str, Any]:
-    """Return a law as the references take it."""
-    fields = {"law": type(law).__name__, "stiffness": law.stiffness}
-    match law:
-        case sb.PowerLaw():
-            return fields | {"exponent": law.exponent}
-        case sb.Dashpot():
-            return fields | {"damping": law.damping}
-        case sb.Viscoelastic():
-            return fields | {"dissipative_time": law.dissipative_time}
-        case sb.HuntCrossley():
-            return fields | {"exponent": law.exponent, "dissipation": law.dissipation}
-        case sb.Hysteretic():
-            return fields | {
-                "exponent": law.exponent,
-                "unloading_exponent": law.unloading_exponent,
-            }
-        case _:
-            return fields

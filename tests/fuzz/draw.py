@@ -48,12 +48,12 @@ class Drops(NamedTuple):
 
     mass: np.ndarray
     law: np.ndarray  # by the numbers of `drive`
-    kind: np.ndarray  # the form of its force, by `engine.codes`
-    stiffness: np.ndarray
-    exponent: np.ndarray
-    extra: np.ndarray  # damping, dissipative time, dissipation, unloading exponent, restitution,
+    form: np.ndarray  # of its force, by `engine.codes`, with its four numbers
+    first: np.ndarray  # stiffness
+    second: np.ndarray  # exponent
+    third: np.ndarray  # damping, dissipative time, dissipation, unloading exponent, restitution,
     # relaxation strength
-    second: np.ndarray  # relaxation time
+    fourth: np.ndarray  # relaxation time
     gap: np.ndarray  # below each ball; the lowest one's is 0
     velocity: np.ndarray
     gravity: np.ndarray
@@ -105,15 +105,15 @@ def drops_of(seed: int, batch: int, count: int = BATCH) -> Drops:
     relaxing = (random.random(shape) < RELAXED) & (law != NONE) & (not rigid)
     law, exponent = np.where(relaxing, RELAXING, law), np.where(relaxing, 1.0, exponent)
     extra = np.where(relaxing, _decades(random, shape, -3.0, 2.0), extra)
-    second = np.where(relaxing, length / speed * _decades(random, shape, -2.5, 2.5), 0.0)
+    relaxation_time = np.where(relaxing, length / speed * _decades(random, shape, -2.5, 2.5), 0.0)
     drops = Drops(
         mass=mass,
         law=law,
-        kind=np.array(KINDS)[law],
-        stiffness=linear * length ** (1.0 - exponent),
-        exponent=exponent,
-        extra=extra,
-        second=second,
+        form=np.array(KINDS)[law],
+        first=linear * length ** (1.0 - exponent),
+        second=exponent,
+        third=extra,
+        fourth=relaxation_time,
         gap=gap,
         velocity=velocity,
         gravity=gravity,

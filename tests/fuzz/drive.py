@@ -4,7 +4,7 @@ import math
 from typing import Any
 
 from stackbounce.engine import codes
-from stackbounce.engine.batch import clear_arrays
+from stackbounce.engine.batch import clear_arrays, end_of_run
 from stackbounce.engine.codes import EPSILON, FINISHED, LOG_COLUMNS, RUNNING, TIME_REACHED
 from stackbounce.engine.flight import compression_after
 from stackbounce.engine.forces import held_energy
@@ -51,32 +51,13 @@ _SHAKE = 64.0 * EPSILON  # of the largest momentum, per event
 
 
 @kernel
-def load(stack: Any, drops: Any, row: int) -> float:
-    """Put one drop into a stack's cleared arrays, as `simulate` does; return its unit of time."""
-    unit: float = prepare(
-        stack,
-        drops.mass[row],
-        drops.kind[row],
-        drops.stiffness[row],
-        drops.exponent[row],
-        drops.extra[row],
-        drops.second[row],
-        drops.gap[row],
-        drops.velocity[row],
-        drops.gravity[row],
-        drops.rtol[row],
-    )
-    return unit
-
-
-@kernel
 def run(
     stack: Any, room: Any, drops: Any, row: int, samples: Any, log: Any, turns: Any, out: Any
 ) -> None:
     """Run one drop of finite contacts and write into ``out`` what is found."""
     size = len(stack.mass)
     clear_arrays(room[0], room[1])
-    unit = load(stack, drops, row)
+    unit = prepare(stack, drops, row, drops.rtol[row])
     begin_contacts(stack)
     first, reference = energy_at(stack, 0.0)
     status, fault = RUNNING, 0
@@ -87,20 +68,11 @@ def run(
         )
         fault |= read(log, stack.counter[LOG_ROWS], turns, out)
     if status == codes.INVALID and comes_too_late(stack):
-        out[STATUS], out[EVENT_COUNT], out[END] = (
-            status,
-            stack.counter[EVENTS],
-            stack.clock[LAST_CHECK] * unit,
-        )
+        out[STATUS], out[EVENT_COUNT] = status, stack.counter[EVENTS]
+        out[END] = stack.clock[LAST_CHECK] * unit
         out[FAULT] = fault
         return
-    end = drops.until[row] / unit
-    if status != TIME_REACHED:
-        end = (
-            stack.clock[LAST_EVENT]
-            if status == FINISHED
-            else max(stack.clock[LAST_EVENT], stack.clock[LAST_CHECK])
-        )
+    end = end_of_run(stack.clock, status, drops.until[row] / unit)
     last, terms = energy_at(stack, end)
     allowed = _ROUND * (1.0 + 0.1 * stack.counter[EVENTS])
     if stack.setting[NONLINEAR] == 1:
@@ -138,7 +110,7 @@ def in_parts(
 ) -> int:
     """Run a drop again, stopping in between: no rise of energy, the same end."""
     fault, status = 0, TIME_REACHED
-    unit = load(stack, drops, row)
+    unit = prepare(stack, drops, row, drops.rtol[row])
     begin_contacts(stack)
     before, _ = energy_at(stack, 0.0)
     stops = drops.stops.shape[1]
@@ -245,19 +217,7 @@ def run_rigid(
 ) -> None:
     """Run one drop of rigid balls and write into ``out`` what is found."""
     clear_arrays(room[0], room[1])
-    prepare_rigid(
-        stack,
-        drops.mass[row],
-        drops.kind[row],
-        drops.stiffness[row],
-        drops.exponent[row],
-        drops.extra[row],
-        drops.second[row],
-        drops.gap[row],
-        drops.velocity[row],
-        drops.gravity[row],
-        drops.rtol[row],
-    )
+    prepare_rigid(stack, drops, row)
     begin_collisions(stack)
     first, reference = rigid_energy(stack, drops, row, 0.0)
     fault, status = 0, RUNNING
@@ -265,13 +225,7 @@ def run_rigid(
         stack.counter[LOG_ROWS] = 0
         status = collide_all(stack, drops.until[row], drops.limit[row], log, samples)
         fault |= read(log, stack.counter[LOG_ROWS], turns, out)
-    end = drops.until[row]
-    if status != TIME_REACHED:
-        end = (
-            stack.clock[LAST_EVENT]
-            if status == FINISHED
-            else max(stack.clock[LAST_EVENT], stack.clock[LAST_CHECK])
-        )
+    end = end_of_run(stack.clock, status, drops.until[row])
     last, terms = rigid_energy(stack, drops, row, end)
     for b in range(len(stack.mass)):
         out[COLUMNS + b] = rigid_velocity(stack, b, end)

@@ -99,8 +99,10 @@ def measured(sources: dict[str, bytes], seed: int, index: int, folder: Path) -> 
 def _places(error: BaseException | None) -> str:
     """Return where in the package an error came from, the innermost place last."""
     frames = traceback.extract_tb(None if error is None else error.__traceback__)
-    own = [one for one in frames if "stackbounce" in one.filename]
-    return ", ".join(f"{Path(one.filename).name}:{one.lineno} {one.name}" for one in own[-4:])
+    own = [frame for frame in frames if "stackbounce" in frame.filename]
+    return ", ".join(
+        f"{Path(frame.filename).name}:{frame.lineno} {frame.name}" for frame in own[-4:]
+    )
 
 
 def _end(*_: object) -> None:
@@ -145,7 +147,7 @@ def run(sources: dict[str, bytes], seed: int, count: int) -> list[Case]:
                 case = Case(len(cases), name, options, "its process hung or died", "", 30.0, 0.0, 1)
             cases.append(case)
             if sys.stderr.isatty():
-                wrong = sum(bool(one.wrong) for one in cases)
+                wrong = sum(bool(done.wrong) for done in cases)
                 sys.stderr.write(f"\r{len(cases)} files, {wrong} wrong ")
             if case.mebibytes > MEBIBYTES or not case.mebibytes:
                 break

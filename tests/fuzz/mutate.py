@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -79,7 +80,7 @@ def _short_cases() -> dict[str, bytes]:
 
 def _lines(head: str, *columns: np.ndarray) -> bytes:
     rows = zip(*columns, strict=True)
-    return "\n".join([head, *(",".join(f"{one:.6g}" for one in row) for row in rows)]).encode()
+    return "\n".join([head, *(",".join(f"{cell:.6g}" for cell in row) for row in rows)]).encode()
 
 
 def mutated(content: bytes, random: Random) -> bytes:
@@ -95,9 +96,22 @@ def mutated(content: bytes, random: Random) -> bytes:
     return content
 
 
+# --- bytes or lines of text
+
+
 def _span(count: int, random: Random) -> slice:
     first, last = sorted(random.integers(0, count + 1, 2).tolist())
     return slice(first, last)
+
+
+def _cut(parts: Any, random: Random) -> Any:
+    span = _span(len(parts), random)
+    return parts[: span.start] + parts[span.stop :]
+
+
+def _double(parts: Any, random: Random) -> Any:
+    span = _span(len(parts), random)
+    return parts[: span.stop] + parts[span]
 
 
 # --- bytes
@@ -110,18 +124,8 @@ def _flip(content: bytes, random: Random) -> bytes:
     return bytes(changed)
 
 
-def _cut(content: bytes, random: Random) -> bytes:
-    span = _span(len(content), random)
-    return content[: span.start] + content[span.stop :]
-
-
 def _end(content: bytes, random: Random) -> bytes:
     return content[: int(random.integers(len(content)))]
-
-
-def _double(content: bytes, random: Random) -> bytes:
-    span = _span(len(content), random)
-    return content[: span.stop] + content[span]
 
 
 def _encoded(content: bytes, random: Random) -> bytes:
@@ -147,16 +151,6 @@ BYTES: tuple[Callable[[bytes, Random], bytes], ...] = (_flip, _cut, _end, _doubl
 def _few(lines: list[str], random: Random) -> list[str]:
     first = int(random.integers(0, 4))
     return lines[: first + int(random.integers(0, 12))]
-
-
-def _without(lines: list[str], random: Random) -> list[str]:
-    span = _span(len(lines), random)
-    return lines[: span.start] + lines[span.stop :]
-
-
-def _again(lines: list[str], random: Random) -> list[str]:
-    span = _span(len(lines), random)
-    return lines[: span.stop] + lines[span]
 
 
 def _order(lines: list[str], random: Random) -> list[str]:
@@ -213,7 +207,7 @@ def _marks(lines: list[str], random: Random) -> list[str]:
     mark = _mark(lines)
     other = ",;\t "[int(random.integers(4))]
     comma = random.random() < 0.5
-    return [(one.replace(".", ",") if comma else one).replace(mark, other) for one in lines]
+    return [(line.replace(".", ",") if comma else line).replace(mark, other) for line in lines]
 
 
 def _long(lines: list[str], random: Random) -> list[str]:
@@ -238,6 +232,6 @@ def _mark(lines: list[str]) -> str:
 
 
 TEXT: tuple[Callable[[list[str], Random], list[str]], ...] = (
-    _few, _without, _again, _order, _header, _cells, _column, _column, _column, _no_column, _marks,
+    _few, _cut, _double, _order, _header, _cells, _column, _column, _column, _no_column, _marks,
     _long, _constant,
 )  # fmt: skip

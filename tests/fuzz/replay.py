@@ -5,25 +5,11 @@ import numpy as np
 import stackbounce as sb
 from fuzz.draw import Drops
 
-NAMES = (
-    "None",
-    "Spring",
-    "Hertz",
-    "PowerLaw",
-    "Dashpot",
-    "Viscoelastic",
-    "HuntCrossley",
-    "Hysteretic",
-    "Hysteretic lossy",
-    "Rigid",
-    "StandardLinearSolid",
-)
-
 
 def law_of(drops: Drops, row: int, i: int) -> sb.model.ContactLaw | None:
     """Return the law of a contact."""
-    k, p = float(drops.stiffness[row, i]), float(drops.exponent[row, i])
-    extra = float(drops.extra[row, i])
+    k, p = float(drops.first[row, i]), float(drops.second[row, i])
+    extra = float(drops.third[row, i])
     match int(drops.law[row, i]):
         case 0:
             return None
@@ -42,7 +28,7 @@ def law_of(drops: Drops, row: int, i: int) -> sb.model.ContactLaw | None:
         case 7:
             return sb.Hysteretic(k, exponent=p, unloading_exponent=extra)
         case 9:
-            return sb.StandardLinearSolid(k, extra, float(drops.second[row, i]))
+            return sb.StandardLinearSolid(k, extra, float(drops.fourth[row, i]))
         case _:
             return sb.Rigid(extra)
 

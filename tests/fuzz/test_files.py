@@ -32,7 +32,7 @@ def test_every_change_makes_lines_of_lines(sources):
     for change in TEXT:
         for seed in range(20):
             changed = change(list(lines), np.random.default_rng(seed))
-            assert all(isinstance(one, str) for one in changed)
+            assert all(isinstance(line, str) for line in changed)
     assert mutated(b"", np.random.default_rng(1)) == b""
 
 

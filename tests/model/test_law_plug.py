@@ -10,9 +10,7 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
-from hardening import Hardening
-from stackbounce.cli import descriptions, main
-from stackbounce.engine import codes, forces
+from stackbounce.cli import main
 from stackbounce.explorer.answers.catalogue import list_choices
 from stackbounce.explorer.limits import LIMITS
 from stackbounce.measure.kinds.waveform.analysis import waveform
@@ -170,19 +168,11 @@ def test_a_new_law_with_a_known_form_of_force_is_one_class(added, tmp_path, capf
     assert models["SharpCone"].drop.contacts[1].stiffness == pytest.approx(law.stiffness)
 
 
-def test_a_new_law_with_a_form_of_its_own_is_one_class(added, tmp_path, capfd):
-    law, result = goes_through_every_face(added(Hardening), tmp_path, capfd)
-    fits_its_stiffness(law, result)
-    is_told_by_a_force_record(law, result)
-    words = f"Hardening, stiffness {law.stiffness:.6g} N/m, length 0.002 m"
-    assert descriptions.law_text(law) == words
-
-
 def test_a_law_without_closed_forms_is_measured_by_a_run():
     @dataclasses.dataclass(frozen=True)
     class Plain(ContactLaw):
         form: ClassVar[str] = sb.Dashpot.form
-        law_parameter: ClassVar[str] = "damping"
+        third_number: ClassVar[str] = "damping"
         loss: ClassVar[str] = "damping"
         loss_depends_on: ClassVar[tuple[str, ...]] = ("mass",)
         exponent: ClassVar[float] = 1.0
@@ -205,26 +195,11 @@ def test_an_incomplete_law_is_refused():
     assert "Silent" not in LAWS
 
 
-def test_a_form_with_a_squared_and_a_rate_term_is_refused(monkeypatch):
-    """A HARDENING whose force also depends on the rate; `kernel_build` checks all forms so."""
-    usual = forces.take_law
-
-    def take(stack, i, kind, *numbers):
-        usual(stack, i, codes.HARDENING if kind == 99 else kind, *numbers)
-        if kind == 99:
-            stack.gain_rate[i] = 0.1
-
-    forces.check_form(99)
-    monkeypatch.setattr(forces, "take_law", take)
-    with pytest.raises(ValueError, match=re.escape("a gain has a term in c^2 or one in c'")):
-        forces.check_form(99)
-
-
 def test_a_law_of_an_unknown_form_is_refused():
-    class Clay(Hardening):
-        form = "HARDENED"
+    class Clay(SharpCone):
+        form = "POWERS"
 
-    words = "Clay has the form of force HARDENED; did you mean HARDENING?"
+    words = "Clay has the form of force POWERS; did you mean POWER?"
     with pytest.raises(TypeError, match=re.escape(words)):
         register(Clay)
     assert "Clay" not in LAWS

@@ -7,7 +7,7 @@ intervals as [contact, start, end, peak force, peak compression, impulse].
 """
 
 import json
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from itertools import product
 from math import sqrt
 from pathlib import Path
@@ -16,8 +16,8 @@ from typing import Any
 
 from mpmath import mp, mpf
 
-from reference import hysteretic, springs
-from reference.common import Outcome
+from reference import precise, springs
+from reference.common import Interval, Outcome
 
 DATA = Path(__file__).parents[1] / "data"
 WORST = 1e3  # amplification of a relative change of the inputs
@@ -122,49 +122,42 @@ def condition(case: Case, outcome: Outcome) -> float:
 
 def solve_hysteretic(case: Case) -> Outcome:
     """Solve a case of hysteretic contacts and springs."""
-    laws = [law(**contact) for contact in case["contacts"]]
-    return hysteretic.run(case["masses"], laws, case["gaps"], case["velocities"])
+    return precise.run(**with_names(case))
 
 
-def law(
-    stiffness: float,
-    exponent: float = 1.0,
-    restitution: float | None = None,
-    unloading_exponent: float | None = None,
-) -> hysteretic.Law:
-    """Return the law that a case describes."""
-    if restitution is not None:
-        return hysteretic.Law.of_restitution(stiffness, exponent, restitution)
-    return hysteretic.Law(stiffness, exponent, unloading_exponent)
-
-
-def row(case: Case, solve: Callable[[Case], Outcome]) -> str:
-    """Return the case and its solution as one line of JSON."""
-    outcome = solve(case)
-    intervals = [
-        [i.start, i.end, i.peak_force, i.peak_compression, i.impulse] for i in outcome.intervals
+def with_names(case: Case) -> Case:
+    """Return a case whose contacts have the names of their laws."""
+    contacts = [
+        c and {"law": "Hysteretic" if len(c) > 1 else "Spring", **c} for c in case["contacts"]
     ]
-    listed = [
-        f"[{i.contact}, {numbers(values)[1:]}"
-        for i, values in zip(outcome.intervals, intervals, strict=True)
-    ]
-    retained, end = outcome.energy_retained, outcome.end_time
+    return {**case, "contacts": contacts}
+
+
+def row(case: Case, outcome: Outcome, shown: int = 20) -> str:
+    """Return the case and its solution, to so many digits, as one line of JSON."""
+
+    def digits(number: mpf | None) -> str:
+        with mp.workdps(50):
+            return "null" if number is None else mp.nstr(mpf(number), shown, strip_zeros=True)
+
+    rows = ", ".join(
+        f"[{i.contact}, {', '.join(map(digits, _values(i)))}]" for i in outcome.intervals
+    )
     return (
-        f'{{"case": {json.dumps(case)}, "rebound_speeds": {numbers(outcome.velocities)}, '
-        f'"energy_retained": {digits(retained)}, "end_time": {digits(end)}, '
-        f'"intervals": [{", ".join(listed)}]}}'
+        f'{{"case": {json.dumps(case)}, '
+        f'"rebound_speeds": [{", ".join(map(digits, outcome.velocities))}], '
+        f'"energy_retained": {digits(outcome.energy_retained)}, '
+        f'"end_time": {digits(outcome.end_time)}, "intervals": [{rows}]}}'
     )
 
 
-def digits(number: mpf) -> str:
-    """Return twenty digits."""
-    with mp.workdps(50):
-        return mp.nstr(mpf(number), 20, strip_zeros=True)
+def _values(i: Interval) -> list[mpf | None]:
+    return [i.start, i.end, i.peak_force, i.peak_compression, i.impulse]
 
 
-def numbers(values: Iterable[mpf]) -> str:
-    """Return a list of numbers, twenty digits each."""
-    return f"[{', '.join(digits(x) for x in values)}]"
+def write(name: str, rows: Iterable[str]) -> None:
+    """Write the rows of a data file."""
+    (DATA / f"{name}.json").write_text("[\n" + ",\n".join(rows) + "\n]\n")
 
 
 def read(name: str) -> list[Case]:
@@ -174,12 +167,8 @@ def read(name: str) -> list[Case]:
 
 def main() -> None:
     """Write the files."""
-    for name, cases, solve in (
-        ("springs", spring_cases(), solve_springs),
-        ("hysteretic", hysteretic_cases(), solve_hysteretic),
-    ):
-        rows = ",\n".join(row(case, solve) for case in cases)
-        (DATA / f"{name}.json").write_text(f"[\n{rows}\n]\n")
+    write("springs", (row(case, solve_springs(case)) for case in spring_cases()))
+    write("hysteretic", (row(case, solve_hysteretic(case)) for case in hysteretic_cases()))
 
 
 if __name__ == "__main__":

@@ -13,8 +13,8 @@ from random import Random
 
 import numpy as np
 
-from reference.make_data import DATA, Case
-from reference.make_laws import NAMES, STEPS, confirmed, row, solve, solve_quickly, stack
+from reference.make_data import Case, write
+from reference.make_laws import NAMES, STEPS, confirmed_rows, solve_quickly, stack
 
 PAIRS = 14  # of stacks, on either side of a width
 WIDTHS = np.geomspace(0.3, 3.0, 13)  # of the gap, in units of the first one
@@ -61,12 +61,5 @@ def pairs() -> Iterator[Case]:
             yield widened(case, width * (1.0 + away))
 
 
-def main() -> None:
-    """Write the file."""
-    solved = ((case, solve(case)) for case in islice(pairs(), 2 * PAIRS))
-    rows = [row(case, outcome) for case, outcome in solved if confirmed(case, outcome)]
-    (DATA / "gentle.json").write_text("[\n" + ",\n".join(rows) + "\n]\n")
-
-
 if __name__ == "__main__":
-    main()
+    write("gentle", confirmed_rows(islice(pairs(), 2 * PAIRS)))

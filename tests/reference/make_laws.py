@@ -8,31 +8,22 @@ Random cases are left out where `integrate` calls a count doubtful or moves the 
 times more than the inputs; any case, where it does not confirm the solution (`confirmed`).
 """
 
-import json
 from collections.abc import Callable, Iterable, Iterator
 from itertools import chain, islice
 from math import sqrt
 from random import Random
 
 import numpy as np
-from mpmath import mp, mpf
 
 from reference import precise
-from reference.common import Interval, Outcome
+from reference.common import Outcome
 from reference.integrate import Solution, integrate
-from reference.make_data import DATA, Case, fall, log_uniform
+from reference.make_data import Case, fall, log_uniform, row, write
 
 WORST = 1e4  # amplification of a relative change of the inputs
+DIGITS = 28  # that are written
 STEPS = 4000  # of `integrate`: a longer story takes `precise` too long
-NAMES = (
-    "Spring",
-    "Hertz",
-    "PowerLaw",
-    "Dashpot",
-    "Viscoelastic",
-    "HuntCrossley",
-    "Hysteretic",
-)
+NAMES = ("Spring", "Hertz", "PowerLaw", "Dashpot", "Viscoelastic", "HuntCrossley", "Hysteretic")
 
 
 def law(random: Random, name: str, stiffness: float, mass: float) -> Case:
@@ -231,43 +222,18 @@ def confirmed(case: Case, outcome: Outcome) -> bool:
     )
 
 
-def row(case: Case, outcome: Outcome) -> str:
-    """Return the case and its solution as one line of JSON."""
-    rows = ", ".join(
-        f"[{i.contact}, {', '.join(map(digits, _values(i)))}]" for i in outcome.intervals
-    )
-    return (
-        f'{{"case": {json.dumps(case)}, '
-        f'"rebound_speeds": [{", ".join(map(digits, outcome.velocities))}], '
-        f'"energy_retained": {digits(outcome.energy_retained)}, '
-        f'"end_time": {digits(outcome.end_time)}, "intervals": [{rows}]}}'
-    )
-
-
-def _values(i: Interval) -> list[mpf | None]:
-    return [i.start, i.end, i.peak_force, i.peak_compression, i.impulse]
-
-
-def digits(number: mpf | None) -> str:
-    """Return 28 digits, or null for an end that has not come."""
-    with mp.workdps(50):
-        return "null" if number is None else mp.nstr(mpf(number), 28, strip_zeros=True)
-
-
 def cases() -> Iterator[Case]:
     """Yield all cases."""
     return chain(one_ball(), resumed(), gravity(), extremes(), random_stacks(), nested())
 
 
-def main() -> None:
-    """Write the file."""
-    rows = []
-    for case in cases():
+def confirmed_rows(cases: Iterable[Case]) -> Iterator[str]:
+    """Yield the rows of the cases whose solutions are confirmed, with 28 digits."""
+    for case in cases:
         outcome = solve(case)
         if confirmed(case, outcome):
-            rows.append(row(case, outcome))
-    (DATA / "laws.json").write_text("[\n" + ",\n".join(rows) + "\n]\n")
+            yield row(case, outcome, DIGITS)
 
 
 if __name__ == "__main__":
-    main()
+    write("laws", confirmed_rows(cases()))

@@ -110,13 +110,13 @@ def integrate(masses, contacts, gaps, velocities):
 
     def slope(_, y):
         c = compressions(y)
-        f = np.array([one.force(x) if one.closed else 0.0
-                      for one, x in zip(contacts, c, strict=True)])  # fmt: skip
+        f = np.array([contact.force(x) if contact.closed else 0.0
+                      for contact, x in zip(contacts, c, strict=True)])  # fmt: skip
         return np.concatenate([y[count:], (f - np.append(f[1:], 0.0)) / masses])
 
-    for one, c, rate in zip(contacts, compressions(state), rates(state), strict=True):
-        one.closed, one.pressed = c == 0.0 and rate >= 0.0, rate > 0.0
-    started = [0.0 if one.closed else None for one in contacts]
+    for contact, c, rate in zip(contacts, compressions(state), rates(state), strict=True):
+        contact.closed, contact.pressed = c == 0.0 and rate >= 0.0, rate > 0.0
+    started = [0.0 if contact.closed else None for contact in contacts]
     for _ in range(2000):
         clear = solve_ivp(slope, (time, time + CLEAR), state, "DOP853", rtol=TOLERANCE, atol=1e-18)
         time, state = clear.t[-1], clear.y[:, -1]
@@ -130,22 +130,22 @@ def integrate(masses, contacts, gaps, velocities):
             events.append(function)
             what.append((kind, i))
 
-        for i, one in enumerate(contacts):
-            if not one.closed:
+        for i, contact in enumerate(contacts):
+            if not contact.closed:
                 watch("touch", i, 0.0, 1)
                 continue
-            if not one.pressed:  # touching since the start, perhaps without a force
+            if not contact.pressed:  # touching since the start, perhaps without a force
                 watch("pressed", i, PRESSED, 1)
                 continue
             watch("release", i, 0.0, -1)
-            for place in one.places():
+            for place in contact.places():
                 if place > 0.0:
                     watch("knot", i, place, 0)
-            for kind, level, direction in one.turns():
+            for kind, level, direction in contact.turns():
                 watch(kind, i, level, direction)
-        step = 2e-2 if any(one.closed for one in contacts) else np.inf
+        step = 2e-2 if any(contact.closed for contact in contacts) else np.inf
         end, there = time + HORIZON, None
-        for _ in range(9):  # until no level is passed twice inside one step
+        for _ in range(9):  # until no level is passed twice inside contact step
             run = solve_ivp(slope, (time, end), state, "DOP853", rtol=TOLERANCE, atol=1e-16,
                             events=events, max_step=step)  # fmt: skip
             fired = [k for k, hits in enumerate(run.t_events) if len(hits)]
@@ -153,23 +153,23 @@ def integrate(masses, contacts, gaps, velocities):
                 raise ArithmeticError("no event for a long time")
             k = min(fired, key=lambda k: run.t_events[k][0])
             end, there = run.t_events[k][0], run.y_events[k][0].copy()
-            if all(one.direction * one(end, there) <= ROUND_OFF for one in events):
+            if all(event.direction * event(end, there) <= ROUND_OFF for event in events):
                 break
         else:
             raise ArithmeticError("an event was missed")
         (kind, i), time, state = what[k], end, there
-        one = contacts[i]
+        contact = contacts[i]
         if kind == "touch":
-            one.closed = one.pressed = True
+            contact.closed = contact.pressed = True
             started[i] = time
         elif kind == "release":
             intervals[i].append((started[i], time))
-            one.open()
+            contact.open()
         elif kind == "pressed":
-            one.pressed = True
+            contact.pressed = True
         elif kind != "knot":
-            one.turn(kind, compressions(state)[i])
-        apart = all(not one.closed for one in contacts) and np.all(rates(state) <= 0.0)
+            contact.turn(kind, compressions(state)[i])
+        apart = all(not contact.closed for contact in contacts) and np.all(rates(state) <= 0.0)
         if apart:
             return state[count:], intervals
     raise ArithmeticError("too many events")

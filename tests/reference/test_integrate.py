@@ -12,11 +12,7 @@ pytestmark = pytest.mark.slow  # numba compiles the integrator first, for a minu
 def solved(name):
     """Yield the rows of a data file, and what `integrate` makes of each."""
     for row in make_data.read(name):
-        case = dict(row["case"])
-        case["contacts"] = [
-            c and {"law": "Hysteretic" if len(c) > 1 else "Spring", **c} for c in case["contacts"]
-        ]
-        yield row, integrate(**case)
+        yield row, integrate(**make_data.with_names(row["case"]))
 
 
 @pytest.mark.parametrize("name", ["laws", "hysteretic", "springs"])

@@ -83,9 +83,7 @@ SLOW = pytest.param("hysteretic", marks=pytest.mark.slow)
 def test_other_references(name):
     rows = make_data.read(name)
     for row in rows[:: len(rows) // 10]:
-        case = row["case"]
-        laws = [{"law": "Hysteretic" if len(c) > 1 else "Spring", **c} for c in case["contacts"]]
-        outcome = precise.run(case["masses"], laws, case["gaps"], case["velocities"])
+        outcome = precise.run(**make_data.with_names(row["case"]))
         assert [float(v) for v in outcome.velocities] == pytest.approx(
             row["rebound_speeds"], rel=1e-15, abs=1e-15
         )
@@ -150,7 +148,9 @@ def test_data_file_is_what_the_script_writes():
     assert [row["case"] for row in stored[:28]] == list(make_laws.one_ball())
     for index in (0, 9, 27):
         row = stored[index]
-        assert row == json.loads(make_laws.row(row["case"], make_laws.solve(row["case"])))
+        assert row == json.loads(
+            make_data.row(row["case"], make_laws.solve(row["case"]), make_laws.DIGITS)
+        )
 
 
 @pytest.mark.slow
@@ -158,4 +158,4 @@ def test_data_file_of_gentle_contacts_is_what_the_script_writes():
     stored = make_data.read("gentle")
     assert [row["case"] for row in stored[:2]] == list(itertools.islice(make_gentle.pairs(), 2))
     solved = make_laws.solve(stored[1]["case"])
-    assert stored[1] == json.loads(make_laws.row(stored[1]["case"], solved))
+    assert stored[1] == json.loads(make_data.row(stored[1]["case"], solved, make_laws.DIGITS))

@@ -29,6 +29,7 @@ contacts      force curves, and how events change them
 next_event    the next event of a contact, from rigorous bounds that miss no event
 rest          when balls on finite contacts have come to rest under gravity
 simultaneous  the event loop of a stack with finite contacts
+log           the rows of the log of events
 work          what a run costs, by which it is limited
 batch         one drop, or many one after the other, in the arrays of one stack
 two_springs   two balls on springs without gravity: many drops, fast

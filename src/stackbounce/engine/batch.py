@@ -6,33 +6,15 @@ on that row only.
 
 import math
 
-from stackbounce.engine import codes
+from stackbounce.engine import codes, slots
 from stackbounce.engine.bodies import body_velocity_at_end
-from stackbounce.engine.codes import LOG_COLUMNS
 from stackbounce.engine.kernels import Floats, Integers, kernel
+from stackbounce.engine.log import convert_log
 from stackbounce.engine.motion import velocity_at
 from stackbounce.engine.preparation import prepare, prepare_rigid
-from stackbounce.engine.records import (
-    AFTER,
-    BEGIN,
-    CONTINUE,
-    END,
-    UNIT,
-    Drops,
-    Outcomes,
-    Workspace,
-)
+from stackbounce.engine.records import AFTER, BEGIN, CONTINUE, END, UNIT, Drops, Outcomes, Workspace
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
 from stackbounce.engine.simultaneous import advance_contacts, begin_contacts, log_unfinished
-from stackbounce.engine.slots import (
-    BONDS,
-    EVENTS,
-    LAST_CHECK,
-    LAST_EVENT,
-    LOG_ROWS,
-    RECORDS_PEAKS,
-    WORK,
-)
 from stackbounce.engine.stack import RigidStack, Samples, Stack
 from stackbounce.engine.work import COLLISION, DROP, SLICE
 
@@ -56,47 +38,28 @@ def run_drop(
     of work is done, so that the caller can also stop. The number of rows in the log is
     ``counter[LOG_ROWS]``. The times in ``samples`` are in s; they are changed.
     """
-    size = len(stack.mass)
     if stage != CONTINUE:
         clear_arrays(space.floats, space.integers)
-        stack.setting[RECORDS_PEAKS] = stage - BEGIN
-        space.after[UNIT] = prepare(
-            stack,
-            drops.mass[row],
-            drops.kind[row],
-            drops.stiffness[row],
-            drops.exponent[row],
-            drops.law_parameter[row],
-            drops.second_parameter[row],
-            drops.gap[row],
-            drops.velocity[row],
-            drops.gravity[row],
-            rtol,
-        )
-        for k in range(len(samples.time)):
-            samples.time[k] /= space.after[UNIT]
+        stack.setting[slots.RECORDS_PEAKS] = stage - BEGIN
+        space.after[UNIT] = prepare(stack, drops, row, rtol)
+        _divide(samples.time, space.after[UNIT])
         begin_contacts(stack)
     unit = space.after[UNIT]
-    stack.counter[LOG_ROWS] = 0
+    stack.counter[slots.LOG_ROWS] = 0
     status = advance_contacts(stack, until / unit, event_limit, work_limit, space.log, samples)
     if status != codes.RUNNING:
-        end = stack.clock[LAST_EVENT]
-        bonded = stack.setting[BONDS] > 0
+        end, bonded = end_of_run(stack.clock, status, until / unit), stack.setting[slots.BONDS] > 0
         if status != codes.FINISHED:
-            end = max(end, stack.clock[LAST_CHECK])
-            if status == codes.TIME_REACHED:
-                end = until / unit
             log_unfinished(stack, end, space.log)
         space.after[END] = end * unit
-        for b in range(size):
+        for b in range(len(stack.mass)):
             known = status != codes.INVALID
             after = body_velocity_at_end(stack, b, end) if bonded else velocity_at(stack, b, end)
             space.after[AFTER + b] = after / unit if known else math.nan
-        for k in range(len(samples.velocity)):
-            samples.velocity[k] /= unit
-            samples.force[k] /= unit * unit
-            samples.stored[k] /= unit * unit
-    _convert_log(space.log, stack.counter[LOG_ROWS], unit)
+        _divide(samples.velocity, unit)
+        _divide(samples.force, unit * unit)
+        _divide(samples.stored, unit * unit)
+    convert_log(space.log, stack.counter[slots.LOG_ROWS], unit)
     return status
 
 
@@ -109,34 +72,20 @@ def run_rigid_drop(
     row: int,
     stage: int,
     until: float,
-    rtol: float,
+    rtol: float,  # noqa: ARG001 - collisions are exact
     event_limit: int,
     work_limit: int,  # noqa: ARG001 - the limit of events is that of the work, too
 ) -> int:
     """Run a drop of rigid balls; see `run_drop`."""
     if stage != CONTINUE:
         clear_arrays(space.floats, space.integers)
-        space.after[UNIT] = prepare_rigid(
-            stack,
-            drops.mass[row],
-            drops.kind[row],
-            drops.stiffness[row],
-            drops.exponent[row],
-            drops.law_parameter[row],
-            drops.second_parameter[row],
-            drops.gap[row],
-            drops.velocity[row],
-            drops.gravity[row],
-            rtol,
-        )
+        space.after[UNIT] = prepare_rigid(stack, drops, row)
         begin_collisions(stack)
-    stack.counter[LOG_ROWS] = 0
+    stack.counter[slots.LOG_ROWS] = 0
     status = collide_all(stack, until, event_limit, space.log, samples)
+    stack.counter[slots.WORK] = COLLISION * stack.counter[slots.EVENTS]
     if status != codes.RUNNING:
-        stack.counter[WORK] = COLLISION * stack.counter[EVENTS]
-        end = stack.clock[LAST_EVENT]
-        if status != codes.FINISHED:
-            end = until if status == codes.TIME_REACHED else max(end, stack.clock[LAST_CHECK])
+        end = end_of_run(stack.clock, status, until)
         space.after[END] = end
         for b in range(len(stack.mass)):
             known = status != codes.INVALID
@@ -168,9 +117,7 @@ def run_batch(
         status = run_drop(
             stack, space, drops, samples, row, stage, until, rtol, event_limit, work_limit
         )
-        _read_log(space.log, stack.counter[LOG_ROWS], out, row)
-        work += DROP + stack.counter[WORK] - out.work[row]
-        _read_end(space.after, status, stack.counter[WORK], out, row)
+        work += _read_outcome(space, stack.counter, status, out, row)
         if status != codes.RUNNING:
             row += 1
     return row
@@ -196,9 +143,7 @@ def run_rigid_batch(
         status = run_rigid_drop(
             stack, space, drops, samples, row, stage, until, rtol, event_limit, work_limit
         )
-        _read_log(space.log, stack.counter[LOG_ROWS], out, row)
-        work += DROP + COLLISION * stack.counter[LOG_ROWS]
-        _read_end(space.after, status, stack.counter[WORK], out, row)
+        work += _read_outcome(space, stack.counter, status, out, row)
         if status != codes.RUNNING:
             for i in range(len(stack.infinite)):
                 if stack.infinite[i] == 1:
@@ -217,17 +162,20 @@ def clear_arrays(floats: Floats, integers: Integers) -> None:
 
 
 @kernel
-def _convert_log(log: Floats, rows: int, unit: float) -> None:
-    """Convert rows of a log to SI units: with kg and m fixed, energies go with forces."""
-    for line in range(rows):
-        at = line * LOG_COLUMNS
-        log[at + codes.TIME] *= unit
-        log[at + codes.START] *= unit
-        log[at + codes.PEAK_TIME] *= unit
-        log[at + codes.LOWER_VELOCITY] /= unit
-        log[at + codes.UPPER_VELOCITY] /= unit
-        log[at + codes.PEAK_FORCE] /= unit * unit
-        log[at + codes.IMPULSE] /= unit
+def _divide(values: Floats, unit: float) -> None:
+    """Divide all values by a unit."""
+    for k in range(len(values)):
+        values[k] /= unit
+
+
+@kernel
+def end_of_run(clock: Floats, status: int, until: float) -> float:
+    """Return the time of the end of a run: that of its last event, or that at which it stopped."""
+    if status == codes.TIME_REACHED:
+        return until
+    if status == codes.FINISHED:
+        return clock[slots.LAST_EVENT]
+    return max(clock[slots.LAST_EVENT], clock[slots.LAST_CHECK])
 
 
 @kernel
@@ -244,25 +192,22 @@ def _stage(out: Outcomes, row: int) -> int:
 
 
 @kernel
-def _read_log(log: Floats, rows: int, out: Outcomes, row: int) -> None:
-    """Add the contact intervals in a part of a log to the counts and times of one drop."""
-    for line in range(rows):
-        at = line * LOG_COLUMNS
-        kind = int(log[at + codes.KIND])
+def _read_outcome(space: Workspace, counter: Integers, status: int, out: Outcomes, row: int) -> int:
+    """Write what a run of a drop, or a slice of it, has given to ``out``; return its work."""
+    for line in range(counter[slots.LOG_ROWS]):
+        at = line * codes.LOG_COLUMNS
+        kind = int(space.log[at + codes.KIND])
         if kind not in (codes.RELEASE, codes.COLLISION):
             continue
-        i = int(log[at + codes.CONTACT])
-        begin, end = log[at + codes.START], log[at + codes.TIME]
+        i = int(space.log[at + codes.CONTACT])
+        begin, end = space.log[at + codes.START], space.log[at + codes.TIME]
         out.collisions[row, i] += 1
         if not out.first_touch[row, i] <= begin:
             out.first_touch[row, i] = begin
         if not out.last_release[row, i] >= end:
             out.last_release[row, i] = end
-
-
-@kernel
-def _read_end(after: Floats, status: int, work: int, out: Outcomes, row: int) -> None:
-    """Write the velocities after a run or a slice of it, its status and its work."""
     for b in range(len(out.velocity[row])):
-        out.velocity[row, b] = after[AFTER + b]
-    out.status[row], out.work[row] = status, work
+        out.velocity[row, b] = space.after[AFTER + b]
+    work: int = DROP + counter[slots.WORK] - out.work[row]
+    out.status[row], out.work[row] = status, counter[slots.WORK]
+    return work

@@ -29,17 +29,7 @@ underflow.
 
 import math
 
-from stackbounce.engine.codes import (
-    ABSENT,
-    CONTACT,
-    EPSILON,
-    JOINED,
-    KIND,
-    LOG_COLUMNS,
-    START,
-    TIME,
-    UPPER_VELOCITY,
-)
+from stackbounce.engine import codes, slots
 from stackbounce.engine.flight import (
     acceleration,
     anchor_balls,
@@ -53,26 +43,12 @@ from stackbounce.engine.flight import (
     wake,
 )
 from stackbounce.engine.kernels import Floats, kernel
+from stackbounce.engine.log import append_row
 from stackbounce.engine.restitution import varies
 from stackbounce.engine.settling import NEGLIGIBLE_TIME
-from stackbounce.engine.slots import (
-    EVENTS,
-    GRAVITY,
-    HIGHEST_INVOLVED,
-    KEEP_AFTER,
-    KEPT_CONTACT,
-    KEPT_TIME,
-    LAST_EVENT,
-    LOG_ROWS,
-    LOWEST_INVOLVED,
-    SINCE_KEPT,
-    SPEED,
-    UNIT,
-)
 from stackbounce.engine.stack import RigidStack
 
-_SAME = 1e-12  # rates are proportional if their ratios agree to this
-_SAME_GAPS = 1e-9
+_SAME, _SAME_GAPS = 1e-12, 1e-9  # rates, and gaps, are proportional if ratios agree to this
 _BUSY = 200  # times the number of balls: the most recent collisions that define a group
 _VANISHED = 1e-250  # of the impact speed: rates below this are close to underflow
 
@@ -86,29 +62,29 @@ def find_collapse(stack: RigidStack, contact: int, until: float, log: Floats) ->
     the two contacts come close to underflow: next to the threshold the duration of a round hardly
     shrinks, though the rates do.
     """
-    left = until - stack.clock[LAST_EVENT]
-    soon = min(NEGLIGIBLE_TIME * stack.clock[LAST_EVENT], left)
+    left = until - stack.clock[slots.LAST_EVENT]
+    soon = min(NEGLIGIBLE_TIME * stack.clock[slots.LAST_EVENT], left)
     for other in (contact - 1, contact + 1):
         if 0 <= other < len(stack.mass):
             duration = pair_duration(stack, contact, other)
             certain = duration < math.inf and duration <= left
             if duration <= soon or (certain and _are_still(stack, contact, other)):
                 _merge(stack, min(contact, other), max(contact, other), duration, log)
-    stack.last_hit[contact] = stack.counter[EVENTS]
+    stack.last_hit[contact] = stack.counter[slots.EVENTS]
     low, high = vanished_group(stack, contact)
     if low < high:
         _merge(stack, low, high, 0.0, log)
     _mark_involved(stack, contact, contact)
-    stack.memory[SINCE_KEPT] += 1
+    stack.memory[slots.SINCE_KEPT] += 1
     low, high, shrink = compare_with_kept(stack, contact)
     if shrink != 0.0:
         # later rounds last shrink, shrink^2, ... times the present one
         ratio = max(shrink, 0.0)
-        round_time = stack.clock[LAST_EVENT] - stack.number[KEPT_TIME]
+        round_time = stack.clock[slots.LAST_EVENT] - stack.number[slots.KEPT_TIME]
         if ratio < 1.0 and round_time * ratio / (1.0 - ratio) <= soon:
             _merge(stack, low, high, round_time * ratio / (1.0 - ratio), log)
-    if stack.memory[SINCE_KEPT] >= stack.memory[KEEP_AFTER]:
-        keep_state(stack, contact, stack.clock[LAST_EVENT])
+    if stack.memory[slots.SINCE_KEPT] >= stack.memory[slots.KEEP_AFTER]:
+        keep_state(stack, contact, stack.clock[slots.LAST_EVENT])
 
 
 @kernel
@@ -123,13 +99,13 @@ def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats)
     anchor_balls(stack, low - 2, high + 1)
     velocity, lower_gain, upper_gain = common_velocity(stack, low, high)
     size = len(stack.mass)
-    pull = stack.number[GRAVITY] * duration
+    pull = stack.number[slots.GRAVITY] * duration
     lands = pull if low == 0 else 0.0
     if low > 0:
         below = stack.velocity[low - 2] if low > 1 else 0.0
         rate = below - min(velocity, stack.velocity[low - 1])
         rate += acceleration(stack, low - 1) * duration
-        if stack.law[low - 1] != ABSENT and closing_time(stack, low - 1, rate) <= duration:
+        if stack.law[low - 1] != codes.ABSENT and closing_time(stack, low - 1, rate) <= duration:
             return
     if high + 1 < size:
         rate = max(velocity, stack.velocity[high]) - stack.velocity[high + 1] + lands
@@ -143,12 +119,12 @@ def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats)
         centre += stack.mass[i] * height
         mass += stack.mass[i]
         stack.infinite[i] = 1
-        stack.last_hit[i] = stack.counter[EVENTS]
+        stack.last_hit[i] = stack.counter[slots.EVENTS]
     _mark_involved(stack, low, high)
     travel = centre / mass + velocity * duration
     below = stack.velocity[low - 1] if low > 0 else 0.0
     above = stack.velocity[high]
-    stack.clock[LAST_EVENT] += duration
+    stack.clock[slots.LAST_EVENT] += duration
     stack.now[0] += duration
     anchor_contacts(stack, low - 1, high + 1)
     anchor_balls(stack, low - 2, high + 1)
@@ -166,21 +142,8 @@ def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats)
         change_rate(stack, high + 1, upper_gain + lands)
     for i in range(max(low - 1, 0), min(high + 2, size)):
         schedule_collision(stack, i)
-    _log_joined(stack, low, high, log)
-
-
-@kernel
-def _log_joined(stack: RigidStack, low: int, high: int, log: Floats) -> None:
-    """Append the collapse of contacts low..high to the log."""
-    at = stack.counter[LOG_ROWS] * LOG_COLUMNS
-    for column in range(LOG_COLUMNS):
-        log[at + column] = 0.0
-    log[at + TIME] = stack.clock[LAST_EVENT]
-    log[at + KIND] = JOINED
-    log[at + CONTACT] = low
-    log[at + START] = high
-    log[at + UPPER_VELOCITY] = stack.velocity[high] * stack.number[UNIT]
-    stack.counter[LOG_ROWS] += 1
+    time, after = stack.clock[slots.LAST_EVENT], stack.velocity[high] * stack.number[slots.UNIT]
+    append_row(log, stack.counter, codes.JOINED, low, high, time, 0.0, after)
 
 
 @kernel
@@ -188,8 +151,8 @@ def _mark_involved(stack: RigidStack, low: int, high: int) -> None:
     """Mark contacts low..high as having collided since the reference state; see `keep_state`."""
     for i in range(low, high + 1):
         stack.involved[i] = 1
-    stack.memory[LOWEST_INVOLVED] = min(stack.memory[LOWEST_INVOLVED], low)
-    stack.memory[HIGHEST_INVOLVED] = max(stack.memory[HIGHEST_INVOLVED], high)
+    stack.memory[slots.LOWEST_INVOLVED] = min(stack.memory[slots.LOWEST_INVOLVED], low)
+    stack.memory[slots.HIGHEST_INVOLVED] = max(stack.memory[slots.HIGHEST_INVOLVED], high)
 
 
 @kernel
@@ -214,14 +177,14 @@ def pair_duration(stack: RigidStack, hit: int, other: int) -> float:
         return math.inf
     x, y = stack.rate[hit], approach_rate(stack, other)
     e1, e2 = stack.restitution[hit], stack.restitution[other]
-    if y == 0.0 or stack.law[hit] == ABSENT or e1 * e2 == 1.0:
+    if y == 0.0 or stack.law[hit] == codes.ABSENT or e1 * e2 == 1.0:
         return math.inf
     middle = min(hit, other)
     a = (1.0 + e1) * mass_share(stack, hit, middle)
     b = (1.0 + e2) * mass_share(stack, other, middle)
     trace = a * b - e1 - e2
     least = 2.0 * math.sqrt(e1 * e2)
-    round_off = 8.0 * EPSILON * (a * b + e1 + e2)
+    round_off = 8.0 * codes.EPSILON * (a * b + e1 + e2)
     if trace < least - round_off or (least == 0.0 and trace <= round_off):
         return math.inf
     discriminant = math.sqrt(max(0.0, (trace - least) * (trace + least)))
@@ -272,12 +235,12 @@ def keep_state(stack: RigidStack, contact: int, time: float) -> None:
         stack.kept_rate[i] = rate_after(stack, i, 0.0)
         stack.kept_gap[i] = compression_after(stack, i, 0.0)
         stack.involved[i] = 0
-    stack.memory[LOWEST_INVOLVED] = len(stack.mass)
-    stack.memory[HIGHEST_INVOLVED] = -1
-    stack.memory[KEPT_CONTACT] = contact
-    stack.memory[KEEP_AFTER] = 2 * stack.memory[KEEP_AFTER]
-    stack.memory[SINCE_KEPT] = 0
-    stack.number[KEPT_TIME] = time
+    stack.memory[slots.LOWEST_INVOLVED] = len(stack.mass)
+    stack.memory[slots.HIGHEST_INVOLVED] = -1
+    stack.memory[slots.KEPT_CONTACT] = contact
+    stack.memory[slots.KEEP_AFTER] = 2 * stack.memory[slots.KEEP_AFTER]
+    stack.memory[slots.SINCE_KEPT] = 0
+    stack.number[slots.KEPT_TIME] = time
 
 
 @kernel
@@ -288,8 +251,8 @@ def compare_with_kept(stack: RigidStack, contact: int) -> tuple[int, int, float]
     a smaller scale. Each following round then lasts ``ratio`` times as long as the one before. The
     ratio is 0 if the state is not repeated, and -1 if the rounds take no time.
     """
-    low, high = stack.memory[LOWEST_INVOLVED], stack.memory[HIGHEST_INVOLVED]
-    if contact != stack.memory[KEPT_CONTACT] or high < low + 2:
+    low, high = stack.memory[slots.LOWEST_INVOLVED], stack.memory[slots.HIGHEST_INVOLVED]
+    if contact != stack.memory[slots.KEPT_CONTACT] or high < low + 2:
         return low, high, 0.0
     size, kept, gap, kept_gap = 0.0, 0.0, 0.0, 0.0
     for i in range(low, high + 1):
@@ -314,13 +277,13 @@ def compare_with_kept(stack: RigidStack, contact: int) -> tuple[int, int, float]
 @kernel
 def _are_still(stack: RigidStack, i: int, j: int) -> bool:
     """Return whether, without gravity, the rates of contacts i and j are close to underflow."""
-    return stack.number[GRAVITY] == 0.0 and _is_still(stack, i) and _is_still(stack, j)
+    return stack.number[slots.GRAVITY] == 0.0 and _is_still(stack, i) and _is_still(stack, j)
 
 
 @kernel
 def _is_still(stack: RigidStack, i: int) -> bool:
     """Return whether the rate of contact i is close to underflow."""
-    return abs(stack.rate[i]) * stack.number[UNIT] < _VANISHED * stack.number[SPEED]
+    return abs(stack.rate[i]) * stack.number[slots.UNIT] < _VANISHED * stack.number[slots.SPEED]
 
 
 @kernel
@@ -334,7 +297,7 @@ def vanished_group(stack: RigidStack, contact: int) -> tuple[int, int]:
     size = len(stack.mass)
     if not _is_still(stack, contact):
         return contact, contact
-    busy = stack.counter[EVENTS] - _BUSY * size
+    busy = stack.counter[slots.EVENTS] - _BUSY * size
     low, high = contact, contact
     while low > 0 and stack.last_hit[low - 1] > max(busy, 0):
         low -= 1

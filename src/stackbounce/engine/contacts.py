@@ -15,19 +15,7 @@ before its present series ends.
 
 import math
 
-from stackbounce.engine.codes import (
-    COMPRESSING,
-    CROSSED,
-    DIP,
-    LINEARISED,
-    PEAK,
-    PIECEWISE,
-    POWER,
-    RELEASING,
-    RESUMED,
-    RETURNED,
-    UNLOADED,
-)
+from stackbounce.engine import codes
 from stackbounce.engine.cycles import (
     begin_loading,
     has_hysteresis,
@@ -100,7 +88,7 @@ def _set_unloading_curve(stack: Stack, i: int, pressing: float, c: float, up: bo
     A piecewise contact unloads along its gain times a power.
     """
     peak = stack.top[i]
-    if stack.law[i] == PIECEWISE:
+    if stack.law[i] == codes.PIECEWISE:
         _set_curve(stack, i, stack.stiffness[i], peak, stack.loss_exponent[i])
     else:
         _set_curve(stack, i, pressing, peak, stack.unloading[i])
@@ -112,7 +100,7 @@ def _set_unloading_curve(stack: Stack, i: int, pressing: float, c: float, up: bo
 @kernel
 def _set_shares(stack: Stack, i: int, c: float, up: bool) -> None:
     """Set what elements that remember a peak add, see `cycles`; they part before c is near 0."""
-    if stack.law[i] == PIECEWISE or stack.depth[i] > 0:
+    if stack.law[i] == codes.PIECEWISE or stack.depth[i] > 0:
         take_shares(stack, i, c, up)
     if stack.depth[i] > 0:
         stack.linearised_below[i] = 0.0
@@ -121,7 +109,7 @@ def _set_shares(stack: Stack, i: int, c: float, up: bool) -> None:
 @kernel
 def _set_present_curve(stack: Stack, i: int, c: float, up: bool) -> None:
     """Set the force of contact i, at c, to the curve of its present cycle."""
-    if stack.phase[i] == RELEASING:
+    if stack.phase[i] == codes.RELEASING:
         _set_unloading_curve(stack, i, loading_force(stack, i, stack.top[i]), c, up)
     else:
         _set_loading_curve(stack, i, c, up)
@@ -165,16 +153,19 @@ def reduced_mass(stack: Stack, i: int) -> float:
 
 
 @kernel
+def approach_speed(stack: Stack, i: int) -> float:
+    """Return the speed at which the balls at contact i, both anchored now, approach each other."""
+    return (stack.velocity[i - 1] if i > 0 else 0.0) - stack.velocity[i]
+
+
+@kernel
 def _linearise_if_slow(stack: Stack, i: int) -> None:
     """Linearise opening contact i, anchored now, if the work left under its chord is small enough.
 
     Otherwise ``linearised_below`` is reduced: the next trial comes at a smaller compression. Where
     the gain alone is a part of the force, the chord is 0: the power is nothing beside that part.
     """
-    compression = stack.compression[i]
-    rate = stack.velocity[i]
-    if i > 0:
-        rate -= stack.velocity[i - 1]
+    compression, rate = stack.compression[i], -approach_speed(stack, i)
     work = force(stack, i, compression, -rate, 0.0) * compression
     flat = stack.flat[i]
     if flat > 0.0:
@@ -189,8 +180,8 @@ def _linearise_if_slow(stack: Stack, i: int) -> None:
         _linearise(stack, i)
         if flat > 0.0:
             stack.rate[i] = 0.0
-        if stack.law[i] == POWER:  # past its peak, see `record_series_peaks`
-            stack.phase[i] = RELEASING
+        if stack.law[i] == codes.POWER:  # past its peak, see `record_series_peaks`
+            stack.phase[i] = codes.RELEASING
             stack.top[i] = math.inf
     else:
         shorter = power(_SHORTER, 1.0 / (stack.curve_exponent[i] + 1.0))
@@ -209,14 +200,14 @@ def record_peak(stack: Stack, i: int, compression: float, pressing: float, time:
 @kernel
 def changes_curve(stack: Stack, i: int, kind: int) -> bool:
     """Return whether the force follows another curve after an event inside an interval."""
-    return has_hysteresis(stack, i) or kind not in (PEAK, RETURNED)
+    return has_hysteresis(stack, i) or kind not in (codes.PEAK, codes.RETURNED)
 
 
 @kernel
 def change_phase(stack: Stack, i: int, kind: int) -> None:
     """Switch contact i between compressing and releasing on the same curve."""
-    stack.phase[i] = RELEASING if kind == PEAK else COMPRESSING
-    if kind == PEAK and not has_hysteresis(stack, i):  # pressed beyond it, it has another peak
+    stack.phase[i] = codes.RELEASING if kind == codes.PEAK else codes.COMPRESSING
+    if kind == codes.PEAK and not has_hysteresis(stack, i):  # beyond it there is another peak
         stack.top[i] = stack.peak_compression[i]
 
 
@@ -224,13 +215,13 @@ def change_phase(stack: Stack, i: int, kind: int) -> None:
 def change_curve(stack: Stack, i: int, kind: int) -> None:
     """Switch contact i, anchored now, to the curve that follows an event inside its interval."""
     compression = max(stack.compression[i], _GRAZE * stack.scale[i])
-    if kind == PEAK:
+    if kind == codes.PEAK:
         pressing = force(stack, i, compression, 0.0, 0.0)
         turn_out(stack, i, compression)
         if stack.depth[i] > 0:
             pressing = loading_force(stack, i, compression)
         _set_unloading_curve(stack, i, pressing, compression, False)
-    elif kind == DIP:
+    elif kind == codes.DIP:
         if compression < _ALL_BUT_OPEN * stack.top[i]:  # all elements forget their peak
             begin_loading(stack, i)
             _set_loading_curve(stack, i, compression, True)
@@ -238,17 +229,17 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
         else:
             turn_in(stack, i, compression)
             _set_loading_curve(stack, i, compression, True)
-    elif kind == RETURNED:
+    elif kind == codes.RETURNED:
         return_to_turn(stack, i)
-        _set_present_curve(stack, i, compression, stack.phase[i] == COMPRESSING)
-    elif kind == CROSSED:
+        _set_present_curve(stack, i, compression, stack.phase[i] == codes.COMPRESSING)
+    elif kind == codes.CROSSED:
         knot, up = crossed_knot(stack, i)
         take_shares(stack, i, knot, up)
-        if stack.phase[i] == RELEASING and stack.curve_exponent[i] == 1.0:
+        if stack.phase[i] == codes.RELEASING and stack.curve_exponent[i] == 1.0:
             stack.rate[i] = stack.curve_force[i] / stack.curve_unit[i]
-    elif kind == RESUMED:
-        stack.phase[i] = COMPRESSING
-    elif kind == LINEARISED:
+    elif kind == codes.RESUMED:
+        stack.phase[i] = codes.COMPRESSING
+    elif kind == codes.LINEARISED:
         _linearise_if_slow(stack, i)
     elif compression <= _AT_ITS_END * stack.linearised_below[i]:
         stack.linearised_impulse[i] = 0.0
@@ -263,7 +254,7 @@ def clip(stack: Stack, i: int, time: float) -> None:
 
     The contact must be anchored at ``time``, which is logged as the end of its interval.
     """
-    stack.phase[i] = UNLOADED
+    stack.phase[i] = codes.UNLOADED
     stack.clip_time[i] = time
     stack.clip_lower[i] = stack.velocity[i - 1] if i > 0 else 0.0
     stack.clip_upper[i] = stack.velocity[i]
@@ -278,14 +269,14 @@ def correct_curve(stack: Stack, i: int) -> None:
     """
     compression = stack.compression[i]
     exponent = stack.curve_exponent[i]
-    if stack.phase[i] < COMPRESSING or stack.linearised[i] == 1:
+    if stack.phase[i] < codes.COMPRESSING or stack.linearised[i] == 1:
         return
-    rises = stack.phase[i] == COMPRESSING
+    rises = stack.phase[i] == codes.COMPRESSING
     if has_hysteresis(stack, i) and (
         (rises and compression > _BEYOND * stack.top[i])
         or (not rises and compression * _BEYOND < lowest_compression(stack, i))
     ):
-        change_curve(stack, i, RETURNED)
+        change_curve(stack, i, codes.RETURNED)
     elif exponent in (0.0, 1.0):
         return
     elif compression < 0.5 * stack.linearised_below[i]:

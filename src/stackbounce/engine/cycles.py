@@ -44,7 +44,7 @@ from stackbounce.engine.slots import WORK
 from stackbounce.engine.stack import TURNS, Stack
 from stackbounce.engine.work import CYCLE
 
-_HALVINGS = 120
+_HALVINGS = 120  # of a range of compressions: they reach the last bit from far away, too
 
 
 @kernel

@@ -322,14 +322,6 @@ def _near_cosine(x: float, low: float) -> float:
 
 
 @kernel
-def sine(x: float) -> float:
-    """Return sin x; the error is below 1 unit up to 2^24 quarter turns, see `sine_and_cosine`."""
-    quarters, high, low = _within_eighth_turn(x)
-    value = _near_cosine(high, low) if quarters & 1 else _near_sine(high, low)
-    return -value if quarters & 2 else value
-
-
-@kernel
 def sine_and_cosine(x: float) -> tuple[float, float]:
     """Return sin x and cos x; the errors are below 1 unit up to 2^24 quarter turns.
 

@@ -1,8 +1,8 @@
 """The forms of a contact's force: all that the engine knows of them but their codes (`codes`).
 
-A contact is told by the code of its form and four numbers: the stiffness k, the exponent p, and the
-law parameters z and w. The force depends on the compression c > 0, its rate c', and the *creep* u,
-a compression that follows c with a delay.
+A contact has the code of its form and four numbers, `first` to `fourth` in `Drops` and k, p, z, w
+here: mostly the stiffness k, the exponent p, and two that depend on the form. The force depends on
+the compression c > 0, its rate c', and the *creep* u, a compression that follows c with a delay.
 
 ============= =========================================================== ========================
 form          force                                                       z
@@ -14,7 +14,6 @@ HYSTERETIC    k c^p loading, k C^p (c/C)^z unloading from the peak C;     unload
 DASHPOT       max(0, k c + z c')                                          damping
 VISCOELASTIC  max(0, k (c^1.5 + 3/2 z c^0.5 c'))                          dissipative time
 HUNT_CROSSLEY max(0, k c^p (1 + z c'))                                    dissipation
-HARDENING     k c^p (1 + (c/z)^2)                                         length
 RELAXING      max(0, k (c + z (c - u))), u' = (c - u)/w                   relaxation strength;
                                                                           w: relaxation time
 TWO_STAGE     k c, from z on k (z + w (c - z)); see `pieces`              z: length, w: softening,
@@ -33,9 +32,9 @@ Those from DASHPOT to RELAXING are one form in the stack, a PRODUCT of a power a
 
     F = max(0, k c^q g),    g = a + b c + s c^2 + d c' - m u
 
-Its leading elastic term is k c^p: either a is 1, b is 0 and p = q, or a is 0, b is 1 and p = q + 1.
-Only a linear spring with a dashpot has q = 0. Either s or d is 0; `check_form` refuses a form for
-which both are not, when the kernels are compiled. With a creep, m > 0, the gain is b c - m u.
+Its elastic term is k c^p: either a is 1, b is 0 and p = q, or a is 0, b is 1 and p = q + 1. Only a
+linear spring with a dashpot has q = 0. With a creep, m > 0, the gain is b c - m u. A term s c^2 is
+there in pieces only, where d = 0: `next_event` looks for the zero of a gain without such a term.
 
 A contact that creeps touches and opens at another compression than 0, that of its *surface*: where
 its force is 0, c = m u/b. While it is open its surface recovers freely, at the rate of `recovery`,
@@ -50,22 +49,7 @@ one also a force, an energy, a static compression, and the terms of its power se
 
 import math
 
-from stackbounce.engine.codes import (
-    ABSENT,
-    BOND,
-    COMPRESSING,
-    DASHPOT,
-    HUNT_CROSSLEY,
-    HYSTERETIC,
-    OPEN,
-    PIECEWISE,
-    POWER,
-    PRODUCT,
-    RELAXING,
-    TABULATED,
-    TWO_STAGE,
-    VISCOELASTIC,
-)
+from stackbounce.engine import codes
 from stackbounce.engine.cycles import (
     has_hysteresis,
     loading_compression,
@@ -81,78 +65,62 @@ from stackbounce.engine.pieces import (
     take_two_stages,
 )
 from stackbounce.engine.slots import GRAVITY
-from stackbounce.engine.stack import Stack, new_stack
-
-_NEWTON = 8  # steps from at most twice the force; the last ones change no bit
+from stackbounce.engine.stack import Stack
 
 
 @kernel
 def take_law(stack: Stack, i: int, kind: int, k: float, p: float, z: float, w: float) -> None:
     """Set the numbers of contact i's law; a law without loss becomes a power law."""
-    if kind == ABSENT:
-        stack.law[i] = ABSENT
+    if kind == codes.ABSENT:
+        stack.law[i] = codes.ABSENT
         stack.stiffness[i] = stack.exponent[i] = stack.unloading[i] = 1.0  # placeholders
         return
-    stack.law[i] = POWER
+    stack.law[i] = codes.POWER
     stack.stiffness[i] = k
     stack.exponent[i] = p
     stack.unloading[i] = p
     stack.factor_exponent[i] = p
-    if kind == HYSTERETIC:
+    if kind == codes.HYSTERETIC:
         if z > p:
-            stack.law[i] = HYSTERETIC
+            stack.law[i] = codes.HYSTERETIC
             stack.unloading[i] = z
             stack.loss_exponent[i] = z - p
-    elif kind == BOND:
-        stack.law[i] = PRODUCT
+    elif kind == codes.BOND:
+        stack.law[i] = codes.PRODUCT
         stack.bonded[i] = 1
         stack.factor_exponent[i] = 0.0
         stack.gain_slope[i] = 1.0
         stack.gain_rate[i] = z / k
-    elif kind == TWO_STAGE:
+    elif kind == codes.TWO_STAGE:
         take_two_stages(stack, i, z, w, p)
-    elif kind == TABULATED:
+    elif kind == codes.TABULATED:
         take_table(stack, i, int(z), w, p)
-    elif kind != POWER and z > 0.0:
-        stack.law[i] = PRODUCT
-        if kind == DASHPOT:  # k (c + z/k c')
+    elif kind != codes.POWER and z > 0.0:
+        stack.law[i] = codes.PRODUCT
+        if kind == codes.DASHPOT:  # k (c + z/k c')
             stack.factor_exponent[i] = 0.0
             stack.gain_slope[i] = 1.0
             stack.gain_rate[i] = z / k
-        elif kind == VISCOELASTIC:  # k c^1/2 (c + 3/2 z c')
+        elif kind == codes.VISCOELASTIC:  # k c^1/2 (c + 3/2 z c')
             stack.factor_exponent[i] = 0.5
             stack.gain_slope[i] = 1.0
             stack.gain_rate[i] = 1.5 * z
-        elif kind == HUNT_CROSSLEY:  # k c^p (1 + z c')
+        elif kind == codes.HUNT_CROSSLEY:  # k c^p (1 + z c')
             stack.gain_constant[i] = 1.0
             stack.gain_rate[i] = z
-        elif kind == RELAXING:  # k ((1 + z) c - z u)
+        else:  # k ((1 + z) c - z u)
             stack.factor_exponent[i] = 0.0
             stack.gain_slope[i] = 1.0 + z
             stack.gain_creep[i] = z
             stack.creep_rate[i] = 1.0 / w
-        else:  # k c^p (1 + c^2/z^2)
-            stack.gain_constant[i] = 1.0
-            stack.gain_square[i] = 1.0 / (z * z)
-
-
-def check_form(kind: int) -> None:
-    """Raise ValueError if the gain of a form has a term in c^2 and one in c'.
-
-    `next_event` looks for the zero of a gain that depends on c', and takes it to have no c^2.
-    """
-    stack = new_stack(1)
-    take_law(stack, 0, kind, 1.0, 1.5, 0.5, 0.5)  # any numbers
-    if stack.gain_square[0] != 0.0 and stack.gain_rate[0] != 0.0:
-        raise ValueError("a gain has a term in c^2 or one in c', not both")
 
 
 @kernel
 def is_nonlinear(stack: Stack, i: int) -> bool:
     """Return whether the force of contact i can be nonlinear, but for straight pieces."""
-    if stack.law[i] == PIECEWISE:
+    if stack.law[i] == codes.PIECEWISE:
         return not has_one_curve(stack, i)
-    if stack.law[i] == PRODUCT:
+    if stack.law[i] == codes.PRODUCT:
         return stack.factor_exponent[i] != 0.0
     return stack.unloading[i] != 1.0
 
@@ -160,7 +128,7 @@ def is_nonlinear(stack: Stack, i: int) -> bool:
 @kernel
 def is_linear(stack: Stack, i: int) -> bool:
     """Return whether the force of a pressing contact is now a constant times its compression."""
-    if stack.law[i] >= PRODUCT or stack.depth[i] > 0:
+    if stack.law[i] >= codes.PRODUCT or stack.depth[i] > 0:
         return False
     return stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0
 
@@ -201,18 +169,9 @@ def typical_compression(stack: Stack, i: int, speed: float) -> float:
         k *= stack.gain_slope[i]  # before it relaxes
     if i > 0:
         mass = stack.mass[i - 1] * mass / (stack.mass[i - 1] + mass)
-    if stack.law[i] == PIECEWISE:
+    if stack.law[i] == codes.PIECEWISE:
         return compression_of_work(stack, i, 0.5 * mass * speed * speed)
-    length = _length_of_energy(mass, speed, k, stack.exponent[i])
-    if stack.gain_square[i] > 0.0:
-        added = k * stack.gain_square[i]
-        length = min(length, _length_of_energy(mass, speed, added, stack.factor_exponent[i] + 2.0))
-    return length
-
-
-@kernel
-def _length_of_energy(mass: float, speed: float, k: float, p: float) -> float:
-    """Return the compression at which the force k c^p has done the work m v^2/2."""
+    p = stack.exponent[i]
     share = 1.0 / (p + 1.0)
     return power(0.5 * (p + 1.0) * mass / k, share) * power(speed, 2.0 * share)
 
@@ -228,7 +187,7 @@ def raised(x: float, p: float) -> float:
 @kernel
 def force(stack: Stack, i: int, compression: float, rate: float, creep: float) -> float:
     """Return the force of contact i on the curve that it follows; no creep is 0."""
-    if stack.phase[i] < COMPRESSING:
+    if stack.phase[i] < codes.COMPRESSING:
         return 0.0
     exponent = stack.curve_exponent[i]
     if stack.linearised[i] == 1 or exponent == 1.0:
@@ -236,7 +195,7 @@ def force(stack: Stack, i: int, compression: float, rate: float, creep: float) -
     else:
         ratio = max(0.0, compression / stack.curve_unit[i])
         pressing = stack.curve_force[i] * raised(ratio, exponent)
-    if stack.law[i] >= PRODUCT:
+    if stack.law[i] >= codes.PRODUCT:
         beyond = compression - stack.gain_origin[i]
         slope = stack.gain_slope[i] + stack.gain_square[i] * beyond
         gain = stack.gain_constant[i] + slope * beyond
@@ -257,15 +216,15 @@ def stored_energy(stack: Stack, i: int, compression: float) -> float:
 
     Of one that creeps this is the part of the lasting spring only, see `held_energy`.
     """
-    if stack.phase[i] == OPEN:
+    if stack.phase[i] == codes.OPEN:
         return 0.0
-    if stack.law[i] == PRODUCT:
+    if stack.law[i] == codes.PRODUCT:
         held = abs(compression) if stack.bonded[i] == 1 else max(0.0, compression)
         return _elastic_work(stack, i, held)
-    if stack.law[i] == PIECEWISE or stack.depth[i] > 0:
+    if stack.law[i] == codes.PIECEWISE or stack.depth[i] > 0:
         return _held_by_elements(stack, i, max(0.0, compression))
     exponent = stack.curve_exponent[i]
-    if stack.law[i] == HYSTERETIC and stack.top[i] == math.inf:
+    if stack.law[i] == codes.HYSTERETIC and stack.top[i] == math.inf:
         exponent = stack.unloading[i]
     return force(stack, i, compression, 0.0, 0.0) * compression / (exponent + 1.0)
 
@@ -281,7 +240,7 @@ def held_energy(stack: Stack, i: int, compression: float, creep: float) -> float
     """Return all energy of contact i: if open, that of its surface while it recovers."""
     if not creeps(stack, i):
         return stored_energy(stack, i, compression)
-    held = surface(stack, i, creep) if stack.phase[i] == OPEN else compression
+    held = surface(stack, i, creep) if stack.phase[i] == codes.OPEN else compression
     return _elastic_work(stack, i, held) + arm_energy(stack, i, held, creep)
 
 
@@ -289,20 +248,16 @@ def held_energy(stack: Stack, i: int, compression: float, creep: float) -> float
 def _elastic_work(stack: Stack, i: int, c: float) -> float:
     """Return the integral from 0 to c of the force of a product at rest."""
     exponent = stack.exponent[i] + 1.0
-    work = stack.stiffness[i] * power(c, exponent) / exponent
-    if stack.gain_square[i] > 0.0:
-        exponent = stack.factor_exponent[i] + 3.0
-        work += stack.stiffness[i] * stack.gain_square[i] * power(c, exponent) / exponent
-    return work
+    return stack.stiffness[i] * power(c, exponent) / exponent
 
 
 @kernel
 def potential(stack: Stack, i: int, compression: float) -> float:
     """Return the work that contact i would do until it opens if it were not damped."""
     c = abs(compression) if stack.bonded[i] == 1 else max(0.0, compression)
-    if stack.law[i] == PRODUCT:
+    if stack.law[i] == codes.PRODUCT:
         return _elastic_work(stack, i, c)
-    if stack.law[i] in (HYSTERETIC, PIECEWISE):
+    if stack.law[i] in (codes.HYSTERETIC, codes.PIECEWISE):
         return _held_by_elements(stack, i, c)
     if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
         return 0.5 * stack.rate[i] * c * c
@@ -324,16 +279,9 @@ def static_state(stack: Stack, i: int, weight: float) -> tuple[float, float]:
 @kernel
 def _static_compression(stack: Stack, i: int, weight: float) -> float:
     """Return the compression at which contact i carries a weight."""
-    if stack.law[i] == PRODUCT:
-        p, q, square = stack.exponent[i], stack.factor_exponent[i] + 2.0, stack.gain_square[i]
-        rest = power(weight / stack.stiffness[i], 1.0 / p)
-        if square > 0.0 and rest > 0.0:
-            rest = min(rest, power(weight / stack.stiffness[i] / square, 1.0 / q))
-            for _ in range(_NEWTON):
-                one, two = power(rest, p), square * power(rest, q)
-                rest -= (one + two - weight / stack.stiffness[i]) * rest / (p * one + q * two)
-        return rest
-    if stack.law[i] == PIECEWISE:
+    if stack.law[i] == codes.PRODUCT:
+        return power(weight / stack.stiffness[i], 1.0 / stack.exponent[i])
+    if stack.law[i] == codes.PIECEWISE:
         return loading_compression(stack, i, weight)
     if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
         return weight / stack.rate[i]
@@ -361,7 +309,7 @@ def power_needed(stack: Stack, i: int) -> float:
     if p == 0.0 or p == 1.0:
         return 0.0
     added = stack.gain_constant[i] != 0.0 or stack.gain_square[i] != 0.0
-    if stack.law[i] >= PRODUCT and not added and stack.gain_origin[i] == 0.0:
+    if stack.law[i] >= codes.PRODUCT and not added and stack.gain_origin[i] == 0.0:
         return p + 1.0
     return p
 
@@ -433,7 +381,7 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, rare: i
                     u[n] = part * total + part * (p * m * u[b]) * c[a + m]
                 else:
                     u[n] = raised(c[a] / curve_unit[i], p) if m == 0 else 0.0
-            if law[i] < PRODUCT:
+            if law[i] < codes.PRODUCT:
                 force = curve_force[i] * u[k] if p > 0.0 else slope[i] * c[k]
             else:
                 gain = gains[i]

@@ -79,7 +79,7 @@ _CLOSE = 1e-10  # of v0/omega: so are events that are missed by less
 _NOISE = 1e-13  # of the impact speed: slower relative motion counts as none
 _NEAR = 0.01  # rad, and relative: keeps the error of a landing below 1e-16
 _ROUNDS = 200.0  # steps; longer runs accumulate round-off
-_NEVER = 1e300
+_NEVER = 1e300  # 1/omega
 
 
 @kernel

@@ -165,7 +165,7 @@ def _new_memory(engine: Engine, balls: int, compiled: bool) -> Memory:
         stack, (floats, integers) = in_one_room(stack)
         space = _arrays(space)._replace(floats=floats, integers=integers)
         drop = Drops._make(map(np.array, drop))
-        drop = drop._replace(kind=np.zeros((1, balls), dtype=np.int64))
+        drop = drop._replace(form=np.zeros((1, balls), dtype=np.int64))
         arguments, none = (Table(stack), Table(space), Table(drop)), Table(as_arrays(samples))
     kernel = kernel_named(engine.run_drop, compiled)
     # addresses, which the Tables keep valid, are taken faster than Tables

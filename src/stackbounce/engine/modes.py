@@ -11,6 +11,7 @@ are exact as well.
 import math
 
 from stackbounce.engine.codes import EPSILON
+from stackbounce.engine.contacts import approach_speed
 from stackbounce.engine.elementary import hypotenuse, sine_and_cosine
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.slots import GRAVITY
@@ -89,9 +90,8 @@ def start_modes(stack: Stack, low: int, high: int) -> None:
         start, speed, load = 0.0, 0.0, 0.0
         for i in range(low, high):
             weight = stack.shape[j * WIDTH + i - low] * stack.weight[i]
-            below = stack.velocity[i - 1] if i > 0 else 0.0
             start += weight * stack.compression[i]
-            speed += weight * (below - stack.velocity[i])
+            speed += weight * approach_speed(stack, i)
             if i == 0:
                 load += weight * gravity
         stack.static[j] = load / (stack.omega[j] * stack.omega[j])

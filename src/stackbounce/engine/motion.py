@@ -3,7 +3,7 @@
 import math
 
 from stackbounce.engine.codes import COMPRESSING, EPSILON, HYSTERETIC, POWER
-from stackbounce.engine.contacts import correct_curve
+from stackbounce.engine.contacts import approach_speed, correct_curve
 from stackbounce.engine.elementary import exp
 from stackbounce.engine.event_queue import schedule
 from stackbounce.engine.forces import creeps, is_linear, power_needed, recovery, surface
@@ -18,11 +18,7 @@ from stackbounce.engine.modes import (
 from stackbounce.engine.series import ORDER, evaluate, integrate, shift
 from stackbounce.engine.slots import GRAVITY, NONLINEAR, RECORDS_PEAKS, SPEED, TOLERANCE, WORK
 from stackbounce.engine.stack import MODES, TERMS, WIDTH, Stack
-from stackbounce.engine.taylor import (
-    ROOT_POWERS,
-    expand_motion,
-    record_series_peaks,
-)
+from stackbounce.engine.taylor import ROOT_POWERS, expand_motion, record_series_peaks
 from stackbounce.engine.work import CREST, EXPANSION, MODES_WORK
 
 KNOWN = 100.0  # times the tolerance of a step: the error after many steps
@@ -330,8 +326,7 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
         if moves:
             c = stack.compression_series[i]
             stack.compression[i] = evaluate(c, order + stack.root[first], x)
-            after = stack.velocity[i - 1] - stack.velocity[i] if i > 0 else -stack.velocity[i]
-            crest = c[stack.root[first]] > 0.0 and after <= 0.0
+            crest = c[stack.root[first]] > 0.0 and approach_speed(stack, i) <= 0.0
             if crest and stack.law[i] != HYSTERETIC:  # see `record_series_peaks`
                 stack.counter[WORK] += CREST * order * (1 if stack.law[i] == POWER else 2)
         else:
@@ -362,8 +357,8 @@ def _choose_root(stack: Stack, low: int, high: int) -> int:
         twice = 2.0 * power_needed(stack, i)
         if stack.compression[i] != 0.0 or twice != math.floor(twice):
             continue
-        rate = stack.velocity[i - 1] - stack.velocity[i] if i > 0 else -stack.velocity[i]
-        if 0.0 < twice < ROOT_POWERS and rate > _ENTERS * stack.number[SPEED]:
+        fast = approach_speed(stack, i) > _ENTERS * stack.number[SPEED]
+        if fast and 0.0 < twice < ROOT_POWERS:
             stack.linearised[i] = 0
             return 2
     return 1

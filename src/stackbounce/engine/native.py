@@ -30,20 +30,20 @@ _KINDS: dict[str, Any] = {
 
 
 class NoCompiledCode(UserWarning):
-    """Says once why drops are run as plain Python."""
+    """Warns once that drops are run as plain Python, and why."""
 
 
 def digest_of_sources() -> str:
     """Return a hash of all source files of the engine."""
     digest = hashlib.sha256()
-    for name in sorted(one for one in os.listdir(_HERE) if one.endswith(".py")):
+    for name in sorted(file for file in os.listdir(_HERE) if file.endswith(".py")):
         digest.update(name.encode() + b"\0" + _content(name) + b"\0")
     return digest.hexdigest()
 
 
 def digest_of_manifest(manifest: dict[str, Any]) -> str:
     """Return a hash of all of a manifest but its libraries, which a wheel has a part of."""
-    rest = {key: one for key, one in manifest.items() if key not in ("digest", "libraries")}
+    rest = {key: manifest[key] for key in manifest if key not in ("digest", "libraries")}
     return hashlib.sha256(json.dumps(rest, sort_keys=True).encode()).hexdigest()
 
 
@@ -106,7 +106,7 @@ class _Library(NamedTuple):
 
 
 class _Described(NamedTuple):
-    """What the manifest says of a platform's library."""
+    """The part of the manifest on a platform's library."""
 
     file: str
     digest: str
@@ -162,7 +162,7 @@ def _load() -> _Library:
 
 
 def _described(name: str) -> _Described:
-    """Return what the manifest says of a platform's library."""
+    """Return the part of the manifest on a platform's library."""
     described = None
     try:
         manifest = _manifest()
@@ -201,6 +201,6 @@ def _content(name: str, folder: str = _HERE) -> bytes:
 
 
 def _processor_level(library: Any) -> int:
-    """Return the level of this processor among those of x86-64, as the library tells it."""
+    """Return the level of this processor among those of x86-64, as the library finds it."""
     library.processor_level.restype = ctypes.c_int64
     return int(library.processor_level())

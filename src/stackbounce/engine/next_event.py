@@ -33,29 +33,9 @@ that exceeds its round-off only long after its zero is clipped at the zero all t
 """
 
 import math
+from typing import NamedTuple, TypeAlias
 
-from stackbounce.engine.codes import (
-    ABSENT,
-    CHECK,
-    CLIPPED,
-    COMPRESSING,
-    CROSSED,
-    CURVED,
-    DIP,
-    EPSILON,
-    LINEARISED,
-    OPEN,
-    PEAK,
-    PIECEWISE,
-    POWER,
-    PRODUCT,
-    RELEASE,
-    RELEASING,
-    RESUMED,
-    RETURNED,
-    TOUCH,
-    UNLOADED,
-)
+from stackbounce.engine import codes
 from stackbounce.engine.contacts import linearised_impulse_limit
 from stackbounce.engine.cycles import has_hysteresis, lowest_compression
 from stackbounce.engine.elementary import exponent_of, times_power_of_two
@@ -83,192 +63,232 @@ from stackbounce.engine.series import (
 from stackbounce.engine.slots import NONLINEAR, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
-# round-off below this fraction of a typical motion: the motion itself is only round-off
-_NOTHING = 1000.0 * EPSILON * EPSILON
-_LOOSE = 10.0  # a touch must exceed this times the tolerance of a step
-_NEAR = 2e-12  # of a time: the end of a force that is no later than that is left where it is,
-_NEWTON = 6  # else so many steps lead back to the zero,
-_CONVERGED = 1e-3  # if the last is at most that part of them all
-_LINEARISED_EXIT = 0.9  # of ``linearised_below``: the chord is left above 1 and taken below this,
-_LOGARITHMS = 1e3  # or where the logarithm of the force has changed by this
+# of a typical speed or compression: a motion whose round-off is smaller has died out
+_VANISHED = 1000.0 * codes.EPSILON * codes.EPSILON
+# times the tolerance of a step: where motion is nonlinear, smaller overlaps are no touch
+_TOUCH_MARGIN = 10.0
+# of a time: a zero of the gain that is nearer than this to the time found is not refined
+_TIME_ERROR = 2e-12
+# the most steps that refine such a zero, and the part of them all that the last may be
+_NEWTON_STEPS, _LAST_STEP = 6, 1e-3
+# a chord ends at ``linearised_below`` and begins at this part of it, so that it does not end at
+# once, or where the logarithm of a steep force has fallen by so much
+_CHORD_ENTRY, _CHORD_LOGARITHMS = 0.9, 1e3
+
+Event: TypeAlias = tuple[float, bool, int]
+"""A wait until an event, whether it is reached then or only not before, and its kind."""
+
+
+class Motion(NamedTuple):
+    """The motion of a contact from now on: what is known of the series in ``stack.watched``.
+
+    It is the power series of the compression c. Its variable is the time from now (root = 1) or the
+    square root of that (root = 2).
+    """
+
+    root: int
+    order: int  # of the series
+    power: int  # of its remainder
+    tail: float  # a bound on the remainder's coefficient
+    known: bool  # whether all of these are finite
+    straight: bool  # whether two balls in flight have no relative acceleration
+    noise: float  # round-off of c
+    rate_noise: float  # round-off of the rate of c
+    tick: float  # round-off of the time
+    band: float  # the least change of c that counts
+    rate_band: float  # the least rate that counts
+    horizon: float  # how far the series is valid, in its variable
 
 
 @kernel
 def schedule_next_event(stack: Stack, i: int, time: float) -> None:
-    """Schedule the next event of contact i, or a check if no event is certain yet."""
-    size = len(stack.mass)
+    """Schedule the next event of contact i, or a check if no event is certain yet.
+
+    Each kind of event is searched for up to the earliest found before it; of two at the same time
+    the one found first stays, but for a fall.
+    """
     phase = stack.phase[i]
-    if stack.law[i] == ABSENT:
+    if stack.law[i] == codes.ABSENT:
         return
-    if stack.bonded[i] == 1:
-        schedule(stack.due, stack.heap, stack.place, i, math.inf)
-        return
-    if phase < COMPRESSING:
+    if phase < codes.COMPRESSING:
         align_anchors(stack, i)
-    elif _keeps_curve(stack, i, time):
-        stack.event[i] = CHECK
+    elif stack.bonded[i] == 1 or _keeps_curve(stack, i, time):
+        stack.event[i] = codes.CHECK
         schedule(stack.due, stack.heap, stack.place, i, math.inf)
         return
-    a = stack.watched
-    root = root_at(stack, i)
-    order, power, tail, noise, rate_noise = compression_series(stack, i, time, root, a)
-    if not math.isfinite(tail + noise + rate_noise + a[0] + a[1] + a[order]):
+    motion = _motion(stack, i, time)
+    if not motion.known:
         schedule(stack.due, stack.heap, stack.place, i, -math.inf)
         return
+    if phase == codes.OPEN:
+        event = _touch(stack, i, motion)
+    elif _has_died_out(stack, i, motion):
+        event = 0.0, True, codes.RELEASE
+    else:
+        event = _clip_or_resume(stack, i, time, motion)
+        event = _fall(stack, i, motion, event)
+        event = _linearise(stack, i, motion, event)
+        event = _rise(stack, i, motion, event)
+        event = _curve(stack, i, time, motion, event)
+        event = _turn(stack, i, motion, event)
+    _schedule(stack, i, time, motion, event)
+
+
+@kernel
+def _motion(stack: Stack, i: int, time: float) -> Motion:
+    """Return the motion of contact i from ``time`` on; its series is in ``stack.watched``."""
+    a, root, size = stack.watched, root_at(stack, i), len(stack.mass)
+    order, power, tail, noise, rate_noise = compression_series(stack, i, time, root, a)
+    known = math.isfinite(tail + noise + rate_noise + a[0] + a[1] + a[order])
     straight = order <= 2 and a[2] == 0.0
-    if phase == OPEN and stack.creep[i] > 0.0:
-        noise += 8.0 * EPSILON * abs(a[0])
+    if stack.phase[i] == codes.OPEN and stack.creep[i] > 0.0:
+        noise += 8.0 * codes.EPSILON * abs(a[0])
         last, power, rest = subtract_surface(stack, i, time, root, a)
         order, tail = max(order, last), tail + rest
-    # round-off of the solution, of the time, and at least that of a typical compression
-    tick = 4.0 * EPSILON * time
-    rate, second = abs(a[root]), abs(2.0 * a[2 * root])
-    band = max(noise + tick * rate, 4.0 * EPSILON * stack.scale[i])
-    rate_band = max(rate_noise + tick * second, 4.0 * EPSILON * stack.number[SPEED])
+    # at least the round-off of a typical compression and speed
+    tick = 4.0 * codes.EPSILON * time
+    band = max(noise + tick * abs(a[root]), 4.0 * codes.EPSILON * stack.scale[i])
+    rate_band = rate_noise + tick * abs(2.0 * a[2 * root])
+    rate_band = max(rate_band, 4.0 * codes.EPSILON * stack.number[SPEED])
     horizon = stack.due[size + stack.first[i]]
     if i > 0:
         horizon = min(horizon, stack.due[size + stack.first[i - 1]])
     horizon -= time
     if root == 2:
         horizon = math.sqrt(horizon)
-    wait, reached, kind = math.inf, False, CHECK
-    if phase == OPEN:
-        if stack.setting[NONLINEAR] == 1:  # and at least the tolerance of nonlinear motion
-            band += _LOOSE * stack.number[TOLERANCE] * stack.scale[i]
-            rate_band += _LOOSE * stack.number[TOLERANCE] * stack.number[SPEED]
-        if a[0] < -band or a[root] < -rate_band:
-            stack.touching[i] = math.nan
-        if not (straight and _never_meets(stack, i, a)):
-            kind = TOUCH
-            if root == 2 and _is_pressed_together(stack, i, a, order):
-                wait, reached = 0.0, True
-            else:
-                wait, reached = _safe_wait(
-                    stack, a, order, power, tail, 0.0, -1.0, 0.0, band, horizon
-                )
-        _schedule(stack, i, time, wait, reached, kind, horizon)
-        return
-    still = rate_noise < _NOTHING * stack.number[SPEED] and noise < _NOTHING * stack.scale[i]
-    if phase >= COMPRESSING and still and stack.modal[stack.first[i]] == 1:
-        _schedule(stack, i, time, 0.0, True, RELEASE, horizon)
-        return
-    plain = not has_hysteresis(stack, i)
-    plain = plain and not (stack.law[i] == POWER and stack.modal[stack.first[i]] == 1)
-    if is_damped(stack, i):
-        noise = max(noise, 16.0 * EPSILON * abs(a[0])) + tick * rate
-        speed = stack.speed[i] + rate
-        rate_noise = max(rate_noise, 16.0 * EPSILON * speed) + tick * second
-        wait, reached = _gain_wait(
-            stack, i, time, order, power, tail, noise, rate_noise, root, horizon
-        )
-        kind = RESUMED if phase == UNLOADED else CLIPPED
+    return Motion(
+        root, order, power, tail, known, straight, noise, rate_noise, tick, band, rate_band, horizon
+    )
+
+
+@kernel
+def _has_died_out(stack: Stack, i: int, motion: Motion) -> bool:
+    """Return whether the motion of pressing contact i, in normal modes, is only round-off."""
+    if stack.phase[i] < codes.COMPRESSING or stack.modal[stack.first[i]] == 0:
+        return False
+    slow = motion.rate_noise < _VANISHED * stack.number[SPEED]
+    return slow and motion.noise < _VANISHED * stack.scale[i]
+
+
+@kernel
+def _has_peaks(stack: Stack, i: int) -> bool:
+    """Return whether a peak of contact i is an event; else its series gives the peak."""
+    modal = stack.modal[stack.first[i]] == 1
+    return has_hysteresis(stack, i) or (modal and stack.law[i] == codes.POWER)
+
+
+@kernel
+def _earlier(motion: Motion, event: Event, wait: float, reached: bool, kind: int) -> Event:
+    """Return another event if it comes before the one found so far, while the series is valid."""
+    return (wait, reached, kind) if wait < _limit(motion, event) else event
+
+
+@kernel
+def _limit(motion: Motion, event: Event) -> float:
+    """Return how far to search for an event that comes before the one found so far."""
+    return min(event[0], motion.horizon)
+
+
+@kernel
+def _touch(stack: Stack, i: int, motion: Motion) -> Event:
+    """Return when open contact i touches: c rises through 0, or through its surface."""
+    a, band, rate_band = stack.watched, motion.band, motion.rate_band
+    if stack.setting[NONLINEAR] == 1:  # and at least the tolerance of nonlinear motion
+        band += _TOUCH_MARGIN * stack.number[TOLERANCE] * stack.scale[i]
+        rate_band += _TOUCH_MARGIN * stack.number[TOLERANCE] * stack.number[SPEED]
+    if a[0] < -band or a[motion.root] < -rate_band:
+        stack.touching[i] = math.nan
+    if motion.straight and _never_meets(stack, i, a):
+        return math.inf, False, codes.CHECK
+    if motion.root == 2 and _is_pressed_together(stack, i, a, motion.order):
+        return 0.0, True, codes.TOUCH
+    wait, reached = _level_wait(stack, motion, -1.0, 0.0, band, motion.horizon)
+    return wait, reached, codes.TOUCH
+
+
+@kernel
+def _clip_or_resume(stack: Stack, i: int, time: float, motion: Motion) -> Event:
+    """Return when the gain of contact i changes its sign; one that creeps then opens."""
+    if not is_damped(stack, i):
+        return math.inf, False, codes.CHECK
+    wait, reached = _gain_wait(stack, i, time, motion)
     if creeps(stack, i):
-        kind = RELEASE
-    elif plain or phase == RELEASING:
-        left = min(wait, horizon)
-        level, lower_kind = _lower_level(stack, i)
-        other, there = _safe_wait(stack, a, order, power, tail, 0.0, 1.0, level, band, left)
-        if other < left or (there and other <= left < horizon):
-            wait, reached, kind = other, there, lower_kind
-        level = _linearised_level(stack, i)
-        # else the series is valid up to the release
-        if level > 0.0 and (wait >= horizon or not reached):
-            left = min(wait, horizon)
-            other, there = _safe_wait(stack, a, order, power, tail, 0.0, 1.0, level, band, left)
-            if other < left:
-                wait, reached, kind = other, there, LINEARISED
-    level, upper_kind = _upper_level(stack, i, plain)
-    if level < math.inf:
-        left = min(wait, horizon)
-        other, there = _safe_wait(stack, a, order, power, tail, 0.0, -1.0, level, band, left)
-        if other < wait:
-            wait, reached, kind = other, there, upper_kind
-    if stack.linearised[i] == 1 and stack.rate[i] > 0.0 and phase >= COMPRESSING:
-        other, there = _linearised_wait(stack, i, time, order, power, tail, min(wait, horizon))
-        if other < wait:
-            wait, reached, kind = other, there, CURVED
-    if not plain and (phase == COMPRESSING or has_hysteresis(stack, i)):
-        for k in range(order - root + 1):
-            a[k] = (k + root) * a[k + root] / root
-        sign, left = 1.0 if phase == COMPRESSING else -1.0, min(wait, horizon)
-        other, there = _safe_wait(
-            stack, a, order - root, power - 1, power * tail, 0.0, sign, 0.0, rate_band, left
-        )
-        if other < wait:
-            wait, reached, kind = other, there, PEAK if phase == COMPRESSING else DIP
-    _schedule(stack, i, time, wait, reached, kind, horizon)
+        return wait, reached, codes.RELEASE
+    return wait, reached, codes.RESUMED if stack.phase[i] == codes.UNLOADED else codes.CLIPPED
 
 
 @kernel
-def _keeps_curve(stack: Stack, i: int, time: float) -> bool:
-    """Return whether contact i surely has no event while its cluster's series is valid.
+def _can_fall(stack: Stack, i: int) -> bool:
+    """Return whether c can fall to the lower end of the present curve before another event.
 
-    A lower bound of the compression, and of the gain of a damped contact, decides. It is true
-    during most of an interval, which saves the search for the event.
+    A contact that creeps opens with its gain; one with peaks has to pass its peak first.
     """
-    first, law = stack.first[i], stack.law[i]
-    if stack.modal[first] == 1 or stack.anchor[first] != time or stack.linearised[i] == 1:
-        return False
-    if law not in (POWER, PRODUCT) or stack.phase[i] != COMPRESSING:
-        return False
-    horizon = series_time(stack, first, stack.due[len(stack.mass) + first] - time)
-    order, c = stack.order[first], stack.compression_series[i]
-    begins = stack.root[first] if c[0] == 0.0 else 0  # the lowest power of the series that is not 0
-    least = lower_bound(c, begins, order + stack.root[first], horizon)
-    if law == PRODUCT and not lower_bound(stack.gain_series[i], 0, order, horizon) > 0.0:
-        return False
-    return least > _linearised_level(stack, i)
+    return not creeps(stack, i) and (stack.phase[i] == codes.RELEASING or not _has_peaks(stack, i))
 
 
 @kernel
-def _linearised_level(stack: Stack, i: int) -> float:
-    """Return the compression below which contact i must be linearised; 0 if it need not be."""
-    smooth = stack.curve_exponent[i] == 0.0 or stack.curve_exponent[i] == 1.0
-    if smooth or stack.linearised[i] == 1 or stack.phase[i] == UNLOADED:
-        return 0.0
-    if root_at(stack, i) == 2 and stack.phase[i] == COMPRESSING:
-        return 0.0
-    ratio = max(_LINEARISED_EXIT, 1.0 - _LOGARITHMS / stack.curve_exponent[i])
-    return ratio * stack.linearised_below[i]
+def _fall(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
+    """Return when c falls to where contact i opens or its curve changes, if before ``event``.
 
-
-@kernel
-def _lower_level(stack: Stack, i: int) -> tuple[float, int]:
-    """Return the compression below which contact i opens or changes its curve, and the event."""
-    level, kind = lowest_compression(stack, i), RELEASE
+    It comes first as well if both are at the same time.
+    """
+    if not _can_fall(stack, i):
+        return event
+    level, kind = lowest_compression(stack, i), codes.RELEASE
     if level > 0.0:
-        kind = RETURNED
-    if stack.law[i] == PIECEWISE and stack.piece_low[i] > level:
-        level, kind = stack.piece_low[i], CROSSED
-    return level, kind
+        kind = codes.RETURNED
+    if stack.law[i] == codes.PIECEWISE and stack.piece_low[i] > level:
+        level, kind = stack.piece_low[i], codes.CROSSED
+    limit = _limit(motion, event)
+    wait, reached = _level_wait(stack, motion, 1.0, level, motion.band, limit)
+    if wait < limit or (reached and wait <= limit < motion.horizon):
+        return wait, reached, kind
+    return event
 
 
 @kernel
-def _upper_level(stack: Stack, i: int, plain: bool) -> tuple[float, int]:
-    """Return the compression above which contact i changes its curve, and the kind of event."""
-    level, kind = math.inf, CHECK
-    phase = stack.phase[i]
-    if phase == UNLOADED:
-        return level, kind
-    if not plain and phase == (COMPRESSING if has_hysteresis(stack, i) else RELEASING):
-        level, kind = stack.top[i], RETURNED
-    if stack.law[i] == PIECEWISE and stack.piece_high[i] < level:
-        level, kind = stack.piece_high[i], CROSSED
-    if stack.linearised[i] == 1 and stack.linearised_below[i] < level:
-        level, kind = stack.linearised_below[i], CURVED
-    return level, kind
+def _linearise(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
+    """Return when c falls to where a chord replaces the power law, if before ``event``.
 
-
-@kernel
-def _linearised_wait(
-    stack: Stack, i: int, time: float, order: int, power: int, tail: float, horizon: float
-) -> tuple[float, bool]:
-    """Return how long the impulse along the chord of contact i surely stays below its limit.
-
-    The results are those of `_safe_wait`.
+    Up to an event that is certain no chord is needed: the series is valid.
     """
-    spent = stack.changed
-    first = stack.first[i]
+    if not _can_fall(stack, i):
+        return event
+    level = _linearised_level(stack, i)
+    if level <= 0.0 or (event[1] and event[0] < motion.horizon):
+        return event
+    limit = _limit(motion, event)
+    wait, reached = _level_wait(stack, motion, 1.0, level, motion.band, limit)
+    return _earlier(motion, event, wait, reached, codes.LINEARISED)
+
+
+@kernel
+def _rise(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
+    """Return when c rises to where the curve of contact i changes, if before ``event``."""
+    level, kind, phase = math.inf, codes.CHECK, stack.phase[i]
+    if phase == codes.UNLOADED:
+        return event
+    turned = codes.COMPRESSING if has_hysteresis(stack, i) else codes.RELEASING
+    if phase == turned and _has_peaks(stack, i):
+        level, kind = stack.top[i], codes.RETURNED
+    if stack.law[i] == codes.PIECEWISE and stack.piece_high[i] < level:
+        level, kind = stack.piece_high[i], codes.CROSSED
+    if stack.linearised[i] == 1 and stack.linearised_below[i] < level:
+        level, kind = stack.linearised_below[i], codes.CURVED
+    if level == math.inf:
+        return event
+    limit = _limit(motion, event)
+    wait, reached = _level_wait(stack, motion, -1.0, level, motion.band, limit)
+    return _earlier(motion, event, wait, reached, kind)
+
+
+@kernel
+def _curve(stack: Stack, i: int, time: float, motion: Motion, event: Event) -> Event:
+    """Return when the impulse along the chord of contact i is spent, if before ``event``."""
+    if stack.linearised[i] == 0 or stack.rate[i] <= 0.0 or stack.phase[i] < codes.COMPRESSING:
+        return event
+    spent, first = stack.changed, stack.first[i]
+    order, power, tail = motion.order, motion.power, motion.tail
     s = time - stack.anchor[first]
     spent[0] = stack.linearised_impulse[i] + contact_impulse(stack, i, s)
     if stack.modal[first] == 1:
@@ -284,26 +304,73 @@ def _linearised_wait(
         spent[1] = 0.0  # remains 0 in a series in the root of time
         for k in range(root, order + 1):
             spent[k] = root * stack.scratch[k - root] / k
-    budget = linearised_impulse_limit(stack, i)
+    budget, limit = linearised_impulse_limit(stack, i), _limit(motion, event)
     band = 0.1 * budget
-    return _safe_wait(stack, spent, order, power, tail, 0.0, -1.0, budget, band, horizon)
+    wait, reached = _safe_wait(stack, spent, order, power, tail, 0.0, -1.0, budget, band, limit)
+    return _earlier(motion, event, wait, reached, codes.CURVED)
 
 
 @kernel
-def _gain_wait(
-    stack: Stack,
-    i: int,
-    time: float,
-    order: int,
-    power: int,
-    tail: float,
-    noise: float,
-    rate_noise: float,
-    root: int,
-    horizon: float,
-) -> tuple[float, bool]:
+def _turn(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
+    """Return when c stops rising or, with hysteresis, stops falling, if before ``event``.
+
+    The series in ``stack.watched`` becomes that of the rate.
+    """
+    rises = stack.phase[i] == codes.COMPRESSING
+    if not has_hysteresis(stack, i) and not (rises and _has_peaks(stack, i)):
+        return event
+    a, order, root, power = stack.watched, motion.order, motion.root, motion.power
+    for k in range(order - root + 1):
+        a[k] = (k + root) * a[k + root] / root
+    sign, tail, limit = 1.0 if rises else -1.0, power * motion.tail, _limit(motion, event)
+    wait, reached = _safe_wait(
+        stack, a, order - root, power - 1, tail, 0.0, sign, 0.0, motion.rate_band, limit
+    )
+    return _earlier(motion, event, wait, reached, codes.PEAK if rises else codes.DIP)
+
+
+@kernel
+def _keeps_curve(stack: Stack, i: int, time: float) -> bool:
+    """Return whether contact i surely has no event while its cluster's series is valid.
+
+    A lower bound of the compression, and of the gain of a damped contact, decides. It is true
+    during most of an interval, which saves the search for the event.
+    """
+    first, law = stack.first[i], stack.law[i]
+    if stack.modal[first] == 1 or stack.anchor[first] != time or stack.linearised[i] == 1:
+        return False
+    if law not in (codes.POWER, codes.PRODUCT) or stack.phase[i] != codes.COMPRESSING:
+        return False
+    horizon = series_time(stack, first, stack.due[len(stack.mass) + first] - time)
+    order, c = stack.order[first], stack.compression_series[i]
+    begins = stack.root[first] if c[0] == 0.0 else 0  # the lowest power of the series that is not 0
+    least = lower_bound(c, begins, order + stack.root[first], horizon)
+    if law == codes.PRODUCT and not lower_bound(stack.gain_series[i], 0, order, horizon) > 0.0:
+        return False
+    return least > _linearised_level(stack, i)
+
+
+@kernel
+def _linearised_level(stack: Stack, i: int) -> float:
+    """Return the compression below which contact i must be linearised; 0 if it need not be."""
+    smooth = stack.curve_exponent[i] == 0.0 or stack.curve_exponent[i] == 1.0
+    if smooth or stack.linearised[i] == 1 or stack.phase[i] == codes.UNLOADED:
+        return 0.0
+    if root_at(stack, i) == 2 and stack.phase[i] == codes.COMPRESSING:
+        return 0.0
+    ratio = max(_CHORD_ENTRY, 1.0 - _CHORD_LOGARITHMS / stack.curve_exponent[i])
+    return ratio * stack.linearised_below[i]
+
+
+@kernel
+def _gain_wait(stack: Stack, i: int, time: float, motion: Motion) -> tuple[float, bool]:
     """Return how long the gain of damped contact i surely keeps its sign; see `_safe_wait`."""
     a, gain = stack.watched, stack.changed
+    order, power, root, tail = motion.order, motion.power, motion.root, motion.tail
+    speed = abs(a[root])
+    noise = max(motion.noise, 16.0 * codes.EPSILON * abs(a[0])) + motion.tick * speed
+    rate_noise = max(motion.rate_noise, 16.0 * codes.EPSILON * (stack.speed[i] + speed))
+    rate_noise += motion.tick * abs(2.0 * a[2 * root])
     slope, rate = stack.gain_slope[i], stack.gain_rate[i]
     for k in range(order + 1):
         gain[k] = slope * a[k]
@@ -315,10 +382,10 @@ def _gain_wait(
         shift(stack.creep_series[i], order, since, stack.scratch)
         for k in range(order + 1):
             gain[k] -= stack.gain_creep[i] * stack.scratch[k]
-    noise = max(noise, EPSILON * EPSILON * stack.scale[i])
-    rate_noise = max(rate_noise, EPSILON * EPSILON * stack.number[SPEED])
-    clear = slope * noise + rate * rate_noise + 4.0 * EPSILON * stack.gain_constant[i]
-    sign = -1.0 if stack.phase[i] == UNLOADED else 1.0
+    noise = max(noise, codes.EPSILON * codes.EPSILON * stack.scale[i])
+    rate_noise = max(rate_noise, codes.EPSILON * codes.EPSILON * stack.number[SPEED])
+    clear = slope * noise + rate * rate_noise + 4.0 * codes.EPSILON * stack.gain_constant[i]
+    sign = -1.0 if stack.phase[i] == codes.UNLOADED else 1.0
     level = 0.0
     if stack.factor_exponent[i] > 0.0:
         clear += rate * stack.number[TOLERANCE] * stack.number[SPEED]
@@ -328,64 +395,54 @@ def _gain_wait(
         level = 2.0 * clear
     elif gain[0] <= clear and gain[1] < 0.0 and a[1] < 0.0:
         # an overdamped contact would open infinitely slowly, with a negligible force
-        return _zero_near(stack, i, time, order, root, 0.0, horizon), True
+        return _zero_near(stack, i, time, motion, 0.0), True
+    rest, more = rate * power * tail, slope * tail
     wait, reached = _safe_wait(
-        stack,
-        gain,
-        order,
-        power - 1,
-        rate * power * tail,
-        slope * tail,
-        sign,
-        level,
-        clear,
-        horizon,
+        stack, gain, order, power - 1, rest, more, sign, level, clear, motion.horizon
     )
     if reached and sign > 0.0:
-        wait = _zero_near(stack, i, time, order, root, wait, horizon)
+        wait = _zero_near(stack, i, time, motion, wait)
     return wait, reached
 
 
 @kernel
-def _zero_near(
-    stack: Stack, i: int, time: float, order: int, root: int, near: float, horizon: float
-) -> float:
+def _zero_near(stack: Stack, i: int, time: float, motion: Motion, near: float) -> float:
     """Return where the gain of contact i falls through zero, or ``near`` if that is near enough.
 
     Near enough is what the tolerance leaves of a time after many steps. Under strong damping the
     gain passes zero so gently that it is clear of its round-off only later than that. The result is
     ``near`` as well if Newton's method finds no zero from now to the horizon.
     """
-    share = _NEAR
+    share = _TIME_ERROR
     if stack.factor_exponent[i] > 0.0:
         share = max(share, KNOWN * stack.number[TOLERANCE])
-    gain, x, step = stack.changed, near, 0.0
-    found = near if root == 1 else near * near
-    for _ in range(_NEWTON):
+    gain, order, x, step = stack.changed, motion.order, near, 0.0
+    found = near if motion.root == 1 else near * near
+    for _ in range(_NEWTON_STEPS):
         rate = differentiate(gain, order, x)
         if rate >= 0.0:
             return near
         step = evaluate(gain, order, x) / rate
         x -= step
-        zero = x if root == 1 else x * x
-        if not 0.0 <= x <= horizon or abs(zero - found) <= share * (time + found):
+        zero = x if motion.root == 1 else x * x
+        if not 0.0 <= x <= motion.horizon or abs(zero - found) <= share * (time + found):
             return near
-    return x if abs(step) <= _CONVERGED * abs(x - near) else near
+    return x if abs(step) <= _LAST_STEP * abs(x - near) else near
 
 
 @kernel
-def _schedule(
-    stack: Stack, i: int, time: float, wait: float, reached: bool, kind: int, horizon: float
-) -> None:
-    """Schedule an event (``reached``) or a check of contact i after ``wait``.
+def _schedule(stack: Stack, i: int, time: float, motion: Motion, event: Event) -> None:
+    """Schedule an event of contact i, or a check if it is not certain to be reached.
 
     Nothing is scheduled if the cluster's series ends before: its renewal schedules the contact.
     """
-    if root_at(stack, i) == 2:
+    wait, reached, kind = event
+    horizon = motion.horizon
+    if motion.root == 2:
         wait, horizon = wait * wait, horizon * horizon
     if time + wait <= time:
         reached = True  # shorter than the resolution of float64 time
-    stack.event[i] = kind if reached else CHECK
+    stack.event[i] = kind if reached else codes.CHECK
     due = time + wait if wait < horizon else math.inf
     schedule(stack.due, stack.heap, stack.place, i, due)
 
@@ -411,6 +468,15 @@ def _never_meets(stack: Stack, i: int, a: Floats) -> bool:
     if i > 0:
         noise += stack.velocity_noise[i - 1]
     return a[1] <= noise
+
+
+@kernel
+def _level_wait(
+    stack: Stack, motion: Motion, sign: float, level: float, band: float, limit: float
+) -> tuple[float, bool]:
+    """Return how long the compression surely stays on one side of a level; see `_safe_wait`."""
+    order, power, tail = motion.order, motion.power, motion.tail
+    return _safe_wait(stack, stack.watched, order, power, tail, 0.0, sign, level, band, limit)
 
 
 @kernel
@@ -448,7 +514,7 @@ def _safe_wait(
         return parabola_root(f[0] - 0.5 * band, f[1], f[2]), True
     if tail == 0.0:
         return min(safe_step(f, order, 0.0, horizon), horizon), False
-    size = abs(f[0]) + band / EPSILON
+    size = abs(f[0]) + band / codes.EPSILON
     # where the remainder is as large, as a power of two: the choice of units changes no bit
     natural = times_power_of_two(8.0, exponent_of(size / tail) // power)
     if order < power and more == 0.0:

@@ -23,7 +23,7 @@ def bounce(
     Parameters
     ----------
     numbers : tuple
-        A contact as in `prepare`: form of the force, stiffness, exponent and two law parameters.
+        A contact: the form of its force and four numbers, see `forces`.
     mass, speed : float
         In kg and m/s.
     pieces : sequence of float, optional

@@ -1,6 +1,6 @@
 """Contacts whose loading curve has several pieces, each a polynomial of the compression.
 
-A piece is told by four numbers: the compression x at which it begins, and the coefficients of
+A piece has four numbers: the compression x at which it begins, and the coefficients of
 
     F = k (a + b (c - x) + s (c - x)^2).
 
@@ -12,7 +12,7 @@ that rises to 1 at the peak, see `cycles`. This share is
 - 1 - g + g (c/C)^M, where g is such that a given share e^2 of the work is returned. The exponent M
   is (P + 1) (1/e^2 - 1), where no loading curve is steeper than c^P seen from 0: the work W up to
   c is at least c F/(P + 1), so that g is at most 1;
-- straight pieces of its own, over c/C, each of which is told by four numbers as well.
+- straight pieces of its own, over c/C, each of which has four numbers as well.
 
 Where a compression passes from one piece into the next is an event (CROSSED): inside a piece the
 motion is analytic.
@@ -26,8 +26,8 @@ from stackbounce.engine.kernels import kernel
 from stackbounce.engine.stack import MOST_PIECES, PIECE_NUMBERS, Stack
 
 _BEGIN, _CONSTANT, _SLOPE, _SQUARE = 0, 1, 2, 3  # numbers of a piece
-_HALVINGS = 60
-_ROUND_OFF = 4.0 * EPSILON
+_HALVINGS = 60  # of a range of compressions whose ends are a factor of 2 apart
+_ROUND_OFF = 4.0 * EPSILON  # of a share
 
 
 @kernel
@@ -42,8 +42,8 @@ def take_two_stages(stack: Stack, i: int, knee: float, softening: float, returne
 def take_table(stack: Stack, i: int, loading: int, loss: float, returned: float) -> None:
     """Give contact i the loading pieces that ``stack.pieces`` holds already.
 
-    If ``returned`` is 0, so many pieces of the share as ``loss`` says follow them; else ``loss`` is
-    the exponent M.
+    If ``returned`` is 0, ``loss`` is the number of pieces of the share, which follow them; else it
+    is the exponent M.
     """
     stack.law[i] = PIECEWISE
     stack.loading_pieces[i] = loading

@@ -12,7 +12,7 @@ def find_ratios(drops: Drops, out: Outcomes) -> None:
     for row in range(len(out.status)):
         before, after = drops.velocity[row], out.velocity[row]
         out.energy_retained[row] = energy_kept(drops.mass[row], before, after)
-        speed = _largest_speed(before)
+        speed = largest_speed(before)
         for b in range(len(after)):
             out.rebound_ratio[row, b] = after[b] / speed
 
@@ -20,7 +20,7 @@ def find_ratios(drops: Drops, out: Outcomes) -> None:
 @kernel
 def energy_kept(mass: Floats, before: Floats, after: Floats) -> float:
     """Return the ratio of the kinetic energies after and before the impact; nan if it was 0."""
-    heaviest, speed = 0.0, _largest_speed(before)
+    heaviest, speed = 0.0, largest_speed(before)
     for m in mass:
         heaviest = max(heaviest, m)
     came, left = 0.0, 0.0
@@ -32,7 +32,7 @@ def energy_kept(mass: Floats, before: Floats, after: Floats) -> float:
 
 
 @kernel
-def _largest_speed(velocity: Floats) -> float:
+def largest_speed(velocity: Floats) -> float:
     """Return the largest absolute velocity: the impact speed v0, the unit of rebound ratios."""
     speed = 0.0
     for v in velocity:

@@ -16,14 +16,14 @@ from stackbounce.engine.kernels import (
 
 
 class Drops(NamedTuple):
-    """The numbers of drops: (rows, balls) arrays, and (rows,) gravity; see `preparation`."""
+    """The numbers of drops: (rows, balls) arrays, and (rows,) gravity."""
 
     mass: FloatTable
-    kind: IntegerTable  # of law, see `preparation`
-    stiffness: FloatTable
-    exponent: FloatTable
-    law_parameter: FloatTable
-    second_parameter: FloatTable
+    form: IntegerTable  # of force, and its four numbers, see `forces`
+    first: FloatTable
+    second: FloatTable
+    third: FloatTable
+    fourth: FloatTable
     gap: FloatTable  # below each ball; the lowest one's is 0
     velocity: FloatTable
     gravity: FloatColumn

@@ -33,22 +33,16 @@ from stackbounce.engine.cycles import (
     loading_compression,
     loading_force,
 )
-from stackbounce.engine.forces import (
-    arm_energy,
-    creeps,
-    force,
-    is_damped,
-    potential,
-    static_state,
-)
+from stackbounce.engine.forces import arm_energy, creeps, force, is_damped, potential, static_state
 from stackbounce.engine.kernels import kernel
 from stackbounce.engine.pieces import find_piece
 from stackbounce.engine.slots import GRAVITY, SPEED, TOLERANCE
 from stackbounce.engine.stack import TERMS, Stack
 
-_STILL = 1e-9
-_HALVINGS = 60
-_NEAR = 0.01  # of that energy: what may be left of a vibration that hysteresis alone damps
+_STILL = 1e-9  # of the reference speed: a damped vibration that is slower is at rest
+_HALVINGS = 60  # of a range of compressions
+# of the energy that opens a contact: what may be left of a vibration that hysteresis alone damps
+_LEFT_BY_HYSTERESIS = 0.01
 
 
 @kernel
@@ -89,7 +83,7 @@ def is_bound(stack: Stack) -> bool:
     still = max(_STILL, 100.0 * stack.number[TOLERANCE])
     if damped:
         return excess < barrier and excess <= still * still * reference
-    return excess < (_NEAR if hysteresis else 1.0) * barrier
+    return excess < (_LEFT_BY_HYSTERESIS if hysteresis else 1.0) * barrier
 
 
 @kernel

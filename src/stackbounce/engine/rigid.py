@@ -6,30 +6,7 @@ contact. If more than two contacts close at the same time the outcome depends on
 
 import math
 
-from stackbounce.engine.codes import (
-    ABSENT,
-    COLLAPSED,
-    COLLISION,
-    CONTACT,
-    ENDLESS,
-    EVENT_LIMIT,
-    EXTREME,
-    FINISHED,
-    IMPULSE,
-    INVALID,
-    KIND,
-    LOG_COLUMNS,
-    LOWER_VELOCITY,
-    PEAK_COMPRESSION,
-    PEAK_FORCE,
-    PEAK_TIME,
-    RUNNING,
-    SETTLED,
-    START,
-    TIME,
-    TIME_REACHED,
-    UPPER_VELOCITY,
-)
+from stackbounce.engine import codes, slots
 from stackbounce.engine.collapse import find_collapse, keep_state
 from stackbounce.engine.event_queue import clear_queue
 from stackbounce.engine.flight import (
@@ -45,21 +22,9 @@ from stackbounce.engine.flight import (
     wake,
 )
 from stackbounce.engine.kernels import Floats, kernel
+from stackbounce.engine.log import append_row
 from stackbounce.engine.restitution import loses_energy, next_restitution
 from stackbounce.engine.settling import earliest_other, settle
-from stackbounce.engine.slots import (
-    BALLS_AT_REST,
-    CAUSE,
-    EVENTS,
-    GRAVITY,
-    KEEP_AFTER,
-    LAST_EVENT,
-    LOG_ROWS,
-    LOWEST_LOSSY,
-    NEXT_SAMPLE,
-    SPEED,
-    UNIT,
-)
 from stackbounce.engine.stack import RigidStack, Samples
 
 _ROWS = 5  # rows of the log that one collision can fill
@@ -71,15 +36,17 @@ _SMALL = 2.0**-600  # slower speeds are scaled up by its inverse: only ratios ma
 def begin_collisions(stack: RigidStack) -> None:
     """Set up a new rigid stack and schedule its first collisions."""
     size = len(stack.mass)
-    stack.memory[KEEP_AFTER] = 1
-    stack.resting[LOWEST_LOSSY] = size
+    stack.memory[slots.KEEP_AFTER] = 1
+    stack.resting[slots.LOWEST_LOSSY] = size
     clear_queue(stack.due, stack.heap, stack.place)
     for i in range(size):
-        stack.number[SPEED] = max(stack.number[SPEED], abs(stack.velocity[i]) * stack.number[UNIT])
+        stack.number[slots.SPEED] = max(
+            stack.number[slots.SPEED], abs(stack.velocity[i]) * stack.number[slots.UNIT]
+        )
         below = stack.velocity[i - 1] if i > 0 else 0.0
         stack.rate[i] = below - stack.velocity[i]
         if loses_energy(stack, i):
-            stack.resting[LOWEST_LOSSY] = min(stack.resting[LOWEST_LOSSY], i)
+            stack.resting[slots.LOWEST_LOSSY] = min(stack.resting[slots.LOWEST_LOSSY], i)
         schedule_collision(stack, i)
     keep_state(stack, -1, 0.0)
     settle(stack, math.inf)
@@ -94,28 +61,28 @@ def collide_all(
     Fills ``samples`` on the way and returns the status; counter[LOG_ROWS] is the length of the log.
     The status is RUNNING if the log is full: the caller continues.
     """
-    room = len(log) // LOG_COLUMNS
+    room = len(log) // codes.LOG_COLUMNS
     while True:
         contact = stack.heap[0]
         wait = max(0.0, stack.due[contact] - stack.now[0])
-        time = stack.clock[LAST_EVENT] + wait
+        time = stack.clock[slots.LAST_EVENT] + wait
         if math.isnan(time):
-            return INVALID
+            return codes.INVALID
         if _is_over(stack, until):
             _record_samples(stack, samples, math.inf)
             return _final_status(stack)
         _record_samples(stack, samples, min(time, until))
         if time > until:
-            return TIME_REACHED
+            return codes.TIME_REACHED
         if time == math.inf:
             return _final_status(stack)
-        if stack.counter[EVENTS] >= event_limit:
-            stack.counter[CAUSE] = _cause_of_limit(stack)
-            return EVENT_LIMIT
-        if stack.counter[LOG_ROWS] + _ROWS > room:
-            return RUNNING
+        if stack.counter[slots.EVENTS] >= event_limit:
+            stack.counter[slots.CAUSE] = _cause_of_limit(stack)
+            return codes.EVENT_LIMIT
+        if stack.counter[slots.LOG_ROWS] + _ROWS > room:
+            return codes.RUNNING
         stack.now[0] += wait
-        stack.clock[LAST_EVENT] = time
+        stack.clock[slots.LAST_EVENT] = time
         _collide(stack, contact, log)
         find_collapse(stack, contact, until, log)
         settle(stack, until)
@@ -125,7 +92,7 @@ def collide_all(
 @kernel
 def rigid_velocity(stack: RigidStack, b: int, time: float) -> float:
     """Return the velocity of ball b in m/s at a time after the last collision."""
-    return velocity_after(stack, b, time - stack.clock[LAST_EVENT]) * stack.number[UNIT]
+    return velocity_after(stack, b, time - stack.clock[slots.LAST_EVENT]) * stack.number[slots.UNIT]
 
 
 @kernel
@@ -134,13 +101,13 @@ def _is_over(stack: RigidStack, until: float) -> bool:
 
     It is over if all balls rest or, without an end time, if no contact closes any more.
     """
-    if stack.resting[BALLS_AT_REST] == len(stack.mass):
+    if stack.resting[slots.BALLS_AT_REST] == len(stack.mass):
         return True
-    if stack.number[GRAVITY] == 0.0 or until < math.inf:
+    if stack.number[slots.GRAVITY] == 0.0 or until < math.inf:
         return False
-    contact = stack.resting[BALLS_AT_REST]
+    contact = stack.resting[slots.BALLS_AT_REST]
     noise = stack.rate_noise[contact]
-    if stack.law[contact] != ABSENT and rate_after(stack, contact, 0.0) > noise:
+    if stack.law[contact] != codes.ABSENT and rate_after(stack, contact, 0.0) > noise:
         return False
     return earliest_other(stack, contact) == math.inf
 
@@ -151,7 +118,7 @@ def _cause_of_limit(stack: RigidStack) -> int:
     lightest, heaviest = math.inf, 0.0
     for mass in stack.mass:
         lightest, heaviest = min(lightest, mass), max(heaviest, mass)
-    return EXTREME if heaviest > _EXTREME * lightest else ENDLESS
+    return codes.EXTREME if heaviest > _EXTREME * lightest else codes.ENDLESS
 
 
 @kernel
@@ -159,13 +126,13 @@ def _final_status(stack: RigidStack) -> int:
     """Return the status of a sequence without further collisions."""
     for velocity in stack.velocity:
         if not math.isfinite(velocity):
-            return INVALID
-    if stack.resting[BALLS_AT_REST] == len(stack.mass):
-        return SETTLED
+            return codes.INVALID
+    if stack.resting[slots.BALLS_AT_REST] == len(stack.mass):
+        return codes.SETTLED
     for infinite in stack.infinite:
         if infinite == 1:
-            return COLLAPSED
-    return FINISHED
+            return codes.COLLAPSED
+    return codes.FINISHED
 
 
 @kernel
@@ -219,20 +186,13 @@ def _collide(stack: RigidStack, i: int, log: Floats) -> None:
     stack.compression[i] = 0.0
     for j in range(max(i - 1, 0), min(i + 2, len(stack.mass))):
         schedule_collision(stack, j)
-    factor = stack.number[UNIT]
-    at = stack.counter[LOG_ROWS] * LOG_COLUMNS
-    log[at + TIME] = stack.clock[LAST_EVENT]
-    log[at + CONTACT] = i
-    log[at + KIND] = COLLISION
-    log[at + LOWER_VELOCITY] = lower_velocity * factor
-    log[at + UPPER_VELOCITY] = stack.velocity[i] * factor
-    log[at + START] = stack.clock[LAST_EVENT]
-    log[at + PEAK_FORCE] = math.inf
-    log[at + PEAK_TIME] = stack.clock[LAST_EVENT]
-    log[at + PEAK_COMPRESSION] = 0.0
-    log[at + IMPULSE] = impulse * factor
-    stack.counter[LOG_ROWS] += 1
-    stack.counter[EVENTS] += 1
+    factor, time = stack.number[slots.UNIT], stack.clock[slots.LAST_EVENT]
+    below, above = lower_velocity * factor, stack.velocity[i] * factor
+    at = append_row(log, stack.counter, codes.COLLISION, i, time, time, below, above)
+    log[at + codes.PEAK_FORCE] = math.inf
+    log[at + codes.PEAK_TIME] = time
+    log[at + codes.IMPULSE] = impulse * factor
+    stack.counter[slots.EVENTS] += 1
 
 
 @kernel
@@ -241,7 +201,7 @@ def _keep_in_range(stack: RigidStack) -> None:
 
     Times do not change. Under gravity nothing is scaled.
     """
-    if stack.number[GRAVITY] > 0.0:
+    if stack.number[slots.GRAVITY] > 0.0:
         return
     for velocity in stack.velocity:
         if velocity == 0.0 or abs(velocity) > _SMALL:
@@ -251,29 +211,29 @@ def _keep_in_range(stack: RigidStack) -> None:
         stack.rate[i] /= _SMALL
         stack.rate_noise[i] /= _SMALL
         stack.compression[i] /= _SMALL
-    stack.number[UNIT] *= _SMALL
-    keep_state(stack, -1, stack.clock[LAST_EVENT])
+    stack.number[slots.UNIT] *= _SMALL
+    keep_state(stack, -1, stack.clock[slots.LAST_EVENT])
 
 
 @kernel
 def _record_samples(stack: RigidStack, samples: Samples, time: float) -> None:
     """Record every ball and contact at the sample times up to a time."""
     size = len(stack.mass)
-    factor = stack.number[UNIT]
+    factor = stack.number[slots.UNIT]
     while (
-        stack.counter[NEXT_SAMPLE] < len(samples.time)
-        and samples.time[stack.counter[NEXT_SAMPLE]] <= time
+        stack.counter[slots.NEXT_SAMPLE] < len(samples.time)
+        and samples.time[stack.counter[slots.NEXT_SAMPLE]] <= time
     ):
-        moment = samples.time[stack.counter[NEXT_SAMPLE]]
-        later = moment - stack.clock[LAST_EVENT]
-        at = stack.counter[NEXT_SAMPLE] * size
+        moment = samples.time[stack.counter[slots.NEXT_SAMPLE]]
+        later = moment - stack.clock[slots.LAST_EVENT]
+        at = stack.counter[slots.NEXT_SAMPLE] * size
         position = 0.0
         for i in range(size):
             compression = compression_after(stack, i, later) * factor
-            if stack.clock[LAST_EVENT] + (stack.due[i] - stack.now[0]) == moment:
+            if stack.clock[slots.LAST_EVENT] + (stack.due[i] - stack.now[0]) == moment:
                 compression = 0.0
             position -= compression
             samples.position[at + i] = position
             samples.velocity[at + i] = velocity_after(stack, i, later) * factor
             samples.compression[at + i] = compression
-        stack.counter[NEXT_SAMPLE] += 1
+        stack.counter[slots.NEXT_SAMPLE] += 1

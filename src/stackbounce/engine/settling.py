@@ -23,6 +23,7 @@ below them loses energy.
 
 import math
 
+from stackbounce.engine import slots
 from stackbounce.engine.codes import ABSENT, RIGID_LOSS
 from stackbounce.engine.flight import (
     anchor_balls,
@@ -34,14 +35,6 @@ from stackbounce.engine.flight import (
 )
 from stackbounce.engine.kernels import kernel
 from stackbounce.engine.restitution import loss_at, settling_loss
-from stackbounce.engine.slots import (
-    BALLS_AT_REST,
-    GRAVITY,
-    LAST_EVENT,
-    LOWEST_LOSSY,
-    SPEED,
-    UNIT,
-)
 from stackbounce.engine.stack import RigidStack
 
 NEGLIGIBLE_TIME = 1e-12  # longest duration of collisions left out, over the time elapsed
@@ -52,10 +45,10 @@ _LOW = 1e-6  # of the impact speed: bounces at lower speeds are left out if thei
 @kernel
 def settle(stack: RigidStack, until: float) -> None:
     """Find the balls that have come to rest, the lowest first, and set them at rest."""
-    if stack.number[GRAVITY] == 0.0 or stack.law[0] == ABSENT:
+    if stack.number[slots.GRAVITY] == 0.0 or stack.law[0] == ABSENT:
         return
-    while stack.resting[BALLS_AT_REST] < len(stack.mass):
-        low = stack.resting[BALLS_AT_REST]
+    while stack.resting[slots.BALLS_AT_REST] < len(stack.mass):
+        low = stack.resting[slots.BALLS_AT_REST]
         if stack.anchor[low] != stack.now[0] or stack.compression[low] < 0.0:
             return
         if abs(stack.rate[low]) <= stack.rate_noise[low]:
@@ -95,7 +88,7 @@ def _set_at_rest(stack: RigidStack, low: int, high: int) -> None:
         stack.rate_noise[i] = 0.0
         stack.velocity[i] = 0.0
         stack.since[i] = stack.now[0]
-    stack.resting[BALLS_AT_REST] = high + 1
+    stack.resting[slots.BALLS_AT_REST] = high + 1
     for i in range(low, high + 1):
         schedule_collision(stack, i)
     if high + 1 < len(stack.mass):
@@ -111,12 +104,12 @@ def _finish_bouncing(stack: RigidStack, until: float) -> bool:
 
     This is done only if what is left out is negligible. Returns whether it was done.
     """
-    gravity, speed = stack.number[GRAVITY], -stack.rate[0]
+    gravity, speed = stack.number[slots.GRAVITY], -stack.rate[0]
     if speed < 0.0:
         return False
     flight = 2.0 * speed / gravity
     duration = _time_to_rest(stack, speed, flight)
-    if stack.clock[LAST_EVENT] + duration > until:
+    if stack.clock[slots.LAST_EVENT] + duration > until:
         return False
     if earliest_other(stack, 0) <= stack.now[0] + duration:
         return False
@@ -138,7 +131,7 @@ def _finish_bouncing(stack: RigidStack, until: float) -> bool:
         stack.compression[1] = -height
         stack.since[1] = stack.now[0] + duration
         stack.anchor[1] = stack.now[0] + duration
-    stack.clock[LAST_EVENT] += duration
+    stack.clock[slots.LAST_EVENT] += duration
     stack.now[0] += duration
     stack.compression[0] = 0.0
     stack.rate[0] = 0.0
@@ -159,12 +152,12 @@ def _time_to_rest(stack: RigidStack, speed: float, flight: float) -> float:
     share = settling_loss(stack, 0, speed)
     if share == 0.0:
         return math.inf
-    negligible = NEGLIGIBLE_TIME * stack.clock[LAST_EVENT]
+    negligible = NEGLIGIBLE_TIME * stack.clock[slots.LAST_EVENT]
     if flight / share <= negligible:
         return flight / share
     if stack.law[0] == RIGID_LOSS and stack.scatter[0] == 0.0:
         loss = loss_at(stack, 0, speed)
-        slow = speed * stack.number[UNIT] <= _LOW * stack.number[SPEED]
+        slow = speed * stack.number[slots.UNIT] <= _LOW * stack.number[slots.SPEED]
         if slow and flight * loss * loss * loss <= negligible:
             return flight * _sum_of_bounces(loss, stack.exponent[0])
     return math.inf
@@ -189,10 +182,10 @@ def _highest_settling(stack: RigidStack, low: int) -> int:
     speed of that ball. The result is less than ``low`` if there is no such ball, or if no contact
     loses energy. Ball 0 alone on a lossy floor is left to `_finish_bouncing`, which is exact.
     """
-    lossy = stack.resting[LOWEST_LOSSY]
+    lossy = stack.resting[slots.LOWEST_LOSSY]
     if lossy == len(stack.mass):
         return low - 1
-    gravity = stack.number[GRAVITY]
+    gravity = stack.number[slots.GRAVITY]
     height, longest, high = 0.0, 0.0, low - 1
     for i in range(low, len(stack.mass)):
         height += max(0.0, -compression_after(stack, i, 0.0))
@@ -200,7 +193,7 @@ def _highest_settling(stack: RigidStack, low: int) -> int:
         fall = (speed + math.sqrt(speed * speed + 2.0 * gravity * height)) / gravity
         longest = max(longest, fall)
         part = _NEGLIGIBLE_FLIGHT * settling_loss(stack, lossy, gravity * longest)
-        limit = part * stack.clock[LAST_EVENT]
+        limit = part * stack.clock[slots.LAST_EVENT]
         if longest > limit:
             break
         alone = True

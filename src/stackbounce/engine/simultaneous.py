@@ -7,41 +7,10 @@ event changes the clusters beside it only.
 
 import math
 
+from stackbounce.engine import codes, slots
 from stackbounce.engine.bodies import have_parted, load_floor
-from stackbounce.engine.codes import (
-    ABSENT,
-    CHECK,
-    CLIPPED,
-    COMPRESSING,
-    CONTACT,
-    ENDLESS,
-    EPSILON,
-    EVENT_LIMIT,
-    EXTREME,
-    FINISHED,
-    IMPULSE,
-    INVALID,
-    KIND,
-    LOG_COLUMNS,
-    LOWER_VELOCITY,
-    OPEN,
-    PEAK,
-    PEAK_COMPRESSION,
-    PEAK_FORCE,
-    PEAK_TIME,
-    RELEASE,
-    RESUMED,
-    RUNNING,
-    SETTLED,
-    START,
-    STIFF,
-    TIME,
-    TIME_REACHED,
-    TOUCH,
-    UNLOADED,
-    UPPER_VELOCITY,
-)
 from stackbounce.engine.contacts import (
+    approach_speed,
     change_curve,
     change_phase,
     changes_curve,
@@ -53,6 +22,7 @@ from stackbounce.engine.contacts import (
 from stackbounce.engine.event_queue import clear_queue, schedule
 from stackbounce.engine.forces import arm_energy, force, held_energy, stored_energy, surface
 from stackbounce.engine.kernels import Floats, kernel
+from stackbounce.engine.log import append_row
 from stackbounce.engine.motion import (
     advance_cluster,
     allows_root_series,
@@ -70,23 +40,6 @@ from stackbounce.engine.motion import (
 )
 from stackbounce.engine.next_event import schedule_next_event
 from stackbounce.engine.rest import is_bound, set_static_state
-from stackbounce.engine.slots import (
-    APPROACHING,
-    BONDS,
-    CAUSE,
-    CHECKS,
-    CLOSED,
-    EVENTS,
-    GRAVITY,
-    LAST_CHECK,
-    LAST_EVENT,
-    LOG_ROWS,
-    NEXT_SAMPLE,
-    STEPS,
-    STEPS_BEFORE,
-    TOLERANCE,
-    WORK,
-)
 from stackbounce.engine.stack import Samples, Stack
 from stackbounce.engine.taylor import record_series_peaks
 from stackbounce.engine.work import SLICE, STANDSTILL, STEP
@@ -105,7 +58,7 @@ def begin_contacts(stack: Stack) -> None:
     size = len(stack.mass)
     clear_queue(stack.due, stack.heap, stack.place)
     for i in range(size):
-        stack.phase[i] = OPEN
+        stack.phase[i] = codes.OPEN
         stack.curve_exponent[i] = 1.0
         stack.touching[i] = 0.0
         stack.pushed[i] = 0
@@ -127,47 +80,47 @@ def advance_contacts(
     The status is RUNNING if the log is full, or after a slice of work: the caller continues.
     """
     size = len(stack.mass)
-    room = len(log) // LOG_COLUMNS - size  # the rest is for `log_unfinished`
-    pause = min(stack.counter[WORK] + SLICE, work_limit)
-    if stack.counter[STEPS] == 0 and until == math.inf and _all_separating(stack):
+    room = len(log) // codes.LOG_COLUMNS - size  # the rest is for `log_unfinished`
+    pause = min(stack.counter[slots.WORK] + SLICE, work_limit)
+    if stack.counter[slots.STEPS] == 0 and until == math.inf and _all_separating(stack):
         _record_samples(stack, samples, math.inf)
         return _final_status(stack)
     while True:
         slot = stack.heap[0]
         time = stack.due[slot]
         if time < 0.0:
-            return INVALID
+            return codes.INVALID
         _record_samples(stack, samples, min(time, until))
         if time > until:
-            return TIME_REACHED
+            return codes.TIME_REACHED
         if time == math.inf:
             return _final_status(stack)
-        if stack.counter[WORK] >= pause and pause < work_limit:
-            return RUNNING
-        if stack.counter[WORK] >= pause or _meets_limit(stack, until, event_limit):
-            stack.counter[CAUSE] = _cause_of_limit(stack)
-            return EVENT_LIMIT
-        if stack.counter[LOG_ROWS] == room:
-            return RUNNING
-        stack.clock[LAST_CHECK] = time
-        stack.counter[STEPS] += 1
-        stack.counter[WORK] += STEP
+        if stack.counter[slots.WORK] >= pause and pause < work_limit:
+            return codes.RUNNING
+        if stack.counter[slots.WORK] >= pause or _meets_limit(stack, until, event_limit):
+            stack.counter[slots.CAUSE] = _cause_of_limit(stack)
+            return codes.EVENT_LIMIT
+        if stack.counter[slots.LOG_ROWS] == room:
+            return codes.RUNNING
+        stack.clock[slots.LAST_CHECK] = time
+        stack.counter[slots.STEPS] += 1
+        stack.counter[slots.WORK] += STEP
         if slot >= size:
-            stack.counter[CHECKS] += 1
+            stack.counter[slots.CHECKS] += 1
             _expand_again(stack, slot - size, time)
             if _lies(stack) and is_bound(stack):
                 set_static_state(stack)
                 _record_samples(stack, samples, math.inf)
-                return SETTLED
-            if stack.setting[BONDS] > 0 and until == math.inf and _is_over(stack, time, samples):
+                return codes.SETTLED
+            if until == math.inf and _is_over(stack, time, samples):
                 return _final_status(stack)
-        elif stack.event[slot] == CHECK:
-            stack.counter[CHECKS] += 1
+        elif stack.event[slot] == codes.CHECK:
+            stack.counter[slots.CHECKS] += 1
             _reschedule(stack, slot, time)
         else:
             kind = stack.event[slot]
             _apply_event(stack, slot, kind, time, log)
-            if kind == RELEASE and until == math.inf and _all_separating(stack):
+            if kind == codes.RELEASE and until == math.inf and _all_separating(stack):
                 _record_samples(stack, samples, math.inf)
                 return _final_status(stack)
 
@@ -178,10 +131,10 @@ def _meets_limit(stack: Stack, until: float, event_limit: int) -> bool:
 
     A stack that lies is left where no contact has opened or closed for long, if no end is set.
     """
-    if max(stack.counter[EVENTS], stack.counter[CHECKS]) >= event_limit:
+    if max(stack.counter[slots.EVENTS], stack.counter[slots.CHECKS]) >= event_limit:
         return True
-    steps = stack.counter[STEPS]
-    swings = steps - stack.counter[STEPS_BEFORE] >= _SWINGING
+    steps = stack.counter[slots.STEPS]
+    swings = steps - stack.counter[slots.STEPS_BEFORE] >= _SWINGING
     return swings and until == math.inf and _lies(stack)
 
 
@@ -191,84 +144,87 @@ def _cause_of_limit(stack: Stack) -> int:
     lightest, heaviest, shortest, longest = math.inf, 0.0, math.inf, 0.0
     for i in range(len(stack.mass)):
         lightest, heaviest = min(lightest, stack.mass[i]), max(heaviest, stack.mass[i])
-        if stack.law[i] != ABSENT:
+        if stack.law[i] != codes.ABSENT:
             shortest, longest = min(shortest, stack.scale[i]), max(longest, stack.scale[i])
     if longest > _EXTREME * shortest or heaviest > _EXTREME * _EXTREME * lightest:
-        return EXTREME
-    stiff = not _lies(stack) and stack.counter[STEPS] > _STIFF * stack.counter[EVENTS]
-    return STIFF if stiff else ENDLESS
+        return codes.EXTREME
+    stiff = not _lies(stack) and stack.counter[slots.STEPS] > _STIFF * stack.counter[slots.EVENTS]
+    return codes.STIFF if stiff else codes.ENDLESS
 
 
 @kernel
 def _is_over(stack: Stack, time: float, samples: Samples) -> bool:
     """Return whether bodies have parted for good; they are followed on to the last sample."""
-    return stack.counter[NEXT_SAMPLE] == len(samples.time) and have_parted(stack, time)
+    if stack.setting[slots.BONDS] == 0:
+        return False
+    return stack.counter[slots.NEXT_SAMPLE] == len(samples.time) and have_parted(stack, time)
 
 
 @kernel
 def _lies(stack: Stack) -> bool:
     """Return whether all balls are pressed together by their weight."""
-    return stack.number[GRAVITY] > 0.0 and stack.counter[CLOSED] == len(stack.mass)
+    return stack.number[slots.GRAVITY] > 0.0 and stack.counter[slots.CLOSED] == len(stack.mass)
 
 
 @kernel
 def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     """Apply an event of contact i."""
-    if time <= stack.clock[LAST_EVENT]:
-        stack.counter[WORK] += STANDSTILL
-    stack.counter[EVENTS] += 1
-    stack.counter[CHECKS] = 0
-    if kind in (TOUCH, RELEASE):
-        stack.counter[STEPS_BEFORE] = stack.counter[STEPS]
+    if time <= stack.clock[slots.LAST_EVENT]:
+        stack.counter[slots.WORK] += STANDSTILL
+    stack.counter[slots.EVENTS] += 1
+    stack.counter[slots.CHECKS] = 0
+    if kind in (codes.TOUCH, codes.RELEASE):
+        stack.counter[slots.STEPS_BEFORE] = stack.counter[slots.STEPS]
     compression = compression_at(stack, i, time)
-    if kind == PEAK:
+    if kind == codes.PEAK:
         record_peak(stack, i, compression, force(stack, i, compression, 0.0, 0.0), time)
-    if kind not in (TOUCH, RELEASE) and not changes_curve(stack, i, kind):
+    if kind not in (codes.TOUCH, codes.RELEASE) and not changes_curve(stack, i, kind):
         change_phase(stack, i, kind)
         _reschedule(stack, i, time)
-        stack.clock[LAST_EVENT] = time
+        stack.clock[slots.LAST_EVENT] = time
         return
-    if kind == RELEASE and stack.phase[i] == UNLOADED:
+    if kind == codes.RELEASE and stack.phase[i] == codes.UNLOADED:
         _open_unloaded(stack, i, compression, log)
         _reschedule(stack, i, time)
         return
     bottom = stack.first[max(i - 1, 0)]
     top = stack.last[i]
     logical = time
-    if kind in (TOUCH, RELEASE):
+    if kind in (codes.TOUCH, codes.RELEASE):
         logical = _zero_crossing(stack, i, time)
     overlap = compression - surface(stack, i, creep_at(stack, i, time))
-    if kind == TOUCH and allows_root_series(stack) and logical >= stack.anchor[stack.first[i]]:
+    exact = allows_root_series(stack) and logical >= stack.anchor[stack.first[i]]
+    if kind == codes.TOUCH and exact:
         time, overlap = logical, 0.0 if logical < time else overlap
     advance_cluster(stack, i, time)
     if i > 0 and stack.first[i - 1] != stack.first[i]:
         advance_cluster(stack, i - 1, time)
-    if kind == TOUCH:
+    if kind == codes.TOUCH:
         stack.creep[i] = creep_at(stack, i, time)
         close_contact(stack, i, logical)
         logical = stack.start[i]
         overlap = _first_overlap(stack, i, overlap, time)
         stack.compression[i] = surface(stack, i, stack.creep[i]) + overlap
-    elif kind == RELEASE:
-        stack.phase[i] = OPEN
+    elif kind == codes.RELEASE:
+        stack.phase[i] = codes.OPEN
         stack.released[i] = logical
-        stack.counter[CLOSED] -= 1
+        stack.counter[slots.CLOSED] -= 1
         stack.compression[i] = min(stack.compression[i], surface(stack, i, stack.creep[i]))
         stack.creep_time[i] = time
-    elif kind == CLIPPED:
+    elif kind == codes.CLIPPED:
         clip(stack, i, time)
     else:
         change_curve(stack, i, kind)
     form_clusters(stack, bottom, top, time)
-    changed = kind in (TOUCH, RELEASE, CLIPPED, RESUMED)
+    changed = kind in (codes.TOUCH, codes.RELEASE, codes.CLIPPED, codes.RESUMED)
     for j in range(bottom, min(top + 2, len(stack.mass))):
-        if stack.phase[j] == OPEN and changed:
+        if stack.phase[j] == codes.OPEN and changed:
             _track_touching(stack, j, logical)
         schedule_next_event(stack, j, time)
-    stack.clock[LAST_EVENT] = max(stack.clock[LAST_EVENT], logical)
-    if kind == TOUCH and _is_unresolved(stack, i, time):
+    stack.clock[slots.LAST_EVENT] = max(stack.clock[slots.LAST_EVENT], logical)
+    if kind == codes.TOUCH and _is_unresolved(stack, i, time):
         schedule(stack.due, stack.heap, stack.place, i, -math.inf)
-    if kind in (TOUCH, RELEASE):
+    if kind in (codes.TOUCH, codes.RELEASE):
         _log_event(stack, i, kind, logical, log)
 
 
@@ -278,14 +234,14 @@ def _open_unloaded(stack: Stack, i: int, compression: float, log: Floats) -> Non
 
     No motion changes, because the force has been 0 since then.
     """
-    stack.phase[i] = OPEN
+    stack.phase[i] = codes.OPEN
     stack.released[i] = stack.clip_time[i]
-    stack.counter[CLOSED] -= 1
+    stack.counter[slots.CLOSED] -= 1
     stack.compression[i] -= max(0.0, compression)
-    _log_event(stack, i, RELEASE, stack.clip_time[i], log)
-    at = (stack.counter[LOG_ROWS] - 1) * LOG_COLUMNS
-    log[at + LOWER_VELOCITY] = stack.clip_lower[i]
-    log[at + UPPER_VELOCITY] = stack.clip_upper[i]
+    _log_event(stack, i, codes.RELEASE, stack.clip_time[i], log)
+    at = (stack.counter[slots.LOG_ROWS] - 1) * codes.LOG_COLUMNS
+    log[at + codes.LOWER_VELOCITY] = stack.clip_lower[i]
+    log[at + codes.UPPER_VELOCITY] = stack.clip_upper[i]
 
 
 @kernel
@@ -295,10 +251,8 @@ def _is_unresolved(stack: Stack, i: int, time: float) -> bool:
     This is so if the balls approach by a considerable part of a typical compression within the
     round-off of the time.
     """
-    rate = stack.velocity[i]
-    if i > 0:
-        rate -= stack.velocity[i - 1]
-    return 4.0 * EPSILON * time * abs(rate) > _COARSE * stack.scale[i]
+    passed = 4.0 * codes.EPSILON * time * abs(approach_speed(stack, i))
+    return passed > _COARSE * stack.scale[i]
 
 
 @kernel
@@ -309,11 +263,9 @@ def _first_overlap(stack: Stack, i: int, overlap: float, time: float) -> float:
     the error of the speeds. It is also 0 if the balls touch so slowly that the compression would
     store more energy than their approach has.
     """
-    rate = stack.velocity[i]
-    if i > 0:
-        rate -= stack.velocity[i - 1]
-    known = max(100.0 * stack.number[TOLERANCE], 1e-12) * stack.scale[i]
-    known += 64.0 * EPSILON * time * abs(rate)
+    rate = approach_speed(stack, i)
+    known = max(100.0 * stack.number[slots.TOLERANCE], 1e-12) * stack.scale[i]
+    known += 64.0 * codes.EPSILON * time * abs(rate)
     brought = 0.5 * reduced_mass(stack, i) * rate * rate
     stored = stored_energy(stack, i, overlap) + arm_energy(stack, i, overlap, 0.0)
     if overlap > known or stored > _NOTICED * brought:
@@ -337,7 +289,7 @@ def _track_touching(stack: Stack, i: int, time: float) -> None:
 @kernel
 def _zero_crossing(stack: Stack, i: int, time: float) -> float:
     """Return when the overlap of contact i was zero, shortly before ``time``."""
-    earliest = stack.clock[LAST_EVENT]
+    earliest = stack.clock[slots.LAST_EVENT]
     if root_at(stack, i) == 2:  # the series has no root before its anchor
         earliest = max(earliest, stack.anchor[stack.first[i]])
         if i > 0:
@@ -381,27 +333,21 @@ def _expand_again(stack: Stack, ball: int, time: float) -> None:
 @kernel
 def _log_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     """Append an event of contact i to the log, with its balls' velocities at their anchors."""
-    at = stack.counter[LOG_ROWS] * LOG_COLUMNS
-    stack.counter[LOG_ROWS] += 1
-    log[at + TIME] = time
-    log[at + CONTACT] = i
-    log[at + KIND] = kind
-    log[at + LOWER_VELOCITY] = stack.velocity[i - 1] if i > 0 else 0.0
-    log[at + UPPER_VELOCITY] = stack.velocity[i]
-    log[at + START] = stack.start[i]
-    log[at + PEAK_FORCE] = stack.peak_force[i]
-    log[at + PEAK_TIME] = stack.peak_time[i]
-    log[at + PEAK_COMPRESSION] = stack.peak_compression[i]
-    log[at + IMPULSE] = stack.impulse[i]
+    below = stack.velocity[i - 1] if i > 0 else 0.0
+    at = append_row(log, stack.counter, kind, i, stack.start[i], time, below, stack.velocity[i])
+    log[at + codes.PEAK_FORCE] = stack.peak_force[i]
+    log[at + codes.PEAK_TIME] = stack.peak_time[i]
+    log[at + codes.PEAK_COMPRESSION] = stack.peak_compression[i]
+    log[at + codes.IMPULSE] = stack.impulse[i]
 
 
 @kernel
 def log_unfinished(stack: Stack, time: float, log: Floats) -> None:
     """Log the contact intervals that have not ended at a time as releases at time infinity."""
     for i in range(len(stack.mass)):
-        if stack.phase[i] == OPEN or stack.bonded[i] == 1:
+        if stack.phase[i] == codes.OPEN or stack.bonded[i] == 1:
             continue
-        if stack.phase[i] >= COMPRESSING:
+        if stack.phase[i] >= codes.COMPRESSING:
             compression = compression_at(stack, i, time)
             rate, creep = rate_at(stack, i, time), creep_at(stack, i, time)
             record_peak(stack, i, compression, force(stack, i, compression, rate, creep), time)
@@ -409,7 +355,7 @@ def log_unfinished(stack: Stack, time: float, log: Floats) -> None:
             if stack.modal[stack.first[i]] == 0:
                 record_series_peaks(stack, i, i + 1, series_time(stack, stack.first[i], since))
             stack.impulse[i] += contact_impulse(stack, i, since)
-        _log_event(stack, i, RELEASE, math.inf, log)
+        _log_event(stack, i, codes.RELEASE, math.inf, log)
 
 
 @kernel
@@ -417,20 +363,20 @@ def _final_status(stack: Stack) -> int:
     """Return FINISHED, or INVALID if a velocity is not finite."""
     for velocity in stack.velocity:
         if not math.isfinite(velocity):
-            return INVALID
-    return FINISHED
+            return codes.INVALID
+    return codes.FINISHED
 
 
 @kernel
 def _all_separating(stack: Stack) -> bool:
     """Tell, with gravity, whether all contacts are open and no ball approaches the one below it."""
-    if stack.number[GRAVITY] == 0.0 or stack.counter[CLOSED] > 0:
+    if stack.number[slots.GRAVITY] == 0.0 or stack.counter[slots.CLOSED] > 0:
         return False  # without gravity the run ends when no event is due
-    if _approaches(stack, stack.counter[APPROACHING]):
+    if _approaches(stack, stack.counter[slots.APPROACHING]):
         return False
     for i in range(len(stack.mass)):
         if _approaches(stack, i):
-            stack.counter[APPROACHING] = i
+            stack.counter[slots.APPROACHING] = i
             return False
     return True
 
@@ -438,12 +384,12 @@ def _all_separating(stack: Stack) -> bool:
 @kernel
 def _approaches(stack: Stack, i: int) -> bool:
     """Return whether ball i approaches the ball below it, or the floor."""
-    if stack.law[i] == ABSENT:
+    if stack.law[i] == codes.ABSENT:
         return False
     noise = stack.velocity_noise[i]
     if i > 0:
         noise += stack.velocity_noise[i - 1]
-    return overlap_rate_at(stack, i, stack.clock[LAST_EVENT]) > noise
+    return overlap_rate_at(stack, i, stack.clock[slots.LAST_EVENT]) > noise
 
 
 @kernel
@@ -451,11 +397,11 @@ def _record_samples(stack: Stack, samples: Samples, time: float) -> None:
     """Record every ball and contact at the sample times up to a time, before its event."""
     size = len(stack.mass)
     while (
-        stack.counter[NEXT_SAMPLE] < len(samples.time)
-        and samples.time[stack.counter[NEXT_SAMPLE]] <= time
+        stack.counter[slots.NEXT_SAMPLE] < len(samples.time)
+        and samples.time[stack.counter[slots.NEXT_SAMPLE]] <= time
     ):
-        now = samples.time[stack.counter[NEXT_SAMPLE]]
-        at = stack.counter[NEXT_SAMPLE] * size
+        now = samples.time[stack.counter[slots.NEXT_SAMPLE]]
+        at = stack.counter[slots.NEXT_SAMPLE] * size
         position = 0.0
         for i in range(size):
             compression = compression_at(stack, i, now)
@@ -468,4 +414,4 @@ def _record_samples(stack: Stack, samples: Samples, time: float) -> None:
             creep = creep_at(stack, i, now)
             samples.force[at + i] = force(stack, i, compression, rate, creep)
             samples.stored[at + i] = held_energy(stack, i, compression, creep)
-        stack.counter[NEXT_SAMPLE] += 1
+        stack.counter[slots.NEXT_SAMPLE] += 1

@@ -65,8 +65,7 @@ class Stack(NamedTuple):
     loading_pieces: Integers  # number of them; 0 if the force is no curve of pieces
     unloading_pieces: Integers
     returned: Floats  # share of the work of loading that unloading returns; see `pieces`
-    piece: Integers  # the present one, and where it begins and ends
-    piece_low: Floats
+    piece_low: Floats  # where the present one begins and ends
     piece_high: Floats
     linearised_below: Floats
     linearised: Integers  # 1 if the force follows the chord of its curve up to linearised_below

@@ -131,8 +131,8 @@ def _fetch(drops: Drops, row: int, count: int, x: Floats) -> None:
     for i in range(count):
         x[NEXT + ROW + i] = row + i
         x[MASS1 + i], x[MASS2 + i] = drops.mass[row + i, 0], drops.mass[row + i, 1]
-        x[STIFFNESS1 + i] = drops.stiffness[row + i, 0]
-        x[STIFFNESS2 + i] = drops.stiffness[row + i, 1]
+        x[STIFFNESS1 + i] = drops.first[row + i, 0]
+        x[STIFFNESS2 + i] = drops.first[row + i, 1]
         x[GAP + i], x[SPEED + i] = drops.gap[row + i, 1], -drops.velocity[row + i, 0]
 
 

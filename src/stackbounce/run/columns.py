@@ -55,9 +55,9 @@ def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
         elif number.part == "contacts":
             laws.setdefault(number.index, {})[number.field] = values
     for i, varied in laws.items():
-        _, stiffness, exponent, first, second = contact_numbers(drop.contacts[i], varied)
-        drops.stiffness[..., i], drops.exponent[..., i] = stiffness, exponent
-        drops.law_parameter[..., i], drops.second_parameter[..., i] = first, second
+        _, first, second, third, fourth = contact_numbers(drop.contacts[i], varied)
+        drops.first[..., i], drops.second[..., i] = first, second
+        drops.third[..., i], drops.fourth[..., i] = third, fourth
     if drop.height is not None:
         height = next((v for n, v in rows.items() if n.field == "height"), drop.height)
         pull = np.where(drops.gravity > 0.0, drops.gravity, STANDARD_GRAVITY)

@@ -53,7 +53,7 @@ def disturbed(numbers: Drops, error: float, seed: int) -> Drops:
     velocity, together = numbers.velocity, len(set(numbers.velocity)) == 1
     return numbers._replace(
         mass=off(numbers.mass),
-        stiffness=off(numbers.stiffness),
+        first=off(numbers.first),
         gap=off(numbers.gap),
         velocity=off(velocity[:1]) * len(velocity) if together else off(velocity),
         gravity=off([numbers.gravity])[0],

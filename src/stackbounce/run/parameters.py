@@ -10,14 +10,14 @@ __all__ = ["drop_numbers", "drop_pieces"]
 def drop_numbers(drop: Drop) -> Drops:
     """Return the parameters of a drop in the form that `prepare` takes, as lists."""
     rows = zip(*map(contact_numbers, drop.contacts), strict=True)
-    kind, stiffness, exponent, law_parameter, second_parameter = map(list, rows)
+    form, first, second, third, fourth = map(list, rows)
     return Drops(
         mass=[ball.mass for ball in drop.balls],
-        kind=kind,
-        stiffness=stiffness,
-        exponent=exponent,
-        law_parameter=law_parameter,
-        second_parameter=second_parameter,
+        form=form,
+        first=first,
+        second=second,
+        third=third,
+        fourth=fourth,
         gap=[0.0, *drop.gaps],
         velocity=list(drop.start_velocities),
         gravity=drop.gravity,

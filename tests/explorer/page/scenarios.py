@@ -64,13 +64,13 @@ def contact(drops, row, i):
     law = int(drops.law[row, i])
     if law == drive.NONE:
         return {"law": "none"}
-    made = {"law": LAW_NAMES[law], "stiffness": float(drops.stiffness[row, i])}
+    made = {"law": LAW_NAMES[law], "stiffness": float(drops.first[row, i])}
     fields = sb.model.LAWS[made["law"]].quantities()
-    made["exponent"] = float(drops.exponent[row, i])
+    made["exponent"] = float(drops.second[row, i])
     if made["law"] in PARAMETERS:
-        made[PARAMETERS[made["law"]]] = float(drops.extra[row, i])
+        made[PARAMETERS[made["law"]]] = float(drops.third[row, i])
     if law == drive.RELAXING:
-        made["relaxation_time"] = float(drops.second[row, i])
+        made["relaxation_time"] = float(drops.fourth[row, i])
     return {name: made[name] for name in made if name in (*fields, "law")}
 
 

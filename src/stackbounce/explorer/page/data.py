@@ -82,7 +82,7 @@ def _list_models() -> dict[str, Any]:
         name: {
             "law": name,
             "form": kind.form,
-            "parameters": (kind.law_parameter, kind.second_parameter),
+            "parameters": (kind.third_number, kind.fourth_number),
             "rigid": kind.rigid,
             "loss": kind.loss,
             "loss_fields": kind.loss_fields(),

@@ -61,7 +61,7 @@ class Bond(ContactLaw):
     formula = "F = stiffness c + damping c'"
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section II"
     form = "BOND"
-    law_parameter = "damping"
+    third_number = "damping"
     pulls = True
     loss = "damping"
 

@@ -66,7 +66,7 @@ class Dashpot(ContactLaw):
     formula = "F = max(0, stiffness c + damping c')"
     source = "Bartz, arXiv 2007.15005"
     form = "DASHPOT"
-    law_parameter = "damping"
+    third_number = "damping"
     loss = "damping"
     loss_depends_on = ("mass",)
 

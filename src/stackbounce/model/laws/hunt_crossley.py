@@ -85,7 +85,7 @@ class HuntCrossley(ContactLaw):
     formula = "F = max(0, stiffness c**exponent (1 + dissipation c'))"
     source = "K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42, 440 (1975)"
     form = "HUNT_CROSSLEY"
-    law_parameter = "dissipation"
+    third_number = "dissipation"
     loss = "dissipation"
     loss_depends_on = ("impact_speed",)
     usual_exponent = 1.5

@@ -84,7 +84,7 @@ class Hysteretic(ContactLaw):
     )
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section V"
     form = "HYSTERETIC"
-    law_parameter = "unloading_exponent"
+    third_number = "unloading_exponent"
     rate_free = True
     loss = "restitution"
     usual_exponent = 1.0

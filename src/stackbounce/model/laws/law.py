@@ -123,10 +123,10 @@ class ContactLaw:
     """Where it was published."""
     form: ClassVar[str]
     """The name of the form of the force, see `stackbounce.engine.forces`."""
-    law_parameter: ClassVar[str] = ""
-    """The field that the engine takes as the law parameter, such as the damping."""
-    second_parameter: ClassVar[str] = ""
-    """The field that it takes as a second one, such as a relaxation time."""
+    third_number: ClassVar[str] = ""
+    """The field that is the third of the engine's numbers, such as the damping."""
+    fourth_number: ClassVar[str] = ""
+    """The field that is the fourth one, such as a relaxation time."""
     rigid: ClassVar[bool] = False
     """Whether collisions are instantaneous."""
     pulls: ClassVar[bool] = False
@@ -234,23 +234,25 @@ class ContactLaw:
     def engine_numbers(self, varied: Mapping[str, Any] = _NOTHING) -> EngineNumbers:
         """Return the engine's description of a contact.
 
-        That is the form of its force, the stiffness, the exponent and two law parameters.
+        That is the form of its force and four numbers, whose meaning depends on the form. By
+        default they are the stiffness, the exponent, and the fields `third_number` and
+        `fourth_number`.
 
         Parameters
         ----------
         varied : mapping of str to ndarray, optional
             Fields that vary, with one value for each of many drops.
         """
-        stiffness = getattr(self, "stiffness", 1.0)
-        exponent = getattr(self, "exponent", 1.0)
-        first = getattr(self, self.law_parameter) if self.law_parameter else 0.0
-        second = getattr(self, self.second_parameter) if self.second_parameter else 0.0
+        first = getattr(self, "stiffness", 1.0)
+        second = getattr(self, "exponent", 1.0)
+        third = getattr(self, self.third_number) if self.third_number else 0.0
+        fourth = getattr(self, self.fourth_number) if self.fourth_number else 0.0
         if varied:
-            stiffness = varied.get("stiffness", stiffness)
-            exponent = varied.get("exponent", exponent)
-            first = varied.get(self.law_parameter, first)
-            second = varied.get(self.second_parameter, second)
-        return codes.FORMS[self.form], stiffness, exponent, first, second
+            first = varied.get("stiffness", first)
+            second = varied.get("exponent", second)
+            third = varied.get(self.third_number, third)
+            fourth = varied.get(self.fourth_number, fourth)
+        return codes.FORMS[self.form], first, second, third, fourth
 
     def pieces(self) -> list[float]:
         """Return the pieces of the curves of a law that is a table, see `engine.pieces`."""

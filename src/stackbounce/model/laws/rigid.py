@@ -44,7 +44,7 @@ class Rigid(ContactLaw):
     formula = "v' = -restitution v"
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 1 to 4"
     form = "RIGID"
-    law_parameter = "restitution"
+    third_number = "restitution"
     rigid = True
     exact = True
     loss = "restitution"

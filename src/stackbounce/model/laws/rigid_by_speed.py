@@ -72,8 +72,8 @@ class RigidBySpeed(Rigid):
     formula = "v' = -e v, e = min(1, restitution (v/speed)**-speed_exponent)"
     source = "A. P. Hatzes, F. G. Bridges and D. N. C. Lin, Mon. Not. R. Astron. Soc. 231 (1988)"
     form = "RIGID_POWER"
-    law_parameter = "scatter"
-    second_parameter = "seed"
+    third_number = "scatter"
+    fourth_number = "seed"
     page_code: ClassVar = {
         "numbers": """({ restitution, speed, speed_exponent, scatter, seed }) =>
           [restitution * speed ** speed_exponent, speed_exponent, scatter, seed]"""

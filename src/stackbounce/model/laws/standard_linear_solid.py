@@ -90,8 +90,8 @@ class StandardLinearSolid(ContactLaw):
         "others": """({ contact_time }, { relaxation_strength }) =>
           ({ relaxation_time: contact_time / Math.PI / Math.sqrt(1 + relaxation_strength) })"""
     }
-    law_parameter = "relaxation_strength"
-    second_parameter = "relaxation_time"
+    third_number = "relaxation_strength"
+    fourth_number = "relaxation_time"
     loss = "relaxation_strength"
     loss_depends_on = ("mass",)
     least_restitution = 2.7e-4  # nearly at the largest relaxation strength that is tried

@@ -71,7 +71,7 @@ class Viscoelastic(ContactLaw):
         "F. Spahn, J.-M. Hertzsch and T. Pöschel, Phys. Rev. E 53, 5382 (1996)"
     )
     form = "VISCOELASTIC"
-    law_parameter = "dissipative_time"
+    third_number = "dissipative_time"
     loss = "dissipative_time"
     loss_depends_on = ("mass", "impact_speed")
     usual_models: ClassVar = {"Viscoelastic": {}}

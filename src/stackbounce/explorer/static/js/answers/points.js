@@ -7,7 +7,7 @@ import { dropAt, numbersOf as pathsOf, valueIn } from "../model/paths.js";
 import { numbersOf } from "../run/result.js";
 import { spaced } from "./play.js";
 
-const FLAT = ["mass", "kind", "stiffness", "exponent", "law_parameter", "second_parameter", "gap", "velocity"];
+const FLAT = ["mass", "form", "first", "second", "third", "fourth", "gap", "velocity"];
 
 /** Return the values along a side, evenly spaced or in equal ratios. */
 export function spread({ low, high, count, log }) {
@@ -111,7 +111,7 @@ export class Points {
   suitsTwoSprings() {
     const { base, drop } = this;
     const { POWER } = theEngine().forms;
-    const linear = base.kind.every((kind, i) => kind === POWER && base.exponent[i] === 1);
+    const linear = base.form.every((form, i) => form === POWER && base.second[i] === 1);
     const together = new Set(base.velocity).size === 1 && base.velocity[0] < 0;
     const free = this.varied.some(({ number }) => number.part === "velocities" || ["exponent", "gravity"].includes(number.field));
     return drop.balls.length === 2 && drop.gravity === 0 && linear && together && !free;
@@ -156,7 +156,7 @@ export class Points {
     drop.contacts.forEach((law, contact) => {
       const own = varied.filter(({ number }) => number.part === "contacts" && number.index === contact);
       const constants = (i, j) => Object.fromEntries(own.map((one) => [one.number.field, one.at(i, j)]));
-      const targets = ["stiffness", "exponent", "law_parameter", "second_parameter"].map((name) => [name, contact]);
+      const targets = ["first", "second", "third", "fourth"].map((name) => [name, contact]);
       if (own.length) change(own, targets, (i, j) => law.replaced(constants(i, j)).engineNumbers(theEngine().forms).slice(1));
     });
     const fall = varied.filter(({ number }) => ["gravity", "height", "impact_speed"].includes(number.field));

@@ -13,9 +13,9 @@ export async function loadEngine(source, layout) {
 }
 
 /**
- * A drop is {mass, kind, stiffness, exponent, law_parameter, second_parameter, gap, velocity, gravity, rigid}: arrays
- * with a number for each ball or the contact below it, in SI units, `gravity` a number, `rigid` true or false; `kind`
- * is one of `forms`. Many drops of one height are the same with a row for each in flat arrays, `gravity` being an array.
+ * A drop is {mass, form, first, second, third, fourth, gap, velocity, gravity, rigid}: arrays with a number for each ball
+ * or the contact below it, in SI units, `gravity` a number, `rigid` true or false; `form` is one of `forms`, and the four
+ * numbers after it are those of that form. Many drops of one height are the same with a row for each in flat arrays, `gravity` being an array.
  */
 class Engine {
   constructor(exports, layout) {

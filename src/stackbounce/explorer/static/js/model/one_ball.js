@@ -21,14 +21,14 @@ export function theEngine() {
 /** Return the restitution and the contact time in s of a ball on a floor with a law, without gravity. */
 export function bounce(law, mass, speed) {
   const { log, statuses, events, layout } = engine;
-  const [form, stiffness, exponent, first, second] = law.engineNumbers(engine.forms);
+  const [form, first, second, third, fourth] = law.engineNumbers(engine.forms);
   const drop = {
     mass: [mass],
-    kind: [form],
-    stiffness: [stiffness],
-    exponent: [exponent],
-    law_parameter: [first],
-    second_parameter: [second],
+    form: [form],
+    first: [first],
+    second: [second],
+    third: [third],
+    fourth: [fourth],
     gap: [0],
     velocity: [-speed],
     gravity: 0,

@@ -8,11 +8,11 @@ export function numbersOf(drop) {
   const column = (place) => laws.map((one) => one[place]);
   return {
     mass: drop.balls.map(({ mass }) => mass),
-    kind: column(0),
-    stiffness: column(1),
-    exponent: column(2),
-    law_parameter: column(3),
-    second_parameter: column(4),
+    form: column(0),
+    first: column(1),
+    second: column(2),
+    third: column(3),
+    fourth: column(4),
     gap: [0, ...drop.gaps],
     velocity: drop.start,
     gravity: drop.gravity,

@@ -1,6 +1,6 @@
 """Write `benchmarks/impacts/answers.json` from the reference solvers.
 
-Run it in `tests` as `python -m reference.make_impacts [NAME ...]`; all of them take some minutes.
+Run `PYTHONPATH=tests python -m benchmarks.impacts.make_answers [NAME ...]`; all take some minutes.
 Each problem is solved in two ways that share as little as they can (`methods`), and `sure` is to
 how many digits both agree. A third kind of run, with inputs that are off by 1e-20 or so, tells how
 many times more the answer moves than the inputs (`conditioning`).
@@ -21,10 +21,11 @@ from unittest.mock import patch
 
 from mpmath import mp, mpf
 
-from reference import falling, hysteretic, precise, rigid, springs, taylor
+from benchmarks.impacts import older_series
+from reference import falling, precise, rigid, springs, taylor
 from reference.common import Outcome
 
-FOLDER = Path(__file__).parents[2] / "benchmarks" / "impacts"
+FOLDER = Path(__file__).parent
 SHOWN = 20  # digits of an answer
 MOST_SURE = 30  # digits that are claimed
 CARRIED = 60  # digits of the arithmetic here
@@ -33,7 +34,7 @@ NOTHING = mpf(10) ** -28  # speeds below this, in units of v0, are zero where co
 TRIALS, TRIED = 3, 12  # runs with other inputs; how many are tried, as some change a count
 FEW = 3  # balls, for which the older series takes seconds rather than minutes
 EXACT = 40  # rigid collisions that are followed in fractions, which get longer with each
-SMOOTH = ("Spring", "Hertz", "Hysteretic")  # laws that `hysteretic` knows
+SMOOTH = ("Spring", "Hertz", "Hysteretic")  # laws that `older_series` knows
 
 Problem = dict[str, Any]
 Solver = Callable[[Problem], "Solution"]
@@ -122,10 +123,10 @@ def by_modes(problem: Problem) -> Solution:
 
 
 def by_older_series(problem: Problem) -> Solution:
-    """Solve springs, Hertz's and hysteretic contacts by the other Taylor series (`hysteretic`)."""
+    """Solve springs, Hertz's and hysteretic contacts by other Taylor series (`older_series`)."""
     masses, contacts, gaps, velocities = _inputs(problem)
     laws = [law and _hysteretic(**law) for law in contacts]
-    return finite(problem, hysteretic.run(masses, laws, gaps, velocities))
+    return finite(problem, older_series.run(masses, laws, gaps, velocities))
 
 
 def _hysteretic(
@@ -134,10 +135,10 @@ def _hysteretic(
     exponent: Any = 1,
     restitution: Any = None,
     unloading_exponent: Any = None,
-) -> hysteretic.Law:
+) -> older_series.Law:
     if restitution is not None:
-        return hysteretic.Law.of_restitution(stiffness, exponent, restitution)
-    return hysteretic.Law(stiffness, 1.5 if law == "Hertz" else exponent, unloading_exponent)
+        return older_series.Law.of_restitution(stiffness, exponent, restitution)
+    return older_series.Law(stiffness, 1.5 if law == "Hertz" else exponent, unloading_exponent)
 
 
 def by_collisions(problem: Problem, digits: int = 50, limit: int = 10_000) -> Solution:
@@ -298,7 +299,7 @@ def conditioning(problem: Problem, solver: Solver) -> dict[str, mpf]:
     found = list(islice(changes(), TRIALS))
     if not found:
         raise ArithmeticError(f"{problem['name']}: every change of the inputs changes a count")
-    return {name: max(one[name] for one in found) / OFF for name in found[0]}
+    return {name: max(change[name] for change in found) / OFF for name in found[0]}
 
 
 def answer(problem: Problem) -> dict[str, Any]:
@@ -341,15 +342,10 @@ def _asked(solution: Solution, ask: Sequence[str]) -> Iterator[tuple[str, Any]]:
 def written(value: Any) -> Any:
     """Return numbers as texts of `SHOWN` digits; counts, words and nothing as they are."""
     if isinstance(value, list):
-        return [written(one) for one in value]
+        return [written(item) for item in value]
     if value is None or isinstance(value, int | str):
         return value
     return mp.nstr(number(value), SHOWN, strip_zeros=True)
-
-
-def problems() -> list[Problem]:
-    """Return the problems of the set."""
-    return json.loads((FOLDER / "problems.json").read_text("utf-8"))["problems"]
 
 
 def main() -> None:
@@ -358,17 +354,22 @@ def main() -> None:
     names = sys.argv[1:]
     known = {}
     if names:
-        known = {one["name"]: one for one in json.loads(file.read_text("utf-8"))["answers"]}
-    told = json.loads((FOLDER / "problems.json").read_text("utf-8"))
-    wanted = [one for one in told["problems"] if not names or one["name"] in names]
+        known = {
+            solved["name"]: solved for solved in json.loads(file.read_text("utf-8"))["answers"]
+        }
+    given = json.loads((FOLDER / "problems.json").read_text("utf-8"))
+    wanted = [problem for problem in given["problems"] if not names or problem["name"] in names]
     with ProcessPoolExecutor() as pool:
-        for one in as_completed(pool.submit(answer, problem) for problem in wanted):
-            known[one.result()["name"]] = one.result()
-            sys.stderr.write(f"{one.result()['name']}: {one.result()['sure']} digits\n")
+        for future in as_completed(pool.submit(answer, problem) for problem in wanted):
+            solved = future.result()
+            known[solved["name"]] = solved
+            sys.stderr.write(f"{solved['name']}: {solved['sure']} digits\n")
     rows = ",\n".join(
-        json.dumps(known[one["name"]]) for one in told["problems"] if one["name"] in known
+        json.dumps(known[problem["name"]])
+        for problem in given["problems"]
+        if problem["name"] in known
     )
-    head = f'"version": {json.dumps(told["version"])}, "licence": {json.dumps(told["licence"])}'
+    head = f'"version": {json.dumps(given["version"])}, "licence": {json.dumps(given["licence"])}'
     file.write_text(f'{{{head}, "answers": [\n{rows}\n]}}\n', "utf-8")
 
 
