@@ -32,7 +32,7 @@ class Swings(Finding):
     def parts(self):
         return {"contact": {"law": "Rigid", "restitution": 0.5}}
 
-    def told(self):
+    def law_arguments(self):
         return {"restitution": 0.5}
 
 

@@ -19,7 +19,7 @@ from stackbounce.cli.output import (
 )
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
-from stackbounce.measure.hints import Hint
+from stackbounce.measure.messages import OptionHint
 from stackbounce.measure.options import OPTIONS, Option
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ def run(
         check_scenario(save, overwrite)
         if "mass" not in known:
             raise InvalidValue("--save needs the mass of the ball, such as --mass 57g")
-    done = [measure_file(path, known, _words) for path in files] + measure_numbers(known)
+    done = [measure_file(path, known, _wording) for path in files] + measure_numbers(known)
     if not done:
         raise InvalidValue("measure needs a file, --heights, --contact-time or --restitution")
     law = _law_of(known, done) if "law" in known else None
@@ -101,7 +101,7 @@ def run(
         typer.echo(f"Picture: {plot}")
 
 
-def _words(hint: Hint) -> str:
+def _wording(hint: OptionHint) -> str:
     """Return the options of a hint as they are typed, with the whole command if it names a file."""
     known = {one.name: one.on_command_line for one in OPTIONS}
     typed = []
@@ -208,11 +208,11 @@ def _summary(
 def _tell(console: "Console", done: "Sequence[Measurement]", law: "LawConstants | None") -> None:
     """Print what was found, for people."""
     for one in done:
-        console.print(f"{one.source}: {one.told['format']}", style="bold")
-        if one.told["why"]:
-            console.print(f"  {one.told['why']}")
-        if one.told["doubt"]:
-            console.print(f"  Unsure: {one.told['doubt']}")
+        console.print(f"{one.source}: {one.evidence['format']}", style="bold")
+        if one.evidence["why"]:
+            console.print(f"  {one.evidence['why']}")
+        if one.evidence["doubt"]:
+            console.print(f"  Unsure: {one.evidence['doubt']}")
         _table(console, one.rows)
         for note in one.notes:
             console.print(f"  {note}")

@@ -13,7 +13,7 @@ drag          the drag of the air in measured flights
 error_of_drag its error in what was found
 constants     contact time and restitution -> stiffness, constants of any law
 assembly      results -> a law, a ball to drop
-hints         options that a message recommends, in the words of each interface
+messages      texts with options that they recommend, worded for each user interface
 unrecognised  a table of an unknown kind: its columns, and how to go on
 quantities    numbers with errors; a row of a table
 samples       columns of a Dataset or arrays, runs, rounding, areas

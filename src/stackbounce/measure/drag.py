@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import Any
 
 from stackbounce.errors import InvalidValue, non_negative, shown
-from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Number, Row, measured, nominal
 from stackbounce.model import drag
 from stackbounce.model.air import Air
@@ -234,14 +234,17 @@ def drag_of(mass: Any, diameter: Any, drag_coefficient: Any, air_density: Any) -
             )
         if air_density is not None:
             raise InvalidValue(
-                Said("the density of the air counts with a ", Hint({"drag_coefficient": None}),
-                     " only, got none")
-            )  # fmt: skip
+                Message(
+                    "the density of the air counts with a ",
+                    OptionHint({"drag_coefficient": None}),
+                    " only, got none",
+                )
+            )
         return None
     if mass is None or diameter is None:
         needed = {"mass": mass, "diameter": diameter}
-        missing = Hint({name: None for name, value in needed.items() if value is None})
+        missing = OptionHint({name: None for name, value in needed.items() if value is None})
         raise InvalidValue(
-            Said("a drag coefficient needs mass and diameter of the ball: give ", missing)
+            Message("a drag coefficient needs mass and diameter of the ball: give ", missing)
         )
     return Drag(mass, diameter, known, Air.density if air_density is None else air_density)

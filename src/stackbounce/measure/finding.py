@@ -60,7 +60,7 @@ class Finding:
         """Return ball, contact, height and impact speed, as far as known, as in a drop's TOML."""
         return {}
 
-    def told(self) -> dict[str, Any]:
+    def law_arguments(self) -> dict[str, Any]:
         """Return contact time, restitution and impact speed, as `law_constants` takes them."""
         return {}
 

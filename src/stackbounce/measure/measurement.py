@@ -11,9 +11,9 @@ import numpy as np
 from stackbounce.errors import InvalidValue, StackbounceError, a_or_an
 from stackbounce.measure.analysis import analyse
 from stackbounce.measure.finding import Branch, Curve, Finding, channels
-from stackbounce.measure.hints import Hint, Said, Words, about, in_python, in_words, said
 from stackbounce.measure.kind import keywords_of
 from stackbounce.measure.kinds import TYPED
+from stackbounce.measure.messages import Message, OptionHint, Wording, python_wording
 from stackbounce.measure.options import OPTIONS, options_for
 from stackbounce.measure.quantities import Row, nominal
 from stackbounce.measure.reading import read, read_content
@@ -35,21 +35,21 @@ class Measurement:
     ----------
     source : str
         The file's name, or the options that were typed.
-    told : mapping
+    evidence : mapping
         `format`, `why`, `doubt` and `holds` of what was read.
     data : xarray.Dataset or None
         What was read.
     found : tuple of Finding
         What was found in it.
-    words : callable, optional
+    wording : callable, optional
         What the user interface makes of hints in notes.
     """
 
     source: str
-    told: Mapping[str, str]
+    evidence: Mapping[str, str]
     data: Any
     found: tuple[Finding, ...]
-    words: Words = in_python
+    wording: Wording = python_wording
 
     @property
     def rows(self) -> list[Row]:
@@ -60,7 +60,7 @@ class Measurement:
     def notes(self) -> list[str]:
         """The notes of all results, each once."""
         every = (note for one in self.found for note in one.notes)
-        return list(dict.fromkeys(in_words(note, self.words) for note in every))
+        return list(dict.fromkeys(Message(note).worded(self.wording) for note in every))
 
     @property
     def measured(self) -> dict[str, str]:
@@ -89,8 +89,8 @@ class Measurement:
         """
         names = ("restitution", "contact_time", "impact_speed")
         for one in self.found:
-            told = one.told()
-            known = {name: nominal(told[name]) for name in names if told.get(name) is not None}
+            values = one.law_arguments()
+            known = {name: nominal(values[name]) for name in names if values.get(name) is not None}
             contact = None if known else one.parts().get("contact")
             if contact or {"restitution", "contact_time"} & set(known):
                 return {**dict.fromkeys(names), **known, "contact": contact}
@@ -105,10 +105,12 @@ class Measurement:
     def to_mapping(self) -> dict[str, Any]:
         """Return source, evidence, quantities and notes, for JSON."""
         rows = [row_mapping(row) for row in self.rows]
-        return {"file": self.source, **self.told, "found": rows, "notes": self.notes}
+        return {"file": self.source, **self.evidence, "found": rows, "notes": self.notes}
 
 
-def measure_file(file: File, options: Mapping[str, Any], words: Words = in_python) -> Measurement:
+def measure_file(
+    file: File, options: Mapping[str, Any], wording: Wording = python_wording
+) -> Measurement:
     """Read a file and analyse it.
 
     Parameters
@@ -118,7 +120,7 @@ def measure_file(file: File, options: Mapping[str, Any], words: Words = in_pytho
     options : mapping
         Those of `read` and `analyse`, as `read_options` returns them;
         `alone` is a file.
-    words : callable, optional
+    wording : callable, optional
         What the user interface makes of hints in doubts and errors; by default Python.
 
     Raises
@@ -127,15 +129,12 @@ def measure_file(file: File, options: Mapping[str, Any], words: Words = in_pytho
         If the file cannot be read, or the analysis finds nothing in it.
     """
     try:
-        return _measured(file, options, words)
+        return _measured(file, options, wording)
     except StackbounceError as error:
-        text = said(error)
-        if not isinstance(text, Said):
-            raise
-        raise type(error)(in_words(text, words)) from error
+        raise type(error)(Message.of(error).worded(wording)) from error
 
 
-def _measured(file: File, options: Mapping[str, Any], words: Words) -> Measurement:
+def _measured(file: File, options: Mapping[str, Any], wording: Wording) -> Measurement:
     of_reader = options_for("read")
     reading = {name: value for name, value in options.items() if name in of_reader}
     own = {name: options[name] for name in options_for("analyse") if name in options}
@@ -148,15 +147,15 @@ def _measured(file: File, options: Mapping[str, Any], words: Words) -> Measureme
         try:
             found = analyse(data, **own)
         except StackbounceError as error:
-            raise about(name, error) from error
+            raise type(error)(Message.of(error).of_file(name)) from error
         except (ArithmeticError, LookupError, ValueError) as error:
-            raise about(name, InvalidValue(_refusal(data))) from error
-    told = {key: data.attrs[key] for key in ("format", "why", "doubt", "holds")}
-    told["doubt"] = in_words(told["doubt"], words)
-    return Measurement(name, told, data, found, words)
+            raise InvalidValue(_refusal(data).of_file(name)) from error
+    evidence = {key: data.attrs[key] for key in ("format", "why", "doubt", "holds")}
+    evidence["doubt"] = Message(evidence["doubt"]).worded(wording)
+    return Measurement(name, evidence, data, found, wording)
 
 
-def _refusal(data: Any) -> Said:
+def _refusal(data: Any) -> Message:
     """Return that the numbers of a file are not those of its kind, and what they are."""
     spans = []
     for name, values in [*data.coords.items(), *data.data_vars.items()][:6]:
@@ -167,10 +166,10 @@ def _refusal(data: Any) -> Said:
             unit = f" {values.attrs['units']}" if values.attrs.get("units") else ""
             spans.append(f"{name} from {known.min():.4g} to {known.max():.4g}{unit}")
     rows = max(data.sizes.values(), default=0)
-    return Said(
+    return Message(
         f"its {rows} rows cannot be analysed as {a_or_an(data.attrs['holds'])}, got "
         f"{', '.join(spans) or 'no numbers'}: ",
-        Hint({"holds": None, "names": None, "units": None}),
+        OptionHint({"holds": None, "names": None, "units": None}),
         " tell another kind, other columns and units",
     )
 
@@ -188,7 +187,7 @@ def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:
         if not given or kind.of_numbers is None:
             continue
         own = {name: options[name] for name in keywords_of(kind.of_numbers) if name in options}
-        told = {
+        evidence = {
             "format": "numbers of the command line",
             "why": "",
             "doubt": "",
@@ -199,7 +198,7 @@ def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:
             found = kind.of_numbers(**own)
         except ArithmeticError as error:
             raise InvalidValue(f"{source} has numbers that are too large or too small") from error
-        done.append(Measurement(source, told, None, (found,)))
+        done.append(Measurement(source, evidence, None, (found,)))
     return done
 
 

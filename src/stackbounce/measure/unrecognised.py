@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ class _Look(NamedTuple):
         return self.look.startswith("rises")
 
 
-def unrecognised(data: "xr.Dataset", kinds: Iterable[str]) -> Said:
+def unrecognised(data: "xr.Dataset", kinds: Iterable[str]) -> Message:
     """Return why a table cannot be analysed: its columns, their first numbers, and what to type.
 
     Parameters
@@ -59,9 +59,9 @@ def unrecognised(data: "xr.Dataset", kinds: Iterable[str]) -> Said:
     beginning = f"its columns do not tell a kind of measurement: {shown}{more}. "
     file = str(data.attrs.get("source", "")) or "FILE"
     words, holds, names = _guess(looks)
-    hint = Hint({"holds": holds, "names": names}, file)
+    hint = OptionHint({"holds": holds, "names": names}, file)
     others = ", ".join(name for name in kinds if name not in (holds, "bounces", "table"))
-    return Said(beginning, words, hint, f"; other kinds: {others}")
+    return Message(beginning, words, hint, f"; other kinds: {others}")
 
 
 def _look(one: "xr.DataArray") -> _Look:

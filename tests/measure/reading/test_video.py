@@ -94,7 +94,7 @@ def test_positions_by_frame_are_a_track_in_pixels(read, content):
     assert found.axis == "-y"
     assert "restitutions do not depend on frame rate and scale" in " ".join(found.notes)
     assert "impact_speed" not in found.parts()
-    assert "impact_speed" not in found.told()
+    assert "impact_speed" not in found.law_arguments()
     assert found.first_touch() is None
 
 

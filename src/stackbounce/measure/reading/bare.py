@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.roles import Column, column
@@ -14,8 +14,8 @@ __all__ = ["NOT_NAMED", "Guess", "guess"]
 _LEAST, _MANY = 5, 20  # rows that tell times, and that tell frames or samples of a scope
 _UNEVEN = 0.1  # of a step, by which rounding may move times
 _SCOPE, _VIDEO = 1e-3, 0.2  # s, the longest step of samples and that of frames
-_TELL = Said("name them, as in ", Hint({"names": {1: "time", 2: "force"}}))
-NOT_NAMED = Said("no header names the columns: ", _TELL)
+_TELL = Message("name them, as in ", OptionHint({"names": {1: "time", 2: "force"}}))
+NOT_NAMED = Message("no header names the columns: ", _TELL)
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,9 @@ def _named(roles: tuple[str, ...], said: str) -> Guess:
     columns = tuple(
         column(k, heading("", units.get(role, "")), role) for k, role in enumerate(roles)
     )
-    return Guess(columns, Said(f"no header names the columns: {said}; if that is wrong, ", _TELL))
+    return Guess(
+        columns, Message(f"no header names the columns: {said}; if that is wrong, ", _TELL)
+    )
 
 
 def _step(numbers: Array) -> float:

@@ -7,8 +7,8 @@ from datetime import UTC, datetime
 import numpy as np
 
 from stackbounce.errors import a_or_an
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kind import Kind
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.roles import Column
 
@@ -112,10 +112,10 @@ def _by_steps(kind: Kind, column: Column, times: Array) -> tuple[Column, list[st
     if unit == "s" or factor * step < _SHORTEST:
         return column, []
     name = column.heading.name or str(column.index + 1)
-    doubt = Said(
+    doubt = Message(
         f"no unit is told for {name}: taken as {unit}, as steps of {step:.4g} s are too long for "
         f"{a_or_an(kind.name)}; ",
-        Hint({"units": {name if column.heading.name else column.index + 1: "s"}}),
+        OptionHint({"units": {name if column.heading.name else column.index + 1: "s"}}),
         " tells another",
     )
     return _in_unit(column, factor), [doubt]

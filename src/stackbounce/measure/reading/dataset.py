@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import FileError, InvalidValue, a_or_an
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kind import Kind
 from stackbounce.measure.kinds import KINDS
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.bounces import INFERRED, bounces
 from stackbounce.measure.reading.clock import on_the_clock
@@ -125,10 +125,10 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
             needs = " and ".join(" or ".join(one) for one in KINDS[holds].columns)
             names = ", ".join(one.heading.text or f"column {one.index + 1}" for one in found[:20])
             raise InvalidValue(
-                Said(
-                    Hint({"holds": None}),
+                Message(
+                    OptionHint({"holds": None}),
                     f": {a_or_an(holds)} needs columns of {needs}; it has {names}: ",
-                    Hint({"names": {found[-1].index + 1: roles[0]}}),
+                    OptionHint({"names": {found[-1].index + 1: roles[0]}}),
                     " tells which, for instance",
                 )
             )
@@ -148,9 +148,9 @@ def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
             one.heading.name or one.index + 1: _OTHER_UNITS[_ASSUMED[one.role]] for one in told
         }
         doubts.append(
-            Said(
+            Message(
                 f"no unit is told for {', '.join(names)}: taken as {', '.join(units)}; ",
-                Hint({"units": others}),
+                OptionHint({"units": others}),
                 " tells another",
             )
         )
@@ -238,8 +238,8 @@ def _rows(kind: Kind, columns: Sequence[Column], values: Values, run: object) ->
     import xarray as xr
 
     if run is not None:
-        name = Hint({"run": None})
-        raise InvalidValue(Said(name, ": there is none to choose, as this holds no times"))
+        name = OptionHint({"run": None})
+        raise InvalidValue(Message(name, ": there is none to choose, as this holds no times"))
     roles = [each[0] for each in kind.columns]
     whole = np.isfinite(values[:, [_at(columns, role) for role in roles]]).all(axis=1)
     if not whole.any():

@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, positive, shown
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds import KINDS, kind_named
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.reading.headings import slug
 from stackbounce.measure.reading.roles import ROLES, Column
 from stackbounce.units import in_si
@@ -50,9 +50,9 @@ class ReadOptions:
                 raise InvalidValue(_wrong("units", told))
 
 
-def _wrong(option: str, text: str) -> Said:
+def _wrong(option: str, text: str) -> Message:
     """Return a message that begins with the name of an option."""
-    return Said(Hint({option: None}), text)
+    return Message(OptionHint({option: None}), text)
 
 
 def _kind(holds: object) -> str:
@@ -129,8 +129,8 @@ def of_run(
         return list(columns), False
     if run is None:
         chosen = runs[0]
-        other = Hint({"run": runs[1]})
-        doubts.append(Said(f"{len(runs)} runs; {chosen!r} is read, ", other, " reads another"))
+        other = OptionHint({"run": runs[1]})
+        doubts.append(Message(f"{len(runs)} runs; {chosen!r} is read, ", other, " reads another"))
     else:
         word = str(run).casefold()
         named = [one for k, one in enumerate(runs, 1) if word in (one.casefold(), str(k))]

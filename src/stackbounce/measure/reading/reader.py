@@ -11,7 +11,7 @@ import numpy as np
 
 from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
 from stackbounce.files import content_of
-from stackbounce.measure.hints import Hint, Said, about, joined
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading import arrays, projects, wav
 from stackbounce.measure.reading.bare import NOT_NAMED
@@ -167,7 +167,7 @@ def _named(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
     try:
         data = _read(name, content, told)
     except StackbounceError as error:
-        raise about(name, error) from error
+        raise type(error)(Message.of(error).of_file(name)) from error
     except MemoryError as error:
         raise FileError(f"{name} is too large for the memory of this machine") from error
     data.attrs["source"] = Path(name).name
@@ -178,16 +178,16 @@ def _read(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
     if wav.is_wav(content):
         data, why, doubts = wav.read_wav(content)
         if told.holds not in (None, "sound"):
-            holds = Hint({"holds": None})
-            raise InvalidValue(Said(holds, f": the file is a sound, got {shown(told.holds)}"))
+            holds = OptionHint({"holds": None})
+            raise InvalidValue(Message(holds, f": the file is a sound, got {shown(told.holds)}"))
         return _signed(data, "WAV", why, "sound", doubts)
     tables = tables_in(content)
     if tables is not None:
         return _from_tables(tables, told)
     if told.table is not None:
-        table = Hint({"table": None})
+        table = OptionHint({"table": None})
         kind = "as it is no zip archive or spreadsheet"
-        raise InvalidValue(Said(table, f": there is one only, {kind}"))
+        raise InvalidValue(Message(table, f": there is one only, {kind}"))
     return _from_table(name, content, told)
 
 
@@ -206,7 +206,7 @@ def _from_tables(tables: Tables, told: ReadOptions) -> "xr.Dataset":
             read.append((name, own))
         except StackbounceError as error:
             if name == names[-1] and not read:
-                raise about(name, error) from error
+                raise type(error)(Message.of(error).of_file(name)) from error
             continue
         if read[-1][1].attrs["holds"] != "table":
             break
@@ -216,8 +216,10 @@ def _from_tables(tables: Tables, told: ReadOptions) -> "xr.Dataset":
     data.attrs["why"] = "; ".join(filter(None, [tables.why, data.attrs["why"]]))
     others = [one for one in names if one != name]
     if others:
-        more = Said(f"{name} of it is read; ", Hint({"table": others[0]}), " reads another")
-        data.attrs["doubt"] = joined("; ", filter(None, [data.attrs["doubt"], more]))
+        more = Message(
+            f"{name} of it is read; ", OptionHint({"table": others[0]}), " reads another"
+        )
+        data.attrs["doubt"] = Message("; ").join(filter(None, [data.attrs["doubt"], more]))
     return data
 
 
@@ -232,7 +234,7 @@ def _from_table(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset
     holds = told.holds or layout.holds or holds_of(columns)
     if holds == "bounces" != layout.holds:
         whose = ": only phyphox's (in)elastic collision holds bounces"
-        raise InvalidValue(Said(Hint({"holds": None}), whose))
+        raise InvalidValue(Message(OptionHint({"holds": None}), whose))
     data, more = assemble(holds, columns, values, None if runs else told.run)
     return _signed(data, layout.format, layout.why, holds, doubts + more)
 
@@ -296,7 +298,7 @@ def _count(layout: Layout, columns: Sequence[Column], table: Table) -> None:
 def _signed(
     data: "xr.Dataset", form: str, why: str, holds: str, doubts: Sequence[str]
 ) -> "xr.Dataset":
-    doubt = joined("; ", dict.fromkeys(doubts))
+    doubt = Message("; ").join(dict.fromkeys(doubts))
     data.attrs = {"format": form, "why": why, "doubt": doubt, "holds": holds}
     return data
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, shown
-from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.even import even_times, spread
 from stackbounce.measure.reading.roles import Column
@@ -57,9 +57,9 @@ def in_time(time: Array, column: Column, run: object, *, gaps: bool) -> Series:
     factor, unit = column.factor, column.unit or "s"
     if own.size > 1 and own[0] == own[-1]:
         raise InvalidValue(
-            Said(
+            Message(
                 f"time is {factor * own[0]:.6g} {unit} in all of {own.size} rows: ",
-                Hint({"names": {2: "time"}}),
+                OptionHint({"names": {2: "time"}}),
                 " tells that it is another column, such as the second",
             )
         )
@@ -88,9 +88,9 @@ def _of_run(
     again = np.flatnonzero(np.diff(own) < 0.0) + 1
     if again.size >= _RUNS:
         raise InvalidValue(
-            Said(
+            Message(
                 f"time runs backwards in {again.size} of {own.size} rows: ",
-                Hint({"names": {2: "time"}}),
+                OptionHint({"names": {2: "time"}}),
                 " tells that it is another column, such as the second",
             )
         )
@@ -140,8 +140,8 @@ def step_of(time: Array) -> float:
 
 def _counted(run: object, count: int) -> int:
     if not str(run).isascii() or not str(run).isdigit() or not 1 <= int(str(run)[:9]) <= count:
-        name = Hint({"run": None})
+        name = OptionHint({"run": None})
         raise InvalidValue(
-            Said(name, f" must be one of the {count} that there are, got {shown(run)}")
+            Message(name, f" must be one of the {count} that there are, got {shown(run)}")
         )
     return int(str(run))

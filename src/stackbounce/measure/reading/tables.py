@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, shown
-from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.messages import Message, OptionHint
 
 __all__ = ["Tables", "as_text", "chosen"]
 
@@ -78,5 +78,5 @@ def chosen(tables: Tables, table: object) -> str:
     if len(found) != 1:
         near = nearest(table, tables.members)
         told = f" must be one in the {tables.kind}, got {shown(table)}; {near}"
-        raise InvalidValue(Said(Hint({"table": None}), told))
+        raise InvalidValue(Message(OptionHint({"table": None}), told))
     return found[0]

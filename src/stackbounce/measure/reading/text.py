@@ -6,7 +6,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 from stackbounce.errors import FileError, InvalidValue, shown
-from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.reading.limits import COLUMNS, LINE
 
 __all__ = ["MISSING", "Text", "decode", "number", "split", "tabulate"]
@@ -162,8 +162,8 @@ def tabulate(content: str, decimal: str | None = None, name: str = "") -> Text:
         If a line is too long, there are too many columns, or there is no row of numbers.
     """
     if decimal not in (None, ".", ","):
-        option = Hint({"decimal": None})
-        raise InvalidValue(Said(option, f' must be "." or ",", got {shown(decimal)}'))
+        option = OptionHint({"decimal": None})
+        raise InvalidValue(Message(option, f' must be "." or ",", got {shown(decimal)}'))
     starts, lines = _head(content)
     marks = decimal or ".,"
     found = [_score(lines, delimiter, marks) for delimiter in _DELIMITERS]
@@ -248,9 +248,9 @@ def _decimal(head: list[list[str]], delimiter: str) -> tuple[str, list[str]]:
         return ("," if mixed and delimiter != "," else "."), []
     if len(grouped) == len(commas):
         return ",", [
-            Said(
+            Message(
                 f"{grouped[0]!r} is read with a decimal comma: ",
-                Hint({"decimal": "."}),
+                OptionHint({"decimal": "."}),
                 " if it is not one",
             )
         ]

@@ -85,7 +85,7 @@ class Accelerometer(Finding):
             parts["height"] = nominal(self.drop_height)
         return parts
 
-    def told(self) -> dict[str, Any]:
+    def law_arguments(self) -> dict[str, Any]:
         """Return the mean restitution and, after a fall, impact speed and contact time."""
         told: dict[str, Any] = {"restitution": self.mean}
         if self.fall is not None:

@@ -92,7 +92,7 @@ class Bounces(Finding):
             parts[start] = nominal(self.drop_height if self.drag is None else self._speed)
         return parts
 
-    def told(self) -> dict[str, Any]:
+    def law_arguments(self) -> dict[str, Any]:
         """Return the mean restitution and, if a drop height was given, the impact speed."""
         told: dict[str, Any] = {"restitution": self.mean}
         if self.drop_height is not None and not self.inferred:

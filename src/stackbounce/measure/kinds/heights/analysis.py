@@ -8,8 +8,8 @@ import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.measure.drag import Drag
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.heights.result import Heights
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Number, deviation, nominal
 from stackbounce.measure.statistics.regression import widening
 
@@ -249,9 +249,9 @@ def _notes(before: list[Any], counted: list[Any]) -> list[str]:
     notes: list[str] = []
     if any(math.isnan(one.std_dev) for one in [before[0], *counted]):
         notes.append(
-            Said(
+            Message(
                 "A height has no error, so that the restitutions' are unknown: give ",
-                Hint({"height_error": None}),
+                OptionHint({"height_error": None}),
                 ".",
             )
         )

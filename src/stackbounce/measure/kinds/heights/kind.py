@@ -3,8 +3,8 @@
 from typing import Any
 
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kind import Kind
+from stackbounce.measure.messages import Message, OptionHint
 
 __all__ = ["TABLE"]
 
@@ -31,13 +31,13 @@ def _check_fall(heights: list[float]) -> None:
         at = max(rises, default=0)
         rise = f", {heights[at]:.4g} m after {heights[at - 1]:.4g} m in row {at + 1}" * bool(rises)
         raise InvalidValue(
-            Said(
+            Message(
                 "a table of heights must hold those of one ball's bounces, each below the one "
                 f"before and up to {_MANY} of them, got {len(heights)} heights{rise}: positions "
                 "over time are a track, ",
-                Hint({"holds": "track"}),
+                OptionHint({"holds": "track"}),
                 ", and drops that are repeated need ",
-                Hint({"repeated": None}),
+                OptionHint({"repeated": None}),
             )
         )
 

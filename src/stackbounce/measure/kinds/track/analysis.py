@@ -8,7 +8,6 @@ import numpy as np
 from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.drag import Drag
 from stackbounce.measure.error_of_drag import with_error_of_drag
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.track.air import fall_at, meeting, state, straightened
 from stackbounce.measure.kinds.track.flight_numbers import flight_numbers
 from stackbounce.measure.kinds.track.free_flight import (
@@ -31,6 +30,7 @@ from stackbounce.measure.kinds.track.result import Track, Tracks
 from stackbounce.measure.kinds.track.shape import shape_of
 from stackbounce.measure.kinds.track.time_base import check_time_base
 from stackbounce.measure.kinds.track.units import TrackUnits, uncalibrated, units_of
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, nominal
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
@@ -194,7 +194,7 @@ def _bouncing(
     reason = next(iter(reasons.values()), "")
     shorter = f" (means of {found.many} of its points were taken: cut it to the bounces)"
     why = reason or _seen(found, up, gravity)
-    raise InvalidValue(Said(_WANTED, why, shorter * (found.many > 1)))
+    raise InvalidValue(Message(_WANTED, why, shorter * (found.many > 1)))
 
 
 def _seen(found: Columns, up: Upward, gravity: float | None) -> str:
@@ -237,9 +237,9 @@ def _track_in_air(
         )
     if not units.known:
         raise InvalidValue(
-            Said(
+            Message(
                 f"drag needs lengths in m and times in s, got {units.length} and {units.time}: ",
-                Hint({"frame_rate": None, "scale": None}),
+                OptionHint({"frame_rate": None, "scale": None}),
                 " tell them",
             )
         )

@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.track.flights import Flight
 from stackbounce.measure.kinds.track.parabolas import Flights, fit_flights
 from stackbounce.measure.kinds.track.shape import curvatures, shape_of
 from stackbounce.measure.kinds.track.time_base import is_usual
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import resolution
 
@@ -36,9 +36,9 @@ _STILL = 8.0  # errors of a point, within which nothing moves
 _WINDOWS = (5, 7, 11, 17, 25, 51, 101, 201, 401)  # points that tell an acceleration
 _TRIED = 400  # windows
 _UNSCALED = 30.0  # ratio of an acceleration to gravity that only another unit of length makes
-_INSTEAD = Said(
+_INSTEAD = Message(
     "if it does fall, but on an incline or with a wrong scale, ",
-    Hint({"gravity": None}),
+    OptionHint({"gravity": None}),
     " tells how fast",
 )
 
@@ -153,9 +153,9 @@ def _other(fall: float, gravity: float, axis: str) -> str:
         f"{gravity:.3g}; "
     )
     if fall > _RATIO[1] * gravity:
-        unit = Hint({"units": {axis: "cm"}})
-        return Said(f"{seen}are its lengths in another unit (", unit, "), or in pixels?")
-    return Said(f"{seen}a ball that rolls, swings or is held? (", _INSTEAD, ")")
+        unit = OptionHint({"units": {axis: "cm"}})
+        return Message(f"{seen}are its lengths in another unit (", unit, "), or in pixels?")
+    return Message(f"{seen}a ball that rolls, swings or is held? (", _INSTEAD, ")")
 
 
 def _arcs(flights: Sequence[Flight], bounces: Sequence[int]) -> list[Flight]:

@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.track.parabolas import Flights
 from stackbounce.measure.kinds.track.shape import Shape
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 
 __all__ = ["notes_of", "stays_long", "uneven"]
@@ -74,8 +74,10 @@ def stays_long(
     if not alone:
         return (f"{biased}; what is fitted to them is off by as much",)
     return (
-        Said(
-            f"{biased}; ", Hint({"floor": None}), " tells the floor's level, for those at the touch"
+        Message(
+            f"{biased}; ",
+            OptionHint({"floor": None}),
+            " tells the floor's level, for those at the touch",
         ),
     )
 

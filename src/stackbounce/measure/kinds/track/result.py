@@ -135,7 +135,7 @@ class Tracks(Finding):
         speed = {"impact_speed": nominal(lowest.impact_speeds[0])} if self.units.known else {}
         return {**speed, **contact}
 
-    def told(self) -> dict[str, Any]:
+    def law_arguments(self) -> dict[str, Any]:
         """Return the first impact speed and, of a single ball, the restitution of that bounce."""
         ball = self.balls[0]
         told = {"impact_speed": ball.impact_speeds[0]} if self.units.known else {}

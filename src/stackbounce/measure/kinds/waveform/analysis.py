@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stackbounce.errors import InvalidValue, positive, shown
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.waveform.baseline import first_guess, quiet_parts
 from stackbounce.measure.kinds.waveform.contact import Seen, measure_contact
 from stackbounce.measure.kinds.waveform.droop import undrooped
@@ -22,6 +21,7 @@ from stackbounce.measure.kinds.waveform.intervals import (
 from stackbounce.measure.kinds.waveform.record import Record, read_record
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.sensor import sensitivity_of
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, known_to, measured_if_given
 from stackbounce.model.laws import ContactLaw
 
@@ -249,10 +249,10 @@ def _steep(contacts: tuple[Contact, ...]) -> list[str]:
     power = contacts[0].exponents[0] if contacts else None
     if power is None or power.nominal_value > min(_STEEP, 1.0 - _SURELY * power.std_dev):
         return []
-    note = Said(
+    note = Message(
         "the force begins more steeply than that of any spring, as if with a jump: the touch found "
         "may be too early; if the contact is damped, tell its law, ",
-        Hint({"law": "dashpot"}),
+        OptionHint({"law": "dashpot"}),
         " or viscoelastic",
     )
     return [note]
@@ -277,10 +277,10 @@ def _droops(seen: Seen, step: float) -> list[str]:
     if low > -max(_UNDERSHOOT * error, 0.005 * top):
         return []
     area = float(np.sum(seen.signal[one.first : one.last + 1])) * step
-    note = Said(
+    note = Message(
         f"after the contact the signal lies {-low / top:.1%} of its peak too low, as by the droop "
         "of a piezo sensor: give ",
-        Hint({"time_constant": None}),
+        OptionHint({"time_constant": None}),
         f" (about {area / -low:.2g} s)",
     )
     return [note]

@@ -1,4 +1,4 @@
-"""Hints in messages: each interface says them in words that it accepts."""
+"""Hints in messages: each interface words them as it accepts them."""
 
 import pickle
 import re
@@ -12,8 +12,8 @@ from measure.make_files import LOAD, PRESSED
 from stackbounce.cli import main
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.explorer.answers.records import measure_record
-from stackbounce.measure.hints import Hint, Said, about, in_words, joined
 from stackbounce.measure.kinds import KINDS
+from stackbounce.measure.messages import Message, OptionHint
 
 TRACK = "t;x;y\n" + "".join(f"{k / 50};0;{4.9 * (k / 50 - 0.5) ** 2:.4f}\n" for k in range(40))
 
@@ -43,13 +43,13 @@ def refusal(tmp_path, monkeypatch, capfd):
 
 
 def test_a_message_keeps_its_hints_through_all_that_is_done_with_it():
-    said = Said("one; ", Hint({"units": {"x": "cm"}}))
-    error = about("a.csv", InvalidValue(joined("; ", ["first", said])))
+    second = Message("one; ", OptionHint({"units": {"x": "cm"}}))
+    message = Message("; ").join(["first", second])
+    error = InvalidValue(Message.of(InvalidValue(message)).of_file("a.csv"))
     assert str(error) == "a.csv: first; one; units={'x': 'cm'}"
-    again = pickle.loads(pickle.dumps(error))
-    words = in_words(again.args[0], lambda hint: str(list(hint.options)))
-    assert words == "a.csv: first; one; ['units']"
-    assert pickle.loads(pickle.dumps(said)) == str(said)
+    again = Message.of(pickle.loads(pickle.dumps(error)))
+    assert again.worded(lambda hint: str(list(hint.options))) == "a.csv: first; one; ['units']"
+    assert pickle.loads(pickle.dumps(second)) == str(second)
 
 
 GUESSES = {
