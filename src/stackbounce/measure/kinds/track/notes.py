@@ -11,10 +11,10 @@ from stackbounce.measure.quantities import Array
 
 __all__ = ["notes_of", "stays_long", "uneven"]
 
-_CORRELATED = 0.2
+_CORRELATED = 0.2  # correlation of neighbouring points' errors that is mentioned
 _BENT = 0.05  # of the acceleration within a flight: a smaller change is not mentioned
 _OFF = 0.07  # of that change: by so much a restitution is off, in simulated distortions
-_NOTICED = 1.0  # error of a speed, beyond which it is said to be off
+_NOTICED = 1.0  # standard errors of a speed, from which on its bias is mentioned
 
 
 def notes_of(
