@@ -39,9 +39,8 @@ if TYPE_CHECKING:
     from stackbounce.measure.kinds.sound.analysis import knocks
     from stackbounce.measure.kinds.track.analysis import track
     from stackbounce.measure.kinds.waveform.analysis import waveform
-    from stackbounce.measure.kinds.waveform.gap.delay import gap_from_delay
+    from stackbounce.measure.kinds.waveform.gap.delay import gap_from_delay, sensor_gap
     from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
-    from stackbounce.measure.kinds.waveform.gap.sensor_gap import sensor_gap
     from stackbounce.measure.reading import read
 
 __all__ = [
@@ -82,7 +81,7 @@ _HOMES = {
     "one_law": "assembly",
     "press": "kinds.press.analysis",
     "read": "reading",
-    "sensor_gap": "kinds.waveform.gap.sensor_gap",
+    "sensor_gap": "kinds.waveform.gap.delay",
     "series_stiffness": "kinds.press.series",
     "split_series": "kinds.press.series",
     "track": "kinds.track.analysis",

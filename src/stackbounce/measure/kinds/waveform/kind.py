@@ -34,8 +34,8 @@ def _analyse(
     """Analyse a force, and the gap between two balls where there is a second channel or record."""
     from stackbounce.measure.kinds.heights.analysis import fallen
     from stackbounce.measure.kinds.waveform.analysis import waveform
+    from stackbounce.measure.kinds.waveform.gap.delay import sensor_gap
     from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
-    from stackbounce.measure.kinds.waveform.gap.sensor_gap import sensor_gap
 
     height = fallen(height, measured_to, diameter)
     known: Any = {"time_constant": time_constant, "law": law, "exponent": exponent}
