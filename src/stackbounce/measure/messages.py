@@ -6,7 +6,7 @@ from typing import Any, TypeAlias
 
 from stackbounce.errors import StackbounceError
 
-__all__ = ["Message", "OptionHint", "Wording", "python_wording"]
+__all__ = ["Message", "OptionHint", "Wording", "about_option", "python_wording"]
 
 
 @dataclass(frozen=True)
@@ -91,3 +91,14 @@ class Message(str):
     def worded(self, wording: Wording) -> str:
         """Return the text in the wording of a user interface."""
         return "".join(wording(p) if isinstance(p, OptionHint) else p for p in self.parts)
+
+
+def about_option(name: str, text: str) -> Message:
+    """Return a message that begins with the name of an option.
+
+    Examples
+    --------
+    >>> about_option("run", " must be one that is there")
+    'run must be one that is there'
+    """
+    return Message(OptionHint({name: None}), text)

@@ -5,8 +5,7 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.reading.even import even_times, spread
-from stackbounce.measure.reading.rounding import rounding_of
+from stackbounce.measure.reading.rounding import even_times, rounding_of, spread
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from stackbounce.errors import FileError, InvalidValue, a_or_an
 from stackbounce.measure.kind import Kind
 from stackbounce.measure.kinds import KINDS
-from stackbounce.measure.messages import Message, OptionHint
+from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.bounces import INFERRED, bounces
 from stackbounce.measure.reading.clock import on_the_clock
@@ -238,8 +238,7 @@ def _rows(kind: Kind, columns: Sequence[Column], values: Values, run: object) ->
     import xarray as xr
 
     if run is not None:
-        name = OptionHint({"run": None})
-        raise InvalidValue(Message(name, ": there is none to choose, as this holds no times"))
+        raise InvalidValue(about_option("run", ": there is none to choose, as this holds no times"))
     roles = [each[0] for each in kind.columns]
     whole = np.isfinite(values[:, [_at(columns, role) for role in roles]]).all(axis=1)
     if not whole.any():

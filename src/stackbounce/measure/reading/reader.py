@@ -11,12 +11,11 @@ import numpy as np
 
 from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
 from stackbounce.files import content_of
-from stackbounce.measure.messages import Message, OptionHint
+from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading import arrays, projects, wav
+from stackbounce.measure.reading import arrays, projects, sheets, wav, zipped
 from stackbounce.measure.reading.bare import NOT_NAMED
 from stackbounce.measure.reading.clock import without_counts
-from stackbounce.measure.reading.containers import tables_in
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
 from stackbounce.measure.reading.layouts import Layout
@@ -178,17 +177,25 @@ def _read(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
     if wav.is_wav(content):
         data, why, doubts = wav.read_wav(content)
         if told.holds not in (None, "sound"):
-            holds = OptionHint({"holds": None})
-            raise InvalidValue(Message(holds, f": the file is a sound, got {shown(told.holds)}"))
+            wrong = f": the file is a sound, got {shown(told.holds)}"
+            raise InvalidValue(about_option("holds", wrong))
         return _signed(data, "WAV", why, "sound", doubts)
-    tables = tables_in(content)
+    tables = _tables_in(content)
     if tables is not None:
         return _from_tables(tables, told)
     if told.table is not None:
-        table = OptionHint({"table": None})
-        kind = "as it is no zip archive or spreadsheet"
-        raise InvalidValue(Message(table, f": there is one only, {kind}"))
+        alone = ": there is one only, as it is no zip archive or spreadsheet"
+        raise InvalidValue(about_option("table", alone))
     return _from_table(name, content, told)
+
+
+def _tables_in(content: bytearray) -> Tables | None:
+    """Return the tables in a packing of its own, each as a program writes it; None if it is one."""
+    if content.startswith((b"PK\x03\x04", b"PK\x05\x06")):
+        return sheets.from_xlsx(content) if zipped.is_xlsx(content) else zipped.members(content)
+    if content.startswith(b"\xd0\xcf\x11\xe0"):
+        raise FileError("it is an old Excel file (.xls): save it as .xlsx or CSV")
+    return projects.tables(content)
 
 
 def _from_tables(tables: Tables, told: ReadOptions) -> "xr.Dataset":
@@ -234,7 +241,7 @@ def _from_table(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset
     holds = told.holds or layout.holds or holds_of(columns)
     if holds == "bounces" != layout.holds:
         whose = ": only phyphox's (in)elastic collision holds bounces"
-        raise InvalidValue(Message(OptionHint({"holds": None}), whose))
+        raise InvalidValue(about_option("holds", whose))
     data, more = assemble(holds, columns, values, None if runs else told.run)
     return _signed(data, layout.format, layout.why, holds, doubts + more)
 
