@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
-from measure.make_files import LOAD, PRESSED
 from stackbounce.cli import main
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.explorer.answers.records import measure_record
@@ -226,19 +225,6 @@ def test_numbers_that_break_an_analysis_are_refused_with_what_they_are(monkeypat
 def test_equal_intervals_are_no_bounces():
     with pytest.raises(InvalidValue, match="come faster and faster, got 8 equal intervals"):
         sb.measure.bounces(0.5 * np.arange(9))
-
-
-def test_a_press_curve_whose_numbers_overflow(tmp_path, monkeypatch):
-    from stackbounce.measure.kinds.press import analysis
-
-    def overflow(*_):
-        raise OverflowError(34, "Numerical result out of range")
-
-    monkeypatch.setattr(analysis, "result_of", overflow)
-    path = tmp_path / "a.csv"
-    path.write_text(table("Compression (mm),Force (N)", PRESSED, LOAD))
-    with pytest.raises(InvalidValue, match="a press curve must follow a power law in"):
-        sb.measure.analyse(sb.read(path))
 
 
 def test_more_knocks_than_a_ball_can_make_are_refused_at_once():

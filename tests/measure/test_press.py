@@ -16,6 +16,7 @@ from synthetic.press import press_record
 from work import calls_of, memory_of
 
 BALL = sb.Hysteretic(4e4, exponent=1.3, restitution=0.78)
+STEEP = np.linspace(-0.02, 0.05, 400)
 USUAL = {"peak": 5e-3, "slack": 1e-3, "noise": 0.1, "seed": 1}
 
 
@@ -222,8 +223,9 @@ def test_correlated_noise_has_larger_errors():
         ((np.arange(9.0), np.full(9, np.nan)), "at least 6 points"),
         ((np.arange(9.0), np.arange(8.0)), "one length"),
         ((np.arange(200.0), np.random.default_rng(1).normal(0, 1, 200)), "rise with the compress"),
+        ((STEEP, np.exp(1e3 * STEEP)), "power law in numbers of a finite size"),
     ],
-    ids=["two points", "constant force", "constant compression", "nan", "lengths", "noise"],
+    ids=["two points", "constant force", "constant compression", "nan", "lengths", "noise", "exp"],
 )
 def test_what_is_no_press_curve(data, message):
     with pytest.raises(InvalidValue, match=message) as caught:

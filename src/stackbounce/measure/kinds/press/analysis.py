@@ -3,8 +3,6 @@
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from stackbounce.errors import InvalidType, InvalidValue, non_negative, shown, whole
 from stackbounce.measure.kinds.press.branches import Cycle, Record, cycles, record_of
 from stackbounce.measure.kinds.press.cycle import result_of
@@ -109,17 +107,10 @@ def press(
 def _press(record: Record, number: int | None) -> Press:
     found = cycles(record)
     chosen = _chosen(found, number)
-    try:
-        if len(found[chosen].loading):
-            results = {k: result_of(record, one) for k, one in enumerate(found) if len(one.loading)}
-        else:
-            results = {chosen: _unloading_only(record, found[chosen])}
-    except (ArithmeticError, np.linalg.LinAlgError):
-        span = f"{np.ptp(record.compression):.3g} m and {np.ptp(record.force):.3g} N"
-        raise InvalidValue(
-            f"a press curve must follow a power law in numbers of a finite size, got {span}: are "
-            "the columns and their units right?"
-        ) from None
+    if len(found[chosen].loading):
+        results = {k: result_of(record, one) for k, one in enumerate(found) if len(one.loading)}
+    else:
+        results = {chosen: _unloading_only(record, found[chosen])}
     results = {k: replace(one, cycle=k, cycles=len(found)) for k, one in results.items()}
     result = results.pop(chosen)
     result = replace(result, others=tuple(results.values()))

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds.press.branches import Cycle, Record
 from stackbounce.measure.kinds.press.fits import (
     PowerFit,
@@ -28,6 +29,7 @@ _EQUAL_WEIGHTS = 0.9  # smallest over largest noise of the points, above which a
 _SLACK_MARGIN = 0.03  # of the peak compression: slack points are further from the contact
 _LEAST_SLACK = 5  # points of slack from which the zero of the force is found
 _TAIL = 0.05  # of the points in contact: their mean residual corrects the peak force
+_LARGEST_LOG = 700.0  # of the stiffness's C**p, whose size a float can hold
 _WAVES = 9  # degree of the polynomial that makes up the smooth part of residuals
 _SMALL_MISFIT = 0.01  # of the peak force, below which the smooth part does not matter
 _CLEAR_MISFIT = 5.0  # times what noise adds to the smooth part: up to it, the curve fits
@@ -231,11 +233,26 @@ def _fit(
     record: Record, branch: _Branch, peak: float, first: Array, free: int
 ) -> tuple[PowerFit, Array]:
     """Return the fit of a branch, and the relative noise by which its points were weighted."""
-    fit = fit_power_law(branch.x, branch.y, peak, first, free)
+    fit = _finite(fit_power_law(branch.x, branch.y, peak, first, free), branch, record)
     scale = _scale(record, branch, fit)
     if scale.min() < _EQUAL_WEIGHTS * scale.max():
-        fit = fit_power_law(branch.x, branch.y, peak, first, free, scale)
+        again = fit_power_law(branch.x, branch.y, peak, first, free, scale)
+        fit = _finite(again, branch, record)
     return fit, scale
+
+
+def _finite(fit: PowerFit, branch: _Branch, record: Record) -> PowerFit:
+    """Return a fit; refuse a loading of no point in contact, or whose ``C**p`` no float holds."""
+    _, log_p, log_c = fit.values
+    if fit.jacobian.shape[1] < 3 or (
+        abs(log_c) * max(1.0, np.exp(log_p)) < _LARGEST_LOG and (fit.ratio(branch.x) > 0.0).any()
+    ):
+        return fit
+    span = f"{np.ptp(record.compression):.3g} m and {np.ptp(record.force):.3g} N"
+    raise InvalidValue(
+        f"a press curve must follow a power law in numbers of a finite size, got {span}: are "
+        "the columns and their units right?"
+    )
 
 
 def _scale(record: Record, branch: _Branch, fit: PowerFit) -> Array:
