@@ -245,8 +245,6 @@ def test_options_are_checked():
         press(data, sign=2)
     with pytest.raises(InvalidValue, match="compliance"):
         press(data, compliance=-1.0)
-    with pytest.raises(InvalidType, match="law must be"):
-        press_record(sb.Dashpot(1.0, damping=1.0), peak=1.0)
 
 
 def test_parts_make_a_contact():

@@ -212,8 +212,3 @@ def test_pictures():
     assert "gravity of the flights 9.8" in figure.axes[0].get_title(loc="left")
     two = tracked(sb.simulate(STACK, until=0.2), frame_rate=240.0, read_as=60.0, seed=1)
     assert "factor of 4" in draw_track(two, track(two)).axes[0].get_title(loc="left")
-
-
-def test_what_cannot_be_tracked():
-    with pytest.raises(InvalidType, match="source must be"):
-        tracked("ball")
