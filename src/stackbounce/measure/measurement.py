@@ -1,25 +1,25 @@
 """A measurement: a file or typed numbers, with the results, for all user interfaces."""
 
+import logging
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
 
-import numpy as np
-
-from stackbounce.errors import InvalidValue, StackbounceError, a_or_an
+from stackbounce.errors import InvalidValue, StackbounceError
 from stackbounce.measure.analysis import analyse
 from stackbounce.measure.finding import Branch, Curve, Finding, channels
-from stackbounce.measure.kind import keywords_of
 from stackbounce.measure.kinds import TYPED
-from stackbounce.measure.messages import Message, OptionHint, Wording, python_wording
+from stackbounce.measure.messages import Message, Wording, python_wording
 from stackbounce.measure.options import OPTIONS, options_for
 from stackbounce.measure.quantities import Row, nominal
 from stackbounce.measure.reading import read, read_content
+from stackbounce.measure.setup import Setup
 
 __all__ = ["File", "Measurement", "measure_file", "measure_numbers", "row_mapping"]
 
+_LOG = logging.getLogger(__name__)
 _CALCULATING = r"(numpy|scipy|pandas|xarray|uncertainties|stackbounce\.measure)\b"
 """Modules whose warnings are no user's: of numbers that an analysis refuses or leaves out."""
 
@@ -148,30 +148,12 @@ def _measured(file: File, options: Mapping[str, Any], wording: Wording) -> Measu
             found = analyse(data, **own)
         except StackbounceError as error:
             raise type(error)(Message.of(error).of_file(name)) from error
-        except (ArithmeticError, LookupError, ValueError) as error:
-            raise InvalidValue(_refusal(data).of_file(name)) from error
+        except Exception:
+            _LOG.exception("the analysis of %s as %s has a bug", name, data.attrs["holds"])
+            raise
     evidence = {key: data.attrs[key] for key in ("format", "why", "doubt", "holds")}
     evidence["doubt"] = Message(evidence["doubt"]).worded(wording)
     return Measurement(name, evidence, data, found, wording)
-
-
-def _refusal(data: Any) -> Message:
-    """Return that the numbers of a file are not those of its kind, and what they are."""
-    spans = []
-    for name, values in [*data.coords.items(), *data.data_vars.items()][:6]:
-        if values.dtype.kind != "f":
-            continue
-        known = values.values[np.isfinite(values.values)]
-        if known.size:
-            unit = f" {values.attrs['units']}" if values.attrs.get("units") else ""
-            spans.append(f"{name} from {known.min():.4g} to {known.max():.4g}{unit}")
-    rows = max(data.sizes.values(), default=0)
-    return Message(
-        f"its {rows} rows cannot be analysed as {a_or_an(data.attrs['holds'])}, got "
-        f"{', '.join(spans) or 'no numbers'}: ",
-        OptionHint({"holds": None, "names": None, "units": None}),
-        " tell another kind, other columns and units",
-    )
 
 
 def _read(file: File, reading: Mapping[str, Any]) -> Any:
@@ -184,9 +166,8 @@ def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:
     done = []
     for kind in TYPED:
         given = [name for name in kind.starts_with if name in options]
-        if not given or kind.of_numbers is None:
+        if not given:
             continue
-        own = {name: options[name] for name in keywords_of(kind.of_numbers) if name in options}
         evidence = {
             "format": "numbers of the command line",
             "why": "",
@@ -195,7 +176,7 @@ def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:
         }
         source = " ".join(known[name].on_command_line for name in given)
         try:
-            found = kind.of_numbers(**own)
+            found = kind.of_numbers(Setup.of(kind.options, options))
         except ArithmeticError as error:
             raise InvalidValue(f"{source} has numbers that are too large or too small") from error
         done.append(Measurement(source, evidence, None, (found,)))

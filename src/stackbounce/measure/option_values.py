@@ -98,7 +98,7 @@ def _lengths(text: str, option: Option, called: str) -> list[Any]:
 
 def _points(value: Any, _: Option, called: str) -> tuple[str, ...]:
     """Return the points that the drop's height and the bounces' were measured to."""
-    from stackbounce.measure.kinds.heights.analysis import places
+    from stackbounce.measure.setup import places
 
     if not isinstance(value, str):
         return places(value)

@@ -1,7 +1,7 @@
 """The options of a measurement, defined once for all user interfaces.
 
-`OPTIONS` feeds the signature of `analyse`, the command line, the page's form, and the table in
-`docs/measure.md`. An option is in effect where the analysis of a kind has a keyword of its name.
+`OPTIONS` feeds the command line, the page's form, and the table in `docs/measure.md`. An option is
+in effect for the kinds that name it in their `options`.
 """
 
 import re
@@ -10,19 +10,11 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, Literal, TypeAlias
 
-from stackbounce.errors import (
-    InvalidType,
-    finite,
-    fraction,
-    nearest,
-    non_negative,
-    positive,
-    shown,
-)
+from stackbounce.errors import finite, fraction, non_negative, positive
 from stackbounce.measure.kinds import KINDS, TYPED
 from stackbounce.model.laws import LAWS
 
-__all__ = ["OPTIONS", "Option", "check_options", "options_for", "taken_by"]
+__all__ = ["OPTIONS", "Option", "options_for", "taken_by"]
 
 Form: TypeAlias = Literal[
     "number", "measured", "lengths", "flag", "points", "law", "file", "columns", "text"
@@ -221,19 +213,3 @@ def taken_by(option: Option) -> list[str]:
     """Return the kinds whose analysis takes an option; the reader's are for every file."""
     kinds = {**KINDS, **{kind.name: kind for kind in TYPED}}
     return [name for name, kind in kinds.items() if option.name in kind.options]
-
-
-def check_options(given: Iterable[str], to: str) -> None:
-    """Refuse options that a function does not take.
-
-    Raises
-    ------
-    InvalidType
-        If one is unknown, or is another function's.
-    """
-    own = options_for(to)
-    for name in given:
-        if name not in own:
-            misplaced = to == "analyse" and name in options_for("read")
-            right = "read takes it" if misplaced else nearest(name, own)
-            raise InvalidType(f"{shown(name)} is no option of {to}; {right}")

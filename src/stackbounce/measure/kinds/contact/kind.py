@@ -1,22 +1,12 @@
 """A known contact time and restitution as a kind of measurement without a file."""
 
-from typing import Any
+from stackbounce.measure.kinds.contact.analysis import Known, known_contact
+from stackbounce.measure.setup import Setup
 
-from stackbounce.measure.kind import Kind
-
-__all__ = ["CONTACT"]
-
-
-def _of_numbers(*, contact_time: Any = None, restitution: Any = None, mass: Any = None) -> Any:
-    from stackbounce.measure.kinds.contact.analysis import known_contact
-
-    return known_contact(contact_time=contact_time, restitution=restitution, mass=mass)
+__all__ = ["of_numbers"]
 
 
-CONTACT = Kind(
-    "contact",
-    "dynamic stiffness of a contact time",
-    of_numbers=_of_numbers,
-    starts_with=("contact_time", "restitution"),
-    typed="contact with the floor",
-)
+def of_numbers(setup: Setup) -> Known:
+    """Return the contact that the numbers tell."""
+    known = {"contact_time": setup.contact_time, "restitution": setup.restitution}
+    return known_contact(mass=setup.mass, **known)
