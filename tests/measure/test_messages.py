@@ -218,9 +218,10 @@ def test_a_bug_of_an_analysis_is_no_refusal_and_is_logged_with_its_cause(monkeyp
     assert "broken" in caplog.text
 
 
-def test_equal_intervals_are_no_bounces():
-    with pytest.raises(InvalidValue, match="come faster and faster, got 8 equal intervals"):
-        sb.measure.bounces(0.5 * np.arange(9))
+@pytest.mark.parametrize("precision", [np.float64, np.float32])
+def test_equal_intervals_are_no_bounces(precision):
+    with pytest.raises(InvalidValue, match="come faster and faster, got 24 equal intervals"):
+        sb.measure.bounces((1e-4 * np.arange(25)).astype(precision))
 
 
 def test_a_press_curve_whose_numbers_overflow(tmp_path, monkeypatch):

@@ -24,7 +24,7 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 __all__ = ["bounces"]
 
 _LONGEST = 200  # bounces of one drop
-_EQUAL = 1e-9  # of an interval, by which equal ones differ
+_ROUNDING = 1e-5  # of an interval: a clock in single precision makes equal ones differ by less
 _INSTANT = 1e-6  # s: no ball bounces twice in so short a time
 
 
@@ -261,7 +261,7 @@ def _flights(moments: Sequence[Any], missed: Sequence[int], contact_time: float)
             )
         flights.append(None if lost else flight)
     known = [nominal(one) for one in flights if one is not None]
-    if len(known) > 1 and max(known) - min(known) < _EQUAL * max(known):
+    if len(known) > 1 and max(known) - min(known) < _ROUNDING * max(known):
         raise InvalidValue(
             "times must be those of bounces, which come faster and faster, got "
             f"{len(known)} equal intervals of {known[0]:.4g} s"

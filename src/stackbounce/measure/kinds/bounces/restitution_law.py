@@ -13,10 +13,9 @@ from stackbounce.measure.statistics.regression import Fit, covariance_of, fit_wi
 __all__ = ["RestitutionLaw", "fit_line", "laws_of"]
 
 _MOST = 0.3  # largest excess scatter of restitutions
-_STEEPEST = (
-    30.0  # logarithm of a power law's restitution at 1 m/s; beyond it all speeds are far away
-)
-_ALIKE = 1e-6  # part of a speed by which speeds must differ for a line
+# Logarithm of a power law's restitution at 1 m/s; beyond it all speeds are far away.
+_STEEPEST = 30.0
+_ALIKE = 1e-5  # of a speed: a line through closer ones is singular in double precision
 
 
 @dataclass(frozen=True)
