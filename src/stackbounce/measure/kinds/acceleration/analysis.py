@@ -21,7 +21,7 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 
 __all__ = ["accelerometer"]
 
-_TOLD = 6  # samples of a contact whose duration can be told
+_CONTACT_SAMPLES = 6  # of a contact whose duration is given
 
 
 def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerometer:
@@ -103,7 +103,8 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
         restitutions=tuple(kept),
         mean=(after[-1] / before[0]) ** (1.0 / len(kept)) if kept else None,
         contact_times=tuple(
-            starts[k + 1] - ends[k] if count >= _TOLD else None for k, count in enumerate(counts)
+            starts[k + 1] - ends[k] if count >= _CONTACT_SAMPLES else None
+            for k, count in enumerate(counts)
         ),
         peaks=tuple(float(top.max()) for top in tops),
         notes=tuple(notes),
@@ -124,10 +125,10 @@ def _edge(times: Array, k: int) -> Any:
 def _notes(times: Array, counts: list[int], kept: list[Any], held: bool) -> list[str]:
     step = float(np.median(np.diff(times)))
     notes = []
-    if min(counts) < _TOLD:
+    if min(counts) < _CONTACT_SAMPLES:
         notes.append(
             f"it was sampled every {1e3 * step:.2g} ms: contact times and peaks of bounces with "
-            f"fewer than {_TOLD} samples, {min(counts)} here, cannot be told from it"
+            f"fewer than {_CONTACT_SAMPLES} samples, {min(counts)} here, cannot be told from it"
         )
     if held:
         notes.append("the drop height supposes a fall from rest: a hand that follows adds to it")

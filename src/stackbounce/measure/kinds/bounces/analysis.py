@@ -23,7 +23,7 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 
 __all__ = ["bounces"]
 
-_LONGEST = 200  # bounces of one drop
+_MOST_BOUNCES = 200  # of one drop
 _ROUNDING = 1e-5  # of an interval: a clock in single precision makes equal ones differ by less
 _INSTANT = 1e-6  # s: no ball bounces twice in so short a time
 
@@ -94,9 +94,10 @@ def bounces(
         positive("drop_height", nominal(drop_height), "metres")
     notes: list[str] = []
     moments, missed = _moments(times, time_error, 3 if drop_height is None else 2, notes)
-    if len(moments) > _LONGEST:
+    if len(moments) > _MOST_BOUNCES:
         raise InvalidValue(
-            f"times must be those of one drop's bounces, at most {_LONGEST}, got {len(moments)}"
+            f"times must be those of one drop's bounces, at most {_MOST_BOUNCES}, "
+            f"got {len(moments)}"
         )
 
     def found_with(drag: Drag | None) -> Bounces:

@@ -12,9 +12,8 @@ from stackbounce.measure.statistics.regression import Fit, covariance_of, fit_wi
 
 __all__ = ["RestitutionLaw", "fit_line", "laws_of"]
 
-_MOST = 0.3  # largest excess scatter of restitutions
-# Logarithm of a power law's restitution at 1 m/s; beyond it all speeds are far away.
-_STEEPEST = 30.0
+_MOST_SCATTER = 0.3  # excess scatter of restitutions that the fits allow for
+_STEEPEST = 30.0  # logarithm of a power law's restitution at 1 m/s: beyond, all speeds are far off
 _ALIKE = 1e-5  # of a speed: a line through closer ones is singular in double precision
 
 
@@ -90,7 +89,7 @@ def _differ(speeds: Sequence[Any]) -> None:
 
 
 def laws_of(
-    speeds: Sequence[Any], kept: Sequence[Any], most: float = _MOST
+    speeds: Sequence[Any], kept: Sequence[Any], most: float = _MOST_SCATTER
 ) -> tuple[Number, tuple[RestitutionLaw, ...], float]:
     """Return the mean restitution, its laws, and the scatter about the linear one."""
     from uncertainties import correlated_values, umath

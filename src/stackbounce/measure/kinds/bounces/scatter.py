@@ -11,7 +11,8 @@ from stackbounce.measure.statistics.regression import covariance_of, least_squar
 
 __all__ = ["Scatter", "meaning_of_excess", "meaning_of_explained", "scatter_of"]
 
-_LEAST = 6  # restitutions that tell anything
+# Set by hand on the drops of `tests/synthetic/falls.py` with errors of the times or uneven floors.
+_FEWEST = 6  # restitutions that tell anything
 _CLEAR = 2.0  # standard deviations, or log-likelihood, by which a cause is told
 _EXPLAINED = 1.5  # times their errors: then the times may be the only cause
 _NOTABLE = 2e-3  # scatter of restitutions that is worth a note
@@ -67,7 +68,7 @@ def scatter_of(speeds: Sequence[Any], kept: Sequence[Any]) -> Scatter | None:
     ('timing', True, True)
     """
     count = len(kept)
-    if count < _LEAST:
+    if count < _FEWEST:
         return None
     values = np.array([one.nominal_value for one in kept])
     x = np.array([float(getattr(one, "nominal_value", one)) for one in speeds])
