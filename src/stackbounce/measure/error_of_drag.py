@@ -65,7 +65,7 @@ def _moved(value: Any, less: Any, more: Any, *, off: Any) -> Any:
         rows = list(zip(value, less, more, strict=False))
         return (*(_moved(*row, off=off) for row in rows), *value[len(rows) :])
     if is_dataclass(value) and not isinstance(value, type | Drag):
-        names = [one.name for one in fields(value)]
+        names = [field.name for field in fields(value)]
         every = {name: [getattr(one, name) for one in (value, less, more)] for name in names}
         return replace(value, **{name: _moved(*row, off=off) for name, row in every.items()})
     return value

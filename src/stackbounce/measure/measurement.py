@@ -54,31 +54,30 @@ class Measurement:
     @property
     def rows(self) -> list[Row]:
         """The quantities of all results."""
-        return [row for one in self.found for row in one.rows()]
+        return [row for result in self.found for row in result.rows()]
 
     @property
     def notes(self) -> list[str]:
         """The notes of all results, each once."""
-        every = (note for one in self.found for note in one.notes)
+        every = (note for result in self.found for note in result.notes)
         return list(dict.fromkeys(Message(note).worded(self.wording) for note in every))
 
     @property
     def measured(self) -> dict[str, str]:
         """The measured values that a fit can use, by the names that `stackbounce.fit` takes."""
-        return {
-            name: value for one in self.found for name, value in one.measured(self.data).items()
-        }
+        every = [result.measured(self.data) for result in self.found]
+        return {name: value for values in every for name, value in values.items()}
 
     @property
     def curves(self) -> list[Curve]:
         """The curves over time, to draw over a simulated drop."""
-        own = (one.curves(self.data) for one in self.found)
+        own = (result.curves(self.data) for result in self.found)
         return next((curves for curves in own if curves is not None), None) or channels(self.data)
 
     @property
     def branches(self) -> list[Branch]:
         """The branches of a press curve."""
-        return [branch for one in self.found for branch in one.branches()]
+        return [branch for result in self.found for branch in result.branches()]
 
     @property
     def bounce(self) -> dict[str, Any] | None:
@@ -88,10 +87,10 @@ class Measurement:
         `contact` instead, a law as a drop's TOML has it.
         """
         names = ("restitution", "contact_time", "impact_speed")
-        for one in self.found:
-            values = one.law_arguments()
+        for result in self.found:
+            values = result.law_arguments()
             known = {name: nominal(values[name]) for name in names if values.get(name) is not None}
-            contact = None if known else one.parts().get("contact")
+            contact = None if known else result.parts().get("contact")
             if contact or {"restitution", "contact_time"} & set(known):
                 return {**dict.fromkeys(names), **known, "contact": contact}
         return None
@@ -99,7 +98,7 @@ class Measurement:
     @property
     def first_touch(self) -> float | None:
         """When the lowest ball first touches the floor, in s on the record's clock."""
-        times = (one.first_touch() for one in self.found)
+        times = (result.first_touch() for result in self.found)
         return next((time for time in times if time is not None), None)
 
     def to_mapping(self) -> dict[str, Any]:
@@ -162,7 +161,7 @@ def _read(file: File, reading: Mapping[str, Any]) -> Any:
 
 def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:
     """Analyse typed numbers; return a measurement of each kind for which they suffice."""
-    known = {one.name: one for one in OPTIONS}
+    known = {option.name: option for option in OPTIONS}
     done = []
     for kind in TYPED:
         given = [name for name in kind.starts_with if name in options]

@@ -53,7 +53,7 @@ def columns(data: Any, names: Sequence[str]) -> list[Array]:
     unmasked("data", data)
     try:
         given = [data[name] for name in names] if hasattr(data, "data_vars") else list(data)
-        arrays = [np.asarray(one, dtype=np.float64) for one in given]
+        arrays = [np.asarray(array, dtype=np.float64) for array in given]
     except (KeyError, TypeError, ValueError):
         got = ", ".join(map(str, getattr(data, "data_vars", ()))) or shown(data)
         raise InvalidType(
@@ -62,8 +62,8 @@ def columns(data: Any, names: Sequence[str]) -> list[Array]:
         ) from None
     if len(arrays) != len(names):
         raise InvalidValue(f"data must be ({', '.join(names)}), got {len(arrays)} arrays")
-    if any(one.shape != arrays[0].shape or one.ndim != 1 for one in arrays):
-        shapes = " and ".join(str(one.shape) for one in arrays)
+    if any(array.shape != arrays[0].shape or array.ndim != 1 for array in arrays):
+        shapes = " and ".join(str(array.shape) for array in arrays)
         raise InvalidValue(
             f"data must hold {' and '.join(names)} of one length, got shapes {shapes}"
         )

@@ -59,7 +59,7 @@ def record_of(data: Any, gravity: float) -> Record:
     else:
         times, axes, size, notes = _of_dataset(data)
         cut = any(
-            int((one == np.nanmax(one)).sum()) >= _CLIPPED for one in map(np.abs, axes) if one.size
+            (size == np.nanmax(size)).sum() >= _CLIPPED for size in map(np.abs, axes) if size.size
         )
         linear = _is_linear(data, times, size, gravity)
     known = np.isfinite(times) & np.isfinite(size)
@@ -99,9 +99,9 @@ def _of_dataset(data: Any) -> tuple[Array, list[Array], Array, list[str]]:
 
 def _is_linear(data: Any, times: Array, size: Array, gravity: float) -> bool:
     """Return whether gravity was subtracted: by what the file says, or as a rest shows nothing."""
-    said = [str(data.attrs.get("format", ""))]
-    said += [str(one.attrs.get("long_name", "")) for one in data.data_vars.values()]
-    if any(word in one.casefold() for one in said for word in _LINEAR):
+    texts = [str(data.attrs.get("format", ""))]
+    texts += [str(column.attrs.get("long_name", "")) for column in data.data_vars.values()]
+    if any(word in text.casefold() for text in texts for word in _LINEAR):
         return True
     step = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
     wide = round(_REST_SECONDS / step) if step > 0.0 else 0

@@ -38,8 +38,8 @@ def series_of(record: Record, gravity: float) -> list[Flight]:
     """Return the longest series of two or more flights with only bounces between them."""
     best: list[Flight] = []
     own: list[Flight] = []
-    for one in _flights(record, gravity):
-        own = [*own, one] if own and _bounces(record, own[-1], one, gravity) else [one]
+    for flight in _flights(record, gravity):
+        own = [*own, flight] if own and _bounces(record, own[-1], flight, gravity) else [flight]
         if len(own) > max(len(best), 1) and _begins(record, own[0], gravity):
             best = own
     return best

@@ -68,7 +68,7 @@ def fit_line(
     if degree:
         _differ(speeds)
     x = [umath.log(speed) for speed in speeds] if power else list(speeds)
-    y = [umath.log(one) for one in kept] if power else list(kept)
+    y = [umath.log(restitution) for restitution in kept] if power else list(kept)
     design = np.vander(
         [float(getattr(one, "nominal_value", one)) for one in x], degree + 1, increasing=True
     )
@@ -94,7 +94,7 @@ def laws_of(
     """Return the mean restitution, its laws, and the scatter about the linear one."""
     from uncertainties import correlated_values, umath
 
-    if any(np.isnan(one.std_dev) for one in kept):
+    if any(np.isnan(restitution.std_dev) for restitution in kept):
         return sum(kept) / len(kept), (), 0.0
     laws: list[RestitutionLaw] = []
     scatter = 0.0

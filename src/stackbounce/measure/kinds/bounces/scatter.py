@@ -70,7 +70,7 @@ def scatter_of(speeds: Sequence[Any], kept: Sequence[Any]) -> Scatter | None:
     count = len(kept)
     if count < _FEWEST:
         return None
-    values = np.array([one.nominal_value for one in kept])
+    values = np.array([restitution.nominal_value for restitution in kept])
     x = np.array([float(getattr(one, "nominal_value", one)) for one in speeds])
     design = np.stack([np.ones(count), x], axis=1)
     covariance = covariance_of(kept)
@@ -84,8 +84,8 @@ def scatter_of(speeds: Sequence[Any], kept: Sequence[Any]) -> Scatter | None:
     timing, factor = _best_factor(design, values, covariance)
     alone, _ = _best_factor(design, values, np.eye(count))
     if factor > _EXPLAINED:  # the errors are there, too
-        every = (covariance + q**2 * np.eye(count) for q in _SCATTERS)
-        alone = max(_likelihood(design, values, one) for one in every)
+        totals = (covariance + q**2 * np.eye(count) for q in _SCATTERS)
+        alone = max(_likelihood(design, values, total) for total in totals)
     cause: Literal["timing", "floor or spin", "unknown"] = "unknown"
     if lag_one < mean - _CLEAR * deviation or (lag_one < mean and timing > alone + _CLEAR):
         cause = "timing"

@@ -1,6 +1,6 @@
 """Heights of successive bounces: restitutions."""
 
-from stackbounce.measure.kind import Kind
+from stackbounce.measure.kind import IN_AIR, Kind
 
 __all__ = ["TABLE"]
 
@@ -8,10 +8,7 @@ TABLE = Kind(
     "table",
     "restitution of each bounce, where its one column is heights",
     f"{__name__}.kind",
-    options=(
-        *("heights", "height_error", "repeated", "measured_to"),
-        *("mass", "diameter", "drag_coefficient", "air_density"),
-    ),
+    options=("heights", "height_error", "repeated", "measured_to", *IN_AIR),
     dimension="row",
     starts_with=("heights",),
     typed="heights of bounces",

@@ -143,7 +143,7 @@ def _mean(start: Any, counted: list[Any], repeated: bool, drag: Drag | None) -> 
     mean = sum(counted) / len(counted)
     if len(counted) > 1:
         # The scatter of the heights includes their reading errors.
-        values = np.array([one.nominal_value for one in counted])
+        values = np.array([height.nominal_value for height in counted])
         error = float(values.std(ddof=1)) / math.sqrt(len(values)) * widening(len(values) - 1)
         mean = ufloat(values.mean(), error) if error else mean
     return _kept(start, mean, drag)
@@ -151,7 +151,7 @@ def _mean(start: Any, counted: list[Any], repeated: bool, drag: Drag | None) -> 
 
 def _notes(before: list[Any], counted: list[Any]) -> list[str]:
     notes: list[str] = []
-    if any(math.isnan(one.std_dev) for one in [before[0], *counted]):
+    if any(math.isnan(height.std_dev) for height in [before[0], *counted]):
         notes.append(
             Message(
                 "A height has no error, so that the restitutions' are unknown: give ",

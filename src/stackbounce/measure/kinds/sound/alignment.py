@@ -12,7 +12,7 @@ from stackbounce.measure.quantities import Array
 __all__ = ["aligned"]
 
 # Set by hand on the synthetic recordings of `benchmarks/coverage/sound.py`, so that the error bars
-# hold the truth as often as they claim; `tests/measure/test_coverage_sound.py` guards it.
+# hold the truth as often as they claim; `tests/measure/test_coverage_measure.py` guards it.
 _SECONDS_BEFORE, _SECONDS_AFTER = 2e-3, 3e-3  # s of a knock, around its onset, that are compared
 _FEWEST_SAMPLES = 8  # before and after, at a low sampling rate
 _NOISE_SHARE = 0.4  # of the time before the onset, from its beginning: there is noise alone
@@ -158,11 +158,11 @@ def _compared(
     variances = (
         _smooth((residuals**2).mean(axis=0), _VARIANCE_WINDOW / bands.step) + _LEAST_VARIANCE
     )
-    slopes, seen = (np.gradient(one, bands.step, axis=2) for one in (others, logs))
+    slopes, seen = (np.gradient(logarithms, bands.step, axis=2) for logarithms in (others, logs))
     # What the slope of the others predicts of a knock's own: chance predicts nothing.
     wide = _SLOPE_WINDOW / bands.step
-    told = _smooth((slopes * seen).mean(axis=0), wide)
-    real = np.clip(told / np.maximum(_smooth((slopes**2).mean(axis=0), wide), 1e-30), 0.0, 1.0)
+    common = _smooth((slopes * seen).mean(axis=0), wide)
+    real = np.clip(common / np.maximum(_smooth((slopes**2).mean(axis=0), wide), 1e-30), 0.0, 1.0)
     weights = np.broadcast_to(real**2 / variances / bands.correlation[:, None], logs.shape)
     return _Comparison(others + level, residuals, slopes, seen, weights, real**2), template
 
@@ -195,8 +195,8 @@ def _best(
     logs = np.take_along_axis(bands.logs, steps[:, None], axis=2)
     size = 1 << math.ceil(math.log2(logs.shape[2]))
     weights, wanted = (
-        np.fft.rfft(one, size).conj()
-        for one in (compared.weights, compared.weights * compared.wanted)
+        np.fft.rfft(series, size).conj()
+        for series in (compared.weights, compared.weights * compared.wanted)
     )
     both = np.fft.rfft(logs**2, size) * weights - 2.0 * np.fft.rfft(logs, size) * wanted
     squares = np.fft.irfft(both.sum(axis=1), size)[:, : 2 * most + 1]
@@ -211,8 +211,8 @@ def _by_band(compared: _Comparison) -> tuple[Array, Array]:
     """Return by how much each band would shift each knock, and the variance of that, (K, B)."""
     weights, slopes = compared.weights, compared.slopes
     information = (weights * slopes**2).sum(axis=2)
-    told = (weights * slopes * compared.seen).sum(axis=2).mean(axis=0)
-    real = np.maximum(told / np.maximum(information.mean(axis=0), 1e-30), _LEAST_SHARE)
+    common = (weights * slopes * compared.seen).sum(axis=2).mean(axis=0)
+    real = np.maximum(common / np.maximum(information.mean(axis=0), 1e-30), _LEAST_SHARE)
     information = np.maximum(information * real, 1e-9)
     shifts = -(weights * slopes * compared.residuals).sum(axis=2) / information
     spread = (weights * slopes**2 * compared.significance).sum(axis=2)

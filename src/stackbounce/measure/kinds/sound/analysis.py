@@ -125,7 +125,7 @@ def knocks(
         tuple(map(ufloat, origin + times, errors)),
         loudness / loudness.max(),
         chain.missed,
-        tuple(Dropped(origin + one.time, one.why) for one in left_out),
+        tuple(Dropped(origin + sound.time, sound.why) for sound in left_out),
         rate,
         tuple(notes),
     )

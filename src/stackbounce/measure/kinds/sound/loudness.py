@@ -44,7 +44,7 @@ def rounding(samples: NDArray[np.float32]) -> Array:
     >>> (12 * rounding(coarse[None].astype(np.float32))) ** 0.5
     array([0.125])
     """
-    return np.array([resolution(one) for one in samples]) ** 2 / 12.0
+    return np.array([resolution(channel) for channel in samples]) ** 2 / 12.0
 
 
 def whitened(samples: NDArray[np.float32], rounded: Array) -> NDArray[np.float32]:
@@ -58,7 +58,9 @@ def whitened(samples: NDArray[np.float32], rounded: Array) -> NDArray[np.float32
         (channels,) variance of the quantisation error, as of `rounding`.
     """
     pairs = zip(samples, rounded.tolist(), strict=True)
-    return np.array([linear_prediction_residual(one, _ORDER, least) for one, least in pairs])
+    return np.array(
+        [linear_prediction_residual(channel, _ORDER, least) for channel, least in pairs]
+    )
 
 
 def find_rises(

@@ -92,7 +92,7 @@ def clearest(white: NDArray[np.float32], rate: float, about: Array, rounded: Arr
     clear = []
     for values, least in zip(white, rounded, strict=True):
         heard = [_knock(values, at, rate, _FAR, 1, least) for at in about]
-        clear.append(sum(math.log(one.loud / one.noise) for one in heard))
+        clear.append(sum(math.log(knock.loud / knock.noise) for knock in heard))
     return int(np.argmax(clear))
 
 
@@ -138,8 +138,8 @@ def _part(values: NDArray[np.float32], start: int, stop: int, thin: int) -> Arra
 
 def _improved(knocks: list[_Knock], rate: float) -> tuple[Array, Array]:
     """Return the posterior mean of each onset and its error, in s, with one common rise time."""
-    common = np.mean([one.color for one in knocks], axis=0)
-    logs = np.array([_logs(one, 0.5 * (one.color + common), rate) for one in knocks])
+    common = np.mean([knock.color for knock in knocks], axis=0)
+    logs = np.array([_logs(knock, 0.5 * (knock.color + common), rate) for knock in knocks])
     chances = np.exp(logs - logs.max(axis=(1, 2), keepdims=True))  # (knock, rise, onset)
     evidence = np.maximum(chances.sum(axis=2), 1e-300)
     rise = int(np.argmax(np.log(evidence).sum(axis=0)))
@@ -147,11 +147,11 @@ def _improved(knocks: list[_Knock], rate: float) -> tuple[Array, Array]:
     places = np.arange(each.shape[1] + 1) - 1.0  # an onset lies between a sample and the next
     means = each @ (places[:-1] + 0.5)
     held = np.pad(np.cumsum(each, axis=1), ((0, 0), (1, 0)))
-    low, high = np.array([np.interp(_ONE_SIGMA, one, places) for one in held]).T
+    low, high = np.array([np.interp(_ONE_SIGMA, shares, places) for shares in held]).T
     deviations = np.sqrt(
         (each * (places[:-1] + 0.5 - means[:, None]) ** 2).sum(axis=1) + 1.0 / 12.0
     )
-    first = np.array([one.first for one in knocks])
+    first = np.array([knock.first for knock in knocks])
     return (first + means) / rate, np.minimum(deviations, 0.5 * (high - low)) / rate
 
 

@@ -1,6 +1,6 @@
 """Tracks of falling and bouncing balls, from video: flights, speeds, heights."""
 
-from stackbounce.measure.kind import Kind
+from stackbounce.measure.kind import IN_AIR, Kind
 
 __all__ = ["TRACK"]
 
@@ -8,10 +8,7 @@ TRACK = Kind(
     "track",
     "drop height, speeds, restitution, rebound ratios, a check of clock and ruler",
     f"{__name__}.kind",
-    options=(
-        *("floor", "measured_to", "mass", "diameter"),
-        *("drag_coefficient", "air_density", "gravity"),
-    ),
+    options=("floor", "measured_to", "gravity", *IN_AIR),
     columns=(("time",), ("y", "x")),
     dimension="track",
     longest_step=2.0,  # a step of 1 may be a frame: gravity tells
