@@ -8,6 +8,7 @@ from uncertainties import ufloat
 import stackbounce as sb
 from stackbounce.cross2007 import PAPER
 from stackbounce.errors import InvalidValue
+from stackbounce.measure import analyse
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.gap.delay import delay, gap_from_delay
 from synthetic.waveform import waveform as record_of
@@ -77,6 +78,11 @@ def test_two_channels_give_the_delay():
     found = gap_from_delay(later, 2.0, mass=0.101, stiffness=5.4e4)
     assert abs(found.nominal_value - 1e-3) < 4.0 * found.std_dev
     assert found.std_dev < 1e-4
+    record.attrs["holds"] = "waveform"
+    told = {"height": 0.266, "measured_to": "top", "diameter": 0.066, "contact_time": 4e-3}
+    fallen, _ = analyse(record, **told)
+    known, _ = analyse(record, speed=SPEED, contact_time=4e-3)
+    assert fallen.gap.nominal_value == pytest.approx(known.gap.nominal_value, rel=1e-12)
 
 
 def test_the_paper_s_2_ms_of_b2_on_b1_are_its_millimetre():

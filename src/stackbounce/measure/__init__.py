@@ -7,6 +7,7 @@ kind          the record of a kind; `kinds.KINDS` lists all
 finding       the shape that all results share
 options       the table of options, for all user interfaces
 option_values texts from a user interface -> values that the analyses take
+setup         what is known of ball and drop besides the file, from the options
 analysis      the right analysis for what a file holds
 measurement   a file or typed numbers, with the results, for all user interfaces
 drag          the drag of the air in measured flights

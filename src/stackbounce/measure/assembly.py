@@ -130,8 +130,8 @@ def _together(contacts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
         )
     if len(contacts) == 1:
         return dict(contacts[0])
-    rigid = [one for one in contacts if law_named(one["law"]).rigid]
-    sprung = [one for one in contacts if law_named(one["law"]).rate_free]
+    rigid = [contact for contact in contacts if law_named(contact["law"]).rigid]
+    sprung = [contact for contact in contacts if law_named(contact["law"]).rate_free]
     if len(contacts) == 2 and len(rigid) == len(sprung) == 1:
         law = sprung[0]
         if law["law"] == "Tabulated":
@@ -143,7 +143,7 @@ def _together(contacts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
             "exponent": law.get("exponent", law_named(law["law"]).default_exponent() or 1.0),
             "restitution": rigid[0]["restitution"],
         }
-    names = ", ".join(one["law"] for one in contacts)
+    names = ", ".join(contact["law"] for contact in contacts)
     raise InvalidValue(
         f"the files must give one contact, or one with a stiffness and one with a restitution, "
         f"got {names}"

@@ -11,7 +11,7 @@ __all__ = ["with_error_of_drag"]
 
 Found = TypeVar("Found")
 
-_LEAST = 1e-3  # of the drag: errors of nearly all of it are taken down to there
+_LEAST_DRAG = 1e-3  # of the drag, taken where its error is nearly all of it
 
 
 def with_error_of_drag(found: Found, found_with: Callable[[Drag], Found], drag: Drag) -> Found:
@@ -48,7 +48,7 @@ def with_error_of_drag(found: Found, found_with: Callable[[Drag], Found], drag: 
     error = rate.std_dev / rate.nominal_value
     if not error > 0.0:
         return found
-    least = max(1.0 - error, _LEAST)
+    least = max(1.0 - error, _LEAST_DRAG)
     low, high = found_with(drag.exact(least)), found_with(drag.exact(1.0 + error))
     off = (rate / rate.nominal_value - 1.0) / (1.0 + error - least)  # 0, with an error
     moved: Found = _moved(found, low, high, off=off)
@@ -65,7 +65,7 @@ def _moved(value: Any, less: Any, more: Any, *, off: Any) -> Any:
         rows = list(zip(value, less, more, strict=False))
         return (*(_moved(*row, off=off) for row in rows), *value[len(rows) :])
     if is_dataclass(value) and not isinstance(value, type | Drag):
-        names = [one.name for one in fields(value)]
+        names = [field.name for field in fields(value)]
         every = {name: [getattr(one, name) for one in (value, less, more)] for name in names}
         return replace(value, **{name: _moved(*row, off=off) for name, row in every.items()})
     return value
