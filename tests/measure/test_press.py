@@ -10,6 +10,9 @@ from uncertainties import ufloat
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import press, series_stiffness, split_series
+from stackbounce.measure.kinds.press.branches import cycles, record_of
+from stackbounce.measure.kinds.press.cycle import _Branch, _scale
+from stackbounce.measure.kinds.press.fits import fit_power_law
 from stackbounce.measure.kinds.press.notes import sentences
 from stackbounce.plots.measurements.press import draw
 from synthetic.press import press_record
@@ -204,6 +207,24 @@ def test_a_million_points_take_hardly_more_steps_than_few():
     assert held < 12 * data.force.nbytes
     assert near(found.exponent, 1.3, 5.0)
     assert found.exponent.std_dev < 2e-3
+
+
+def test_points_weigh_as_their_noise_with_that_of_the_compression_along_the_curve():
+    data = press_record(sb.Hertz(5e5), peak=5e-3, slack=1e-3, noise=0.1, jitter=2e-5, seed=1)
+    record = record_of(data, 0.0, None)
+    (one,) = cycles(record)
+    x, y = record.compression[one.loading], record.force[one.loading]
+    first = np.array([5e5 * 5e-3**1.5, np.log(1.5), np.log(5e-3)])
+    fit = fit_power_law(x, y, one.peak, first, 3)
+    top, p, c = fit.plain
+    slope = top * p / c * np.clip((x - one.peak + c) / c, 0.0, None) ** (p - 1.0)
+    noise = np.hypot(record.hiss, slope * record.jitter)
+    found = _scale(record, _Branch(0, x, y, x), fit)
+    np.testing.assert_allclose(found / found[0], noise / noise[0])
+    assert found.max() > 3.0 * found[0]
+    off = y + np.where(found > 0.5 * found.max(), 1.0, 0.0)
+    weighted, plain = (fit_power_law(x, off, one.peak, first, 3, how) for how in (found, 1.0))
+    assert abs(weighted.plain[1] - 1.5) < abs(plain.plain[1] - 1.5)
 
 
 def test_correlated_noise_has_larger_errors():
