@@ -122,19 +122,23 @@ def test_a_force_that_is_never_zero():
     assert any("already pressed" in note for note in found.notes)
 
 
-def test_a_hold_at_the_peak_and_a_force_that_relaxes():
-    found = press(press_record(BALL, hold=60, relaxation=0.1, **USUAL))
-    top = 4e4 * 5e-3**1.3
-    assert near(found.relaxed, 0.1 * top)
+@pytest.mark.parametrize(("hold", "words"), [(60, "the press stood still"), (0, "at the turn")])
+def test_a_force_that_relaxes(hold, words):
+    found = press(press_record(BALL, hold=hold, relaxation=0.1, **USUAL))
+    assert near(found.relaxed, 0.1 * 4e4 * 5e-3**1.3)
     assert near(found.exponent, 1.3)
     assert near(found.restitution, 0.78 * 0.9**0.5)
-    assert any("stood still" in note for note in found.notes)
+    assert any(words in note for note in found.notes)
 
 
-def test_a_jump_at_the_turn():
-    found = press(press_record(BALL, relaxation=0.1, **USUAL))
-    assert near(found.relaxed, 0.1 * 4e4 * 5e-3**1.3)
-    assert any("at the turn" in note for note in found.notes)
+def test_rows_and_picture_show_what_was_found():
+    data = press_record(BALL, **USUAL)
+    found = press(data)
+    assert found.rows()[0].unit == "N/m"
+    assert {"exponent", "restitution", "energy lost"} <= {row.name for row in found.rows()}
+    above, below = draw(data, found).axes
+    assert "out" in above.get_legend().get_texts()[1].get_text()
+    assert below.get_xlabel() == "compression from contact (mm)"
 
 
 @pytest.mark.slow
@@ -287,19 +291,6 @@ def test_numbers_know_their_correlation():
     at = found.compression_at(0.5 * found.peak_force.nominal_value)
     both = (at.std_dev / at.nominal_value, found.stiffness.std_dev / found.stiffness.nominal_value)
     assert both[0] < 0.3 * both[1]
-
-
-def test_rows_name_what_was_found():
-    rows = press(press_record(BALL, **USUAL)).rows()
-    assert rows[0].unit == "N/m"
-    assert {"exponent", "restitution", "energy lost"} <= {row.name for row in rows}
-
-
-def test_the_picture_shows_curve_and_residuals():
-    data = press_record(BALL, **USUAL)
-    above, below = draw(data, press(data)).axes
-    assert "out" in above.get_legend().get_texts()[1].get_text()
-    assert below.get_xlabel() == "compression from contact (mm)"
 
 
 def test_springs_in_series_have_no_excess():
