@@ -32,11 +32,11 @@ def without_counts(columns: Sequence[Column], values: Array) -> list[Column]:
         Their numbers.
     """
     found = list(columns)
-    for k, one in enumerate(found):
-        if one.role == "knock_time" and not (one.unit or one.heading.unit or one.named):
+    for k, column in enumerate(found):
+        if column.role == "knock_time" and not (column.unit or column.heading.unit or column.named):
             steps = np.diff(values[:, k][np.isfinite(values[:, k])])
             if steps.size and (steps == 1.0).all():
-                found[k] = replace(one, role="")
+                found[k] = replace(column, role="")
     return found
 
 
@@ -60,7 +60,7 @@ def on_the_clock(
     found = list(columns)
     needed = {role for roles in kind.columns for role in roles}
     clocks = needed & {"time", "knock_time"}
-    places = [k for k, one in enumerate(found) if one.role in clocks]
+    places = [k for k, column in enumerate(found) if column.role in clocks]
     if not places:
         return found, []
     since = {k: _epoch(found[k], values[:, k]) for k in places}
@@ -85,7 +85,7 @@ def _epoch(column: Column, times: Array) -> str:
     first, last, step = float(known[0]), float(known[-1]), _step(known)
     for unit, (factor, _) in _UNITS.items():
         told = not column.unit or abs(column.factor / factor - 1.0) < 1e-9
-        within = all(_EPOCH[0] < factor * one < _EPOCH[1] for one in (first, last))
+        within = all(_EPOCH[0] < factor * time < _EPOCH[1] for time in (first, last))
         if told and within and factor * step <= _LONGEST:
             return unit
     return ""

@@ -86,24 +86,24 @@ def _by_column(names: Mapping[_Key, Any], columns: Sequence[Column]) -> dict[_Ke
     return turned
 
 
-def apply_options(columns: Sequence[Column], told: ReadOptions) -> list[Column]:
-    """Return columns with the names and units of the options."""
+def apply_options(columns: Sequence[Column], options: ReadOptions) -> list[Column]:
+    """Return columns with the names and units that options give them."""
     found = list(columns)
-    named = _by_column(told.names or {}, columns)
-    for option, mapping in (("units", told.units or {}), ("names", named)):
+    named = _by_column(options.names or {}, columns)
+    for option, mapping in (("units", options.units or {}), ("names", named)):
         for key, value in mapping.items():
-            places = [k for k, one in enumerate(found) if _is(one, key)]
+            places = [k for k, column in enumerate(found) if _is(column, key)]
             if not places:
-                known = [one.heading.text or str(one.index + 1) for one in found[:50]]
+                known = [column.heading.text or str(column.index + 1) for column in found[:50]]
                 message = f": there is no column {shown(key)}; {nearest(key, known)}"
                 raise InvalidValue(about_option(option, message))
             for k in places:
                 name, unit = (value, None) if option == "names" else ("", value)
                 found[k] = found[k].called(name, unit)
-    if any(one.named == "time" for one in found):  # a named time replaces that of a header
+    if any(column.named == "time" for column in found):  # a named time replaces that of a header
         found = [
-            replace(one, role="") if one.role == "time" and one.named != "time" else one
-            for one in found
+            replace(column, role="") if column.role == "time" and column.named != "time" else column
+            for column in found
         ]
     return found
 
@@ -120,7 +120,7 @@ def of_run(
     columns: Sequence[Column], run: str | int | None, doubts: list[str]
 ) -> tuple[list[Column], bool]:
     """Return the columns of one run, and whether there are several of them side by side."""
-    runs = list(dict.fromkeys(one.heading.run for one in columns if one.heading.run))
+    runs = list(dict.fromkeys(column.heading.run for column in columns if column.heading.run))
     if len(runs) < 2:
         return list(columns), False
     if run is None:
@@ -129,14 +129,14 @@ def of_run(
         doubts.append(Message(f"{len(runs)} runs; {chosen!r} is read, ", other, " reads another"))
     else:
         word = str(run).casefold()
-        named = [one for k, one in enumerate(runs, 1) if word in (one.casefold(), str(k))]
+        named = [name for k, name in enumerate(runs, 1) if word in (name.casefold(), str(k))]
         if not named:
             known = nearest(run, runs)
             raise InvalidValue(
                 about_option("run", f" must be one that is there, got {shown(run)}; {known}")
             )
         chosen = named[0]
-    own = [one for one in columns if one.heading.run in (chosen, "")]
-    if not any(one.role == "time" for one in own):  # one time for all runs
-        own = [one for one in columns if one.role == "time"][:1] + own
+    own = [column for column in columns if column.heading.run in (chosen, "")]
+    if not any(column.role == "time" for column in own):  # one time for all runs
+        own = [column for column in columns if column.role == "time"][:1] + own
     return own, True

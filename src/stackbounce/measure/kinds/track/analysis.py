@@ -146,9 +146,9 @@ def track(
     base = check_time_base(_common_gravity(balls), gravity, rate, units)
     notes.extend([base.note] * (not base.agrees))
     ratios = _rebound_ratios(balls, notes)
-    axis = up.axis if up.sign > 0.0 else f"-{up.axis}"
+    upwards = up.axis if up.sign > 0.0 else f"-{up.axis}"
     first = balls[0].impact_times[0]
-    return Tracks(tuple(balls), ratios, first, base, axis, up.tilt, tuple(notes), units, drag)
+    return Tracks(tuple(balls), ratios, first, base, upwards, up.tilt, tuple(notes), units, drag)
 
 
 def _flown(
