@@ -77,6 +77,12 @@ def test_a_record_that_begins_in_flight_has_no_drop_height():
     assert any("no drop height" in note for note in found.notes)
 
 
+def test_a_fall_of_more_than_a_second_is_no_rest_without_g():
+    record = record_of(fall(height=6.0), before=1.5, seed=4)
+    record.attrs["format"] = "table of numbers"
+    assert near(accelerometer(record).drop_height, 6.0)
+
+
 def test_of_several_drops_the_longest_series_counts():
     one, other = record_of(fall(bounces=2), seed=1), record_of(fall(bounces=5), seed=2)
     size = np.concatenate([one.acceleration_absolute, np.full(200, G), other.acceleration_absolute])

@@ -167,12 +167,8 @@ def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:
         given = [name for name in kind.starts_with if name in options]
         if not given:
             continue
-        evidence = {
-            "format": "numbers of the command line",
-            "why": "",
-            "doubt": "",
-            "holds": kind.typed,
-        }
+        form = "numbers of the command line"
+        evidence = {"format": form, "why": "", "doubt": "", "holds": kind.typed}
         source = " ".join(known[name].on_command_line for name in given)
         try:
             found = kind.of_numbers(Setup.of(kind.options, options))

@@ -18,6 +18,7 @@ from stackbounce.measure.kinds.bounces.scatter import (
     scatter_of,
 )
 from stackbounce.measure.quantities import Number, nominal
+from stackbounce.measure.samples import columns
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
@@ -229,16 +230,9 @@ def _moments(
 def _plain(times: Any) -> list[Any]:
     """Return times out of a Dataset or a sequence."""
     if hasattr(times, "data_vars"):
-        if "knock_time" not in times.data_vars:
-            raise InvalidType(
-                "times must hold a variable knock_time, got a Dataset with "
-                f"{', '.join(map(str, times.data_vars)) or 'none'}"
-            )
-        known = np.asarray(times["knock_time"], dtype=np.float64).ravel()
-        known = known[np.isfinite(known)]
-        while len(known) > 1 and known[-1] == 0.0:
-            known = known[:-1]  # what phyphox writes for knocks that did not come
-        return list(known)
+        (known,) = columns(times, ("knock_time",))
+        # phyphox writes 0 for knocks that did not come
+        return list(np.trim_zeros(known[np.isfinite(known)], "b"))
     if isinstance(times, str | bytes):
         raise InvalidType(f"times must be a sequence of seconds, got {shown(times)}")
     unmasked("times", times)

@@ -7,7 +7,7 @@ from typing import Any, Literal
 import numpy as np
 
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.quantities import Array, Number
+from stackbounce.measure.quantities import Array, Number, nominal
 from stackbounce.measure.statistics.regression import Fit, covariance_of, fit_with_excess_scatter
 
 __all__ = ["RestitutionLaw", "fit_line", "laws_of"]
@@ -69,9 +69,7 @@ def fit_line(
         _differ(speeds)
     x = [umath.log(speed) for speed in speeds] if power else list(speeds)
     y = [umath.log(restitution) for restitution in kept] if power else list(kept)
-    design = np.vander(
-        [float(getattr(one, "nominal_value", one)) for one in x], degree + 1, increasing=True
-    )
+    design = np.vander([nominal(speed) for speed in x], degree + 1, increasing=True)
     values = np.array([one.nominal_value for one in y])
     slope = 0.0
     if degree:
@@ -83,7 +81,7 @@ def fit_line(
 
 def _differ(speeds: Sequence[Any]) -> None:
     """Refuse speeds of which a line has no slope."""
-    known = [float(getattr(one, "nominal_value", one)) for one in speeds]
+    known = [nominal(speed) for speed in speeds]
     if max(known) - min(known) < _ALIKE * max(known):
         raise InvalidValue(f"impact speeds must differ, got {len(known)} of {known[0]:.4g} m/s")
 

@@ -6,7 +6,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, nominal
 from stackbounce.measure.statistics.regression import covariance_of, least_squares
 
 __all__ = ["Scatter", "meaning_of_excess", "meaning_of_explained", "scatter_of"]
@@ -71,7 +71,7 @@ def scatter_of(speeds: Sequence[Any], kept: Sequence[Any]) -> Scatter | None:
     if count < _FEWEST:
         return None
     values = np.array([restitution.nominal_value for restitution in kept])
-    x = np.array([float(getattr(one, "nominal_value", one)) for one in speeds])
+    x = np.array([nominal(speed) for speed in speeds])
     design = np.stack([np.ones(count), x], axis=1)
     covariance = covariance_of(kept)
     plain = np.eye(count) - design @ np.linalg.pinv(design)
