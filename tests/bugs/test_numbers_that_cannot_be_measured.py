@@ -19,11 +19,7 @@ from stackbounce.measure.kinds.bounces.restitution_law import laws_of
         ("Memory Length,9\nSampling Period,1\nMode\nWaveform Data\n0,1\n1,2\n", ()),
     ],
 )
-def test_results_or_one_line(tmp_path, monkeypatch, capfd, text, options):
-    def refuse(data):
-        raise AssertionError(f"an inner error of {data}")
-
-    monkeypatch.setattr("stackbounce.measure.measurement._refusal", refuse)
+def test_results_or_one_line(tmp_path, capfd, text, options):
     path = tmp_path / "changed.csv"
     path.write_text(text)
     code = main(["measure", str(path), *options])

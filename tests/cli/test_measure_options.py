@@ -10,9 +10,10 @@ import stackbounce as sb
 from stackbounce.cli import main
 from stackbounce.errors import InvalidValue
 from stackbounce.measure import analyse, heights, one_law
-from stackbounce.measure.kinds.contact.analysis import known_contact
+from stackbounce.measure.kinds.contact.kind import of_numbers
 from stackbounce.measure.option_values import read_options
 from stackbounce.measure.quantities import quantity_with_error
+from stackbounce.measure.setup import Setup
 from synthetic.falls import falls
 from synthetic.track import track as tracked
 
@@ -98,7 +99,7 @@ def test_heights_without_errors_give_a_law_all_the_same():
 
 
 def test_nothing_known_is_no_contact():
-    assert known_contact(contact_time=5e-3).parts() == {}
+    assert of_numbers(Setup(contact_time=5e-3)).parts() == {}
 
 
 @pytest.mark.parametrize("mark", [",", ";"])

@@ -19,13 +19,11 @@ import traceback
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import NamedTuple
-from unittest import mock
 
 import numpy as np
 
 from fuzz.mutate import OPTIONS, minimal_cases, mutated
 from stackbounce.cli import main
-from stackbounce.measure import measurement
 
 KEPT = Path(__file__).parents[2] / "build" / "fuzz" / "files"
 SECONDS = 10.0
@@ -43,7 +41,6 @@ class Case(NamedTuple):
     source: str
     options: tuple[str, ...]
     wrong: str
-    inner: str  # the error of an analysis that became a refusal
     seconds: float
     mebibytes: float
     code: int
@@ -66,23 +63,12 @@ def measured(sources: dict[str, bytes], seed: int, index: int, folder: Path) -> 
     name, content, options = made(sources, seed, index)
     path = folder / "changed"
     path.write_bytes(content)
-    out, err, inner = io.StringIO(), io.StringIO(), []
-    refusal = measurement._refusal
-
-    def noted(data: object) -> object:
-        error = sys.exception()
-        inner.append(f"{error!r}: {_places(error)}")
-        return refusal(data)
-
+    out, err = io.StringIO(), io.StringIO()
     begun, code = time.process_time(), 1
     signal.signal(signal.SIGPROF, _end)
     signal.setitimer(signal.ITIMER_PROF, SECONDS)  # of the processor: others may be at work
     try:
-        with (
-            mock.patch.object(measurement, "_refusal", noted),
-            contextlib.redirect_stdout(out),
-            contextlib.redirect_stderr(err),
-        ):
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
             code = main(["measure", str(path), *options])
         wrong = _wrong(code, err.getvalue())
     except _TooLongError as error:
@@ -93,7 +79,7 @@ def measured(sources: dict[str, bytes], seed: int, index: int, folder: Path) -> 
     if not wrong and most > MEBIBYTES:
         wrong = f"more than {MEBIBYTES:g} MiB of memory"
     seconds = time.process_time() - begun
-    return Case(index, name, options, wrong, "".join(inner), seconds, most, code)
+    return Case(index, name, options, wrong, seconds, most, code)
 
 
 def _places(error: BaseException | None) -> str:
@@ -144,7 +130,7 @@ def run(sources: dict[str, bytes], seed: int, count: int) -> list[Case]:
                 case = None
             if case is None:
                 name, _, options = made(sources, seed, len(cases))
-                case = Case(len(cases), name, options, "its process hung or died", "", 30.0, 0.0, 1)
+                case = Case(len(cases), name, options, "its process hung or died", 30.0, 0.0, 1)
             cases.append(case)
             if sys.stderr.isatty():
                 wrong = sum(bool(done.wrong) for done in cases)
@@ -165,9 +151,6 @@ def report(cases: list[Case], sources: dict[str, bytes], seed: int) -> str:
         f"{len(cases)} files: {codes[0]} measured, {codes[2]} refused; at most {most:.0f} MiB",
         f"slowest: {slowest.seconds:.1f} s, number {slowest.index}, of {slowest.source}",
     ]
-    inner = collections.Counter(case.inner for case in cases if case.inner)
-    lines += [f"{count} times an inner error became a refusal:\n{what}" for what, count in
-              inner.most_common()]  # fmt: skip
     for case in cases:
         if case.wrong:
             kept = keep(case, sources, seed)

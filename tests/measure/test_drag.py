@@ -170,7 +170,7 @@ def test_heights_in_air_give_what_went_in():
     centre = heights(1.02, list(same.apexes + 0.02), diameter=0.04, measured_to="centre", drag=AIR)
     assert centre.mean.nominal_value == pytest.approx(0.85, abs=1e-8)
     assert math.isnan(centre.mean.std_dev)
-    assert told.told()["impact_speed"].n == pytest.approx(same.speeds[0], rel=1e-8)
+    assert told.law_arguments()["impact_speed"].n == pytest.approx(same.speeds[0], rel=1e-8)
 
 
 def test_the_mean_lies_between_the_bounces_and_its_error_is_that_of_draws():

@@ -1,7 +1,5 @@
 """Drag in tracks: against falls that an integrator of scipy makes, with what is ugly in tracks."""
 
-import json
-
 import numpy as np
 import pytest
 from scipy.stats import binom
@@ -10,9 +8,8 @@ from uncertainties import ufloat
 import stackbounce as sb
 from measure.falls_in_air import BALL, falls_in_air
 from stackbounce import plots
-from stackbounce.cli import main
 from stackbounce.errors import InvalidValue
-from stackbounce.measure import Drag, track
+from stackbounce.measure import Drag, analyse, track
 from synthetic.falls import falls
 from synthetic.track import track as tracked
 
@@ -140,18 +137,12 @@ def test_the_curve_that_is_drawn_passes_through_the_points():
         assert np.std(there - ball.heights[part][used[part]]) < 1.2e-3
 
 
-def test_the_command_takes_air(tmp_path, capfd):
-    data = seen()
-    path = tmp_path / "track.csv"
-    rows = zip(data.time.values, data.y.values.ravel(), strict=True)
-    path.write_text("t (s),y (m)\n" + "".join(f"{t:.6f},{y:.6f}\n" for t, y in rows))
-    typed = ["--mass", "2.7g", "--diameter", "40mm", "--drag-coefficient", "0.45"]
-    assert main(["measure", str(path), *typed, "--json"]) == 0
-    (told,) = json.loads(capfd.readouterr().out)["files"]
-    found = {one["name"]: one["value"] for one in told["found"]}
-    assert found["restitution of bounce 0"] == pytest.approx(FALL.restitutions[0], abs=3e-3)
-    assert found["drag coefficient"] == 0.45
-    assert any(note.startswith("The drag of the air is taken") for note in told["notes"])
+def test_the_options_of_air_are_those_of_a_track():
+    (told,) = analyse(seen(), mass=BALL[0], diameter=BALL[1], drag_coefficient=0.45)
+    found = {row.name: row.value for row in told.rows()}
+    assert found["restitution of bounce 0"].n == pytest.approx(FALL.restitutions[0], abs=3e-3)
+    assert found["drag coefficient"].n == 0.45
+    assert any(note.startswith("The drag of the air is taken") for note in told.notes)
 
 
 def test_what_has_no_air_is_told():

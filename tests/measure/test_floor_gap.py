@@ -55,6 +55,14 @@ def test_volts_need_the_speed():
         floor_gap(both, alone, mass=0.101)
 
 
+def test_a_drop_height_tells_the_speed():
+    both, alone = records(1e-3, **VOLTS)
+    height = SPEED**2 / (2.0 * 1.6)
+    *_, found = analyse(both, alone=alone, height=height, gravity=1.6)
+    known = floor_gap(both, alone, impact_speed=SPEED).gap
+    assert found.gap.nominal_value == pytest.approx(known.nominal_value, rel=1e-12)
+
+
 def test_the_lower_balls_second_bounce_tells_its_restitution():
     both, _ = records(1e-3, **VOLTS)
     law = LAWS[0]

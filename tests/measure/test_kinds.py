@@ -1,7 +1,10 @@
 """A kind of measurement that one module adds is read, analysed, printed, served and drawn."""
 
 import json
+import sys
+import types
 from dataclasses import dataclass
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -32,22 +35,29 @@ class Swings(Finding):
     def parts(self):
         return {"contact": {"law": "Rigid", "restitution": 0.5}}
 
-    def told(self):
+    def law_arguments(self):
         return {"restitution": 0.5}
 
 
-def swings(data, *, gravity=9.81):
-    return (Swings(1.0 / float(np.mean(data["period"])), gravity),)
+def analyse_swings(data, setup):
+    return Swings(1.0 / float(np.mean(data["period"])), setup.gravity)
 
 
 PENDULUM = Kind(
-    "pendulum", "how often it swings", swings, columns=(("period",),), dimension="swing"
+    "pendulum",
+    "how often it swings",
+    "pendulum.kind",
+    options=("gravity",),
+    columns=(("period",),),
+    dimension="swing",
 )
 
 
 @pytest.fixture
 def path(tmp_path, monkeypatch):
     monkeypatch.setitem(KINDS, "pendulum", PENDULUM)
+    module = types.SimpleNamespace(analyse=analyse_swings)
+    monkeypatch.setitem(sys.modules, PENDULUM.module, module)
     path = tmp_path / "swings.csv"
     path.write_text("period (s),angle\n2.0,1\n2.1,2\n1.9,3\n", encoding="utf-8")
     return path
@@ -92,7 +102,9 @@ def test_it_is_in_the_page_s_answer_and_form(path):
 def test_a_kind_is_recognised_by_the_columns_that_it_needs():
     for kind in (*KINDS.values(), *TYPED):
         assert kind.says
-        assert (kind.analyse is None) == (kind.name not in KINDS)
+        module = import_module(kind.module)
+        assert hasattr(module, "analyse") == (kind.name in KINDS)
+        assert hasattr(module, "of_numbers") == (kind in TYPED)
 
 
 def test_what_no_analysis_returned_has_no_picture():

@@ -10,12 +10,16 @@ from uncertainties import ufloat
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import press, series_stiffness, split_series
+from stackbounce.measure.kinds.press.branches import cycles, record_of
+from stackbounce.measure.kinds.press.cycle import _Branch, _scale
+from stackbounce.measure.kinds.press.fits import fit_power_law
 from stackbounce.measure.kinds.press.notes import sentences
 from stackbounce.plots.measurements.press import draw
 from synthetic.press import press_record
 from work import calls_of, memory_of
 
 BALL = sb.Hysteretic(4e4, exponent=1.3, restitution=0.78)
+STEEP = np.linspace(-0.02, 0.05, 400)
 USUAL = {"peak": 5e-3, "slack": 1e-3, "noise": 0.1, "seed": 1}
 
 
@@ -118,19 +122,23 @@ def test_a_force_that_is_never_zero():
     assert any("already pressed" in note for note in found.notes)
 
 
-def test_a_hold_at_the_peak_and_a_force_that_relaxes():
-    found = press(press_record(BALL, hold=60, relaxation=0.1, **USUAL))
-    top = 4e4 * 5e-3**1.3
-    assert near(found.relaxed, 0.1 * top)
+@pytest.mark.parametrize(("hold", "words"), [(60, "the press stood still"), (0, "at the turn")])
+def test_a_force_that_relaxes(hold, words):
+    found = press(press_record(BALL, hold=hold, relaxation=0.1, **USUAL))
+    assert near(found.relaxed, 0.1 * 4e4 * 5e-3**1.3)
     assert near(found.exponent, 1.3)
     assert near(found.restitution, 0.78 * 0.9**0.5)
-    assert any("stood still" in note for note in found.notes)
+    assert any(words in note for note in found.notes)
 
 
-def test_a_jump_at_the_turn():
-    found = press(press_record(BALL, relaxation=0.1, **USUAL))
-    assert near(found.relaxed, 0.1 * 4e4 * 5e-3**1.3)
-    assert any("at the turn" in note for note in found.notes)
+def test_rows_and_picture_show_what_was_found():
+    data = press_record(BALL, **USUAL)
+    found = press(data)
+    assert found.rows()[0].unit == "N/m"
+    assert {"exponent", "restitution", "energy lost"} <= {row.name for row in found.rows()}
+    above, below = draw(data, found).axes
+    assert "out" in above.get_legend().get_texts()[1].get_text()
+    assert below.get_xlabel() == "compression from contact (mm)"
 
 
 @pytest.mark.slow
@@ -205,6 +213,26 @@ def test_a_million_points_take_hardly_more_steps_than_few():
     assert found.exponent.std_dev < 2e-3
 
 
+def test_points_weigh_as_their_noise_with_that_of_the_compression_along_the_curve():
+    data = press_record(sb.Hertz(5e5), peak=5e-3, slack=1e-3, noise=0.1, jitter=2e-5, seed=1)
+    record = record_of(data, 0.0, None)
+    (one,) = cycles(record)
+    x, y = record.compression[one.loading], record.force[one.loading]
+    first = np.array([5e5 * 5e-3**1.5, np.log(1.5), np.log(5e-3)])
+    fit = fit_power_law(x, y, one.peak, first, 3)
+    top, p, c = fit.plain
+    slope = top * p / c * np.clip((x - one.peak + c) / c, 0.0, None) ** (p - 1.0)
+    noise = np.hypot(record.hiss, slope * record.jitter)
+    found = _scale(record, _Branch(0, x, y, x), fit)
+    np.testing.assert_allclose(found / found[0], noise / noise[0])
+    assert found.max() > 3.0 * found[0]
+    again = fit_power_law(x, y, one.peak, first, 3, found)
+    pulls = again.jacobian * (again.residual / found**2)[:, None]
+    assert np.abs(pulls.sum(axis=0)).max() < 1e-6 * np.abs(pulls).sum()
+    rows = np.linalg.inv(again.jacobian.T @ (again.jacobian / found[:, None] ** 2))
+    np.testing.assert_allclose(again.weights, rows @ again.jacobian.T / found**2, atol=1e-9)
+
+
 def test_correlated_noise_has_larger_errors():
     quiet = press(press_record(BALL, peak=5e-3, slack=1e-3, noise=0.1, points=600, seed=4))
     slow = press(
@@ -222,8 +250,9 @@ def test_correlated_noise_has_larger_errors():
         ((np.arange(9.0), np.full(9, np.nan)), "at least 6 points"),
         ((np.arange(9.0), np.arange(8.0)), "one length"),
         ((np.arange(200.0), np.random.default_rng(1).normal(0, 1, 200)), "rise with the compress"),
+        ((STEEP, np.exp(1e3 * STEEP)), "power law in numbers of a finite size"),
     ],
-    ids=["two points", "constant force", "constant compression", "nan", "lengths", "noise"],
+    ids=["two points", "constant force", "constant compression", "nan", "lengths", "noise", "exp"],
 )
 def test_what_is_no_press_curve(data, message):
     with pytest.raises(InvalidValue, match=message) as caught:
@@ -243,8 +272,6 @@ def test_options_are_checked():
         press(data, sign=2)
     with pytest.raises(InvalidValue, match="compliance"):
         press(data, compliance=-1.0)
-    with pytest.raises(InvalidType, match="law must be"):
-        press_record(sb.Dashpot(1.0, damping=1.0), peak=1.0)
 
 
 def test_parts_make_a_contact():
@@ -264,19 +291,6 @@ def test_numbers_know_their_correlation():
     at = found.compression_at(0.5 * found.peak_force.nominal_value)
     both = (at.std_dev / at.nominal_value, found.stiffness.std_dev / found.stiffness.nominal_value)
     assert both[0] < 0.3 * both[1]
-
-
-def test_rows_name_what_was_found():
-    rows = press(press_record(BALL, **USUAL)).rows()
-    assert rows[0].unit == "N/m"
-    assert {"exponent", "restitution", "energy lost"} <= {row.name for row in rows}
-
-
-def test_the_picture_shows_curve_and_residuals():
-    data = press_record(BALL, **USUAL)
-    above, below = draw(data, press(data)).axes
-    assert "out" in above.get_legend().get_texts()[1].get_text()
-    assert below.get_xlabel() == "compression from contact (mm)"
 
 
 def test_springs_in_series_have_no_excess():

@@ -107,14 +107,6 @@ def test_two_microphones():
     assert as_true(knocks(np.stack([data, late]), rate=48000.0), FALL)
 
 
-def test_one_knock_only():
-    found = knocks(sound(falls(0.5, 0.8, bounces=1), seed=1))
-    assert len(found.times) == 1
-    assert any("Only 1 knock" in note for note in found.notes)
-    with pytest.raises(InvalidValue, match="at least three"):
-        bounces(found)
-
-
 def test_pure_noise_has_no_knocks():
     for seed in range(5):
         noise = np.random.default_rng(seed).normal(0.0, 0.1, 96000)
@@ -166,14 +158,3 @@ def test_pictures():
     figure = draw_bounces(found, bounces(found))
     assert figure.axes[0].get_xlabel() == "impact speed (m/s)"
     assert draw_bounces(None, bounces([0.0, 1.0, 1.8]))
-
-
-def test_a_law_bounces_as_it_is_calibrated():
-    import stackbounce as sb
-
-    law = sb.Dashpot(5e3, damping=2.0)
-    fall = falls(0.5, law, mass=0.05, bounces=4)
-    assert fall.restitutions == pytest.approx(sb.restitution(law, 0.05))
-    assert (fall.releases > fall.touches).all()
-    with pytest.raises(InvalidValue, match="restitution must be"):
-        falls(0.5, lambda _: 1.5)

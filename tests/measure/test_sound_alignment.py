@@ -6,7 +6,6 @@ from scipy.signal import fftconvolve
 from uncertainties import ufloat
 
 from stackbounce.errors import InvalidValue
-from stackbounce.measure import analyse
 from stackbounce.measure.kinds.bounces.analysis import bounces
 from stackbounce.measure.kinds.bounces.scatter import scatter_of
 from stackbounce.measure.kinds.sound.alignment import aligned
@@ -217,11 +216,3 @@ def test_the_cause_is_seldom_mistaken(jitter, floor, cause):
     wrong = [one for one in causes if not one.startswith(cause) and one != "unknown"]
     assert len(right) >= 24
     assert len(wrong) <= 2
-
-
-def test_sound_on_an_uneven_floor_is_the_floors():
-    random = np.random.default_rng(4)
-    fall = falls(0.1, lambda _: 0.94 + 0.01 * random.standard_normal(), bounces=25)
-    told, _ = analyse(sound(fall, rate=RATE, alike=0.5, room=0.3, seed=4))
-    assert any("uneven floor" in note for note in told.notes)
-    assert told.scatter == pytest.approx(0.01, rel=0.5)

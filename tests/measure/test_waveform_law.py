@@ -141,19 +141,16 @@ def test_what_makes_no_sense_is_refused(law, exponent, error, words):
 
 
 @pytest.mark.parametrize("exponent", [1.0, 8.0, 100.0])
-@pytest.mark.parametrize("law", [sb.PowerLaw, sb.HuntCrossley, sb.Hysteretic])
-def test_any_exponent_of_a_law_gives_numbers(law, exponent):
+@pytest.mark.parametrize(
+    "law", [sb.PowerLaw, sb.HuntCrossley, sb.Hysteretic, sb.Hysteretic(1.0, restitution=0.05)]
+)
+def test_any_exponent_of_a_law_and_a_very_soft_release_give_numbers(law, exponent):
     record, _, _ = bounce(sb.Hertz)
+    exponent = getattr(law, "exponent", exponent) if isinstance(law, sb.Hysteretic) else exponent
     (contact,) = waveform(record, law=law, exponent=exponent).contacts
-    for one in (contact.start, contact.end):
-        assert np.isfinite([one.nominal_value, one.std_dev]).all()
+    for moment in (contact.start, contact.end):
+        assert np.isfinite([moment.nominal_value, moment.std_dev]).all()
     assert contact.exponents[0].nominal_value == pytest.approx(exponent)
-
-
-def test_a_very_soft_release_gives_numbers():
-    record, _, _ = bounce(sb.Hertz)
-    (contact,) = waveform(record, law=sb.Hysteretic(1.0, restitution=0.05)).contacts
-    assert np.isfinite([contact.end.nominal_value, contact.end.std_dev]).all()
 
 
 def test_a_wrong_law_shows_in_the_misfit():
@@ -223,20 +220,3 @@ def test_the_command_tells_the_law(run):
     code, told, _ = run("--json", "--restitution", "0.75", "--law", "hysteretic exponent=1")
     assert code == 0
     assert touch_error(told) < 0.7 * touch_error(free)
-
-
-@pytest.mark.parametrize(
-    ("law", "words"),
-    [
-        ("hert", "Hertz"),
-        ("spring exponent=2", "exponent goes with a law that has one to choose, got law"),
-        ("power-law exponent=0.5", "exponent must be a number"),
-    ],
-)
-def test_the_command_refuses_what_makes_no_sense(run, law, words):
-    code, out, err = run("--law", law)
-    assert code != 0
-    assert out == ""
-    assert words in err
-    assert "Traceback" not in err
-    assert len(err.strip().splitlines()) == 1

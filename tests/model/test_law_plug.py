@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
-from stackbounce.cli import main
+from stackbounce.cli import descriptions, main
 from stackbounce.explorer.answers.catalogue import list_choices
 from stackbounce.explorer.limits import LIMITS
 from stackbounce.measure.kinds.waveform.analysis import waveform

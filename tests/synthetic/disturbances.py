@@ -5,9 +5,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import positive
-
-__all__ = ["coded", "reverberated", "wind_noise"]
+__all__ = ["ar_noise", "coded", "reverberated", "wind_noise"]
 
 Array = NDArray[np.float64]
 
@@ -18,6 +16,18 @@ _TAIL = 0.1  # of the echoes
 _SLOW = 150.0  # Hz of the wind
 _GUST = 0.1  # s
 _BLOCK = 13e-3  # s of a block of an encoder
+
+
+def ar_noise(random: np.random.Generator, shape: tuple[int, ...], correlation: float) -> Array:
+    """Return AR(1) noise of unit standard deviation along the last axis.
+
+    `correlation` is that of neighbours.
+    """
+    from scipy.signal import lfilter
+
+    fresh = random.standard_normal(shape)
+    fresh[..., 1:] *= math.sqrt(1.0 - correlation**2)
+    return np.asarray(lfilter([1.0], [1.0, -correlation], fresh))
 
 
 def reverberated(
@@ -97,7 +107,6 @@ def coded(values: Array, rate: float, coarse: float) -> Array:
     >>> bool(np.abs(heard[2200:2390]).max() > 1e-3), bool(np.abs(heard - click).max() < 0.3)
     (True, True)
     """
-    coarse = positive("coarse", coarse)
     half = round(_BLOCK * rate)
     place, pitch = np.arange(2 * half), np.arange(half)
     window = np.sin(math.pi * (place + 0.5) / (2 * half))

@@ -1,15 +1,14 @@
 """Simulated press curves, whose true values are known."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, finite, fraction, non_negative, positive, shown, whole
-from stackbounce.model.laws import LAWS, ContactLaw
-
-if TYPE_CHECKING:
-    import xarray as xr
+from stackbounce.model.laws import ContactLaw
+from synthetic import attributes
+from synthetic.disturbances import ar_noise
 
 __all__ = ["press_record"]
 
@@ -34,7 +33,7 @@ def press_record(
     compression_step: float = 0.0,
     compliance: float = 0.0,
     seed: int = 0,
-) -> "xr.Dataset":
+) -> xr.Dataset:
     """Return the record of slow loading and unloading of a contact, as a testing machine writes it.
 
     Parameters
@@ -73,13 +72,6 @@ def press_record(
     xarray.Dataset
         `compression` (m) and `force` (N) along `point`, as a file of a press curve is read.
 
-    Raises
-    ------
-    InvalidType
-        If `law` is none of these.
-    InvalidValue
-        If a number is out of its range.
-
     Examples
     --------
     >>> import stackbounce as sb
@@ -89,32 +81,24 @@ def press_record(
     >>> data.force.values.round(1)
     array([ 0. ,  6.7, 13.3, 20. , 15. , 10. ,  5. ,  0. ])
     """
-    if not (isinstance(law, ContactLaw) and law.rate_free):
-        known = " or ".join(name for name, one in LAWS.items() if one.rate_free)
-        raise InvalidType(
-            f"law must be {known}, whose force does not depend on the rate, got {shown(law)}"
-        )
-    positive("peak", peak, "metres")
-    whole("points", points, 4)
-    for name, value in (("slack", slack), ("noise", noise), ("jitter", jitter)):
-        non_negative(name, value)
-    for name, value in (("memory", memory), ("force_step", force_step)):
-        non_negative(name, value)
-    non_negative("compression_step", compression_step)
-    finite("drift", drift)
-    fraction("relaxation", relaxation)
     inward = np.linspace(-slack, peak, points // 2)
     outward = np.linspace(peak, -slack, points - points // 2 + 1)[1:]
-    way = np.concatenate([inward, np.full(whole("hold", hold), peak), outward])
+    way = np.concatenate([inward, np.full(hold, peak), outward])
     force = _force(law, way, len(inward), hold, peak, relaxation)
-    way, force = (np.tile(one, whole("cycles", cycles, 1)) for one in (way, force))
+    way, force = (np.tile(column, cycles) for column in (way, force))
     compression = way + compliance * force
     generator = np.random.default_rng(seed)
     count = len(force)
     force = force + offset + drift * np.linspace(0.0, 1.0, count)
-    force = force + noise * _noise(generator, count, memory)
+    correlation = np.exp(-1.0 / memory) if memory else 0.0
+    force = force + noise * ar_noise(generator, (count,), correlation)
     compression = compression + jitter * generator.standard_normal(count)
-    return _dataset(_rounded(compression, compression_step), _rounded(force, force_step))
+    compression = _rounded(compression, compression_step)
+    columns = {
+        "compression": ("point", compression, {"units": "m", "long_name": "Compression (m)"}),
+        "force": ("point", _rounded(force, force_step), {"units": "N", "long_name": "Force (N)"}),
+    }
+    return xr.Dataset(columns, attrs=attributes("press curve"))
 
 
 def _force(law: Any, way: Array, inward: int, hold: int, peak: float, relaxation: float) -> Array:
@@ -130,35 +114,5 @@ def _force(law: Any, way: Array, inward: int, hold: int, peak: float, relaxation
     return np.asarray(force * kept)
 
 
-def _noise(generator: np.random.Generator, count: int, memory: float) -> Array:
-    """Return AR(1) noise of unit standard deviation."""
-    from scipy.signal import lfilter
-
-    white = generator.standard_normal(count)
-    if memory == 0.0:
-        return white
-    phi = float(np.exp(-1.0 / memory))
-    white[1:] *= np.sqrt(1.0 - phi * phi)
-    return np.asarray(lfilter([1.0], [1.0, -phi], white))
-
-
 def _rounded(values: Array, step: float) -> Array:
     return values if step == 0.0 else step * np.round(values / step)
-
-
-def _dataset(compression: Array, force: Array) -> "xr.Dataset":
-    import xarray as xr
-
-    return xr.Dataset(
-        {
-            "compression": ("point", compression, {"units": "m", "long_name": "Compression (m)"}),
-            "force": ("point", force, {"units": "N", "long_name": "Force (N)"}),
-        },
-        attrs={
-            "format": "synthetic",
-            "why": "It was computed from a contact law.",
-            "doubt": "",
-            "holds": "press curve",
-            "source": "synthetic",
-        },
-    )

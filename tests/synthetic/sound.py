@@ -1,17 +1,14 @@
 """Recordings of a bouncing ball, as `stackbounce.read` gives them."""
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidValue, fraction, non_negative, positive, whole
+from synthetic import attributes
 from synthetic.disturbances import coded, reverberated, wind_noise
 from synthetic.falls import Falls
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["sound"]
 
@@ -42,7 +39,7 @@ def sound(
     before: float = 0.5,
     after: float = 0.5,
     seed: int = 0,
-) -> "xarray.Dataset":
+) -> xr.Dataset:
     """Return the recording of a bouncing ball.
 
     A knock is the sum of decaying tones of random pitch and phase, as loud as the impact is fast.
@@ -82,11 +79,6 @@ def sound(
     xarray.Dataset
         `sound` against `time`, of full scale 1.
 
-    Raises
-    ------
-    InvalidValue
-        If a number is out of its range.
-
     Examples
     --------
     >>> from synthetic.falls import falls
@@ -94,14 +86,12 @@ def sound(
     >>> data.sound.dims, data.attrs["holds"]
     (('time',), 'sound')
     """
-    rate = positive("rate", rate, "samples per second")
-    bits = whole("bits", bits, 8, 32)
     random = np.random.default_rng(seed)
-    zero = falls.touches[0] - non_negative("before", before, "seconds")
-    count = math.ceil((falls.touches[-1] - zero + non_negative("after", after, "seconds")) * rate)
+    zero = falls.touches[0] - before
+    count = math.ceil((falls.touches[-1] - zero + after) * rate)
     values = np.zeros(count)
     own = np.random.default_rng([seed, 2])  # of what spoils it, so that the tones stay the same
-    common = _tones(own)[:, : round(_TONES * fraction("alike", alike))]
+    common = _tones(own)[:, : round(_TONES * alike)]
     for time, speed in zip(falls.touches - zero, falls.speeds, strict=True):
         loud = level * (speed / falls.speeds[0]) ** _EXPONENT
         loud *= math.exp(uneven * own.standard_normal())
@@ -111,9 +101,7 @@ def sound(
         if double:
             _add(values, time + double[0], loud * double[1], _tones(random), rate, attack)
     if echo:
-        late = round(positive("echo", echo[0], "seconds") * rate)
-        if late >= count:
-            raise InvalidValue(f"echo must come within the recording, got {echo[0]!r} s")
+        late = round(echo[0] * rate)
         values[late:] += echo[1] * values[: count - late]
     if room:
         values = reverberated(values, rate, room, own)
@@ -127,7 +115,12 @@ def sound(
         values = coded(np.clip(values, -1.0, 1.0), rate, coarse)
     step = 2.0 ** (1 - bits)
     values = np.clip(np.round(values / step) * step, -1.0, 1.0 - step)
-    return _dataset(times, values, rate)
+    said = {"units": "1", "long_name": "sound", "rate": rate}
+    return xr.Dataset(
+        {"sound": ("time", values.astype(np.float32), said)},
+        {"time": ("time", times, {"units": "s", "long_name": "time"})},
+        attributes("sound") | {"rate": rate},
+    )
 
 
 def _tones(random: np.random.Generator) -> NDArray[np.float64]:
@@ -166,24 +159,3 @@ def _speech(
     )
     swell = np.clip(np.sin(2 * math.pi * 4.0 * times + random.uniform(0, 6.3)), 0.0, None)
     return np.asarray(values * swell**2 * (times < until))
-
-
-def _dataset(
-    times: NDArray[np.float64], values: NDArray[np.float64], rate: float
-) -> "xarray.Dataset":
-    import xarray as xr
-
-    attrs = {"units": "1", "long_name": "sound", "rate": rate}
-    clock = ("time", times, {"units": "s", "long_name": "time"})
-    return xr.Dataset(
-        {"sound": ("time", values.astype(np.float32), attrs)},
-        {"time": clock},
-        {
-            "format": "synthetic",
-            "why": "It was made from a simulated ball.",
-            "doubt": "",
-            "holds": "sound",
-            "source": "synthetic",
-            "rate": rate,
-        },
-    )

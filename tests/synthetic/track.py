@@ -2,17 +2,15 @@
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, fraction, non_negative, positive, shown
 from stackbounce.run.result import Result
+from synthetic import attributes
+from synthetic.disturbances import ar_noise
 from synthetic.falls import Falls
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["track"]
 
@@ -33,7 +31,7 @@ def track(
     down: bool = False,
     names: Sequence[str] | None = None,
     seed: int = 0,
-) -> "xarray.Dataset":
+) -> xr.Dataset:
     """Return the track of one ball (`Falls`) or of a stack (the `Result` of a run with gravity).
 
     Parameters
@@ -72,11 +70,6 @@ def track(
     xarray.Dataset
         `x` and `y` against `time` and `track`.
 
-    Raises
-    ------
-    InvalidValue, InvalidType
-        If an argument is out of its range, or of the wrong type.
-
     Examples
     --------
     >>> from synthetic.falls import falls
@@ -84,35 +77,41 @@ def track(
     >>> data.y.dims, data.sizes["time"]
     (('time', 'track'), 33)
     """
-    rate = positive("frame_rate", frame_rate, "frames per second")
-    read = rate if read_as is None else positive("read_as", read_as, "frames per second")
     random = np.random.default_rng(seed)
     first, last = _span(source, before, until)
-    times = np.arange(first + random.uniform(0.0, 1.0) / rate, last, 1.0 / rate)
+    times = np.arange(first + random.uniform(0.0, 1.0) / frame_rate, last, 1.0 / frame_rate)
     heights = _heights(source, times)
     side = np.broadcast_to(drift * times, heights.shape)
     columns = {
         "x": math.cos(tilt) * side + math.sin(tilt) * heights,
         "y": (math.cos(tilt) * heights - math.sin(tilt) * side) * (-1.0 if down else 1.0),
     }
-    blank = random.uniform(size=heights.shape) < fraction("missing", missing)
+    blank = random.uniform(size=heights.shape) < missing
     for name, values in columns.items():
-        seen = values + _errors(random, values.shape, noise, correlation)
-        if non_negative("pixel", pixel, "metres"):
+        seen = values + noise * ar_noise(random, values.shape, correlation)
+        if pixel:
             seen = np.round(seen / pixel) * pixel
         columns[name] = np.where(blank, np.nan, seen)
-    clock = np.arange(len(times)) / read
-    return _dataset(clock, columns, names or [f"ball {k}" for k in range(len(heights))])
+    clock = np.arange(len(times)) / (read_as or frame_rate)
+    return xr.Dataset(
+        {
+            name: (("time", "track"), values.T, {"units": "m", "long_name": name})
+            for name, values in columns.items()
+        },
+        {
+            "time": ("time", clock, {"units": "s", "long_name": "t"}),
+            "track": ("track", list(names or [f"ball {k}" for k in range(len(heights))])),
+        },
+        attributes("track"),
+    )
 
 
-def _span(source: object, before: float, until: float | None) -> tuple[float, float]:
+def _span(source: Falls | Result, before: float, until: float | None) -> tuple[float, float]:
     if isinstance(source, Falls):
         third = source.touches[min(3, len(source.touches) - 1)]
         return -before, float(third) if until is None else until
-    if isinstance(source, Result):
-        fall = source.drop.reference_speed / positive("gravity", source.drop.gravity, "m/s^2")
-        return -fall - before, source.end_time if until is None else until
-    raise InvalidType(f"source must be a Falls or a Result, got {shown(source)}")
+    fall = source.drop.reference_speed / source.drop.gravity
+    return -fall - before, source.end_time if until is None else until
 
 
 def _heights(source: Falls | Result, times: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -127,38 +126,3 @@ def _heights(source: Falls | Result, times: NDArray[np.float64]) -> NDArray[np.f
     falling = start * held - 0.5 * drop.gravity * held**2
     moved = source.sample(np.maximum(times, 0.0)).position.values
     return np.asarray(places[:, None] + np.where(times < 0.0, falling, moved))
-
-
-def _errors(
-    random: np.random.Generator, shape: tuple[int, ...], noise: float, correlation: float
-) -> NDArray[np.float64]:
-    """Return AR(1) errors."""
-    from scipy.signal import lfilter
-
-    fresh = random.standard_normal(shape)
-    fresh[:, 1:] *= math.sqrt(1.0 - correlation**2)
-    return np.asarray(noise * lfilter([1.0], [1.0, -correlation], fresh, axis=1))
-
-
-def _dataset(
-    times: NDArray[np.float64], columns: dict[str, NDArray[np.float64]], names: Sequence[str]
-) -> "xarray.Dataset":
-    import xarray as xr
-
-    return xr.Dataset(
-        {
-            name: (("time", "track"), values.T, {"units": "m", "long_name": name})
-            for name, values in columns.items()
-        },
-        {
-            "time": ("time", times, {"units": "s", "long_name": "t"}),
-            "track": ("track", list(names)),
-        },
-        {
-            "format": "synthetic",
-            "why": "It was made from simulated balls.",
-            "doubt": "",
-            "holds": "track",
-            "source": "synthetic",
-        },
-    )

@@ -1,6 +1,5 @@
 """The command ``stackbounce measure``: files -> their results, and a ball for ``simulate``."""
 
-import inspect
 import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -8,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stackbounce.cli.options import AsJson, Overwrite, Plot
+from stackbounce.cli.options import AsJson, Overwrite, Plot, add_options, option
 from stackbounce.cli.output import (
     check_picture,
     check_scenario,
@@ -19,7 +18,7 @@ from stackbounce.cli.output import (
 )
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
-from stackbounce.measure.hints import Hint
+from stackbounce.measure.messages import OptionHint
 from stackbounce.measure.options import OPTIONS, Option
 
 if TYPE_CHECKING:
@@ -54,6 +53,23 @@ Save = Annotated[
 ]
 
 
+def _as_command(table_row: Option) -> tuple[Any, Any]:
+    """Return the command's option for one of the table."""
+    several = table_row.form == "columns"
+    kinds: dict[str, Any] = {"flag": bool, "file": Path | None, "columns": list[str] | None}
+    return option(
+        kinds.get(table_row.form, str if table_row.default else str | None),
+        None if table_row.form == "flag" else table_row.value_name,
+        table_row.says,
+        table_row.on_command_line,
+        default=table_row.default,
+        rich_help_panel=table_row.panel or None,
+        readable=table_row.form != "file",
+        show_default=not several,
+    )
+
+
+@add_options({each.name: _as_command(each) for each in OPTIONS})
 def run(
     files: Files = None,
     *,
@@ -81,7 +97,7 @@ def run(
         check_scenario(save, overwrite)
         if "mass" not in known:
             raise InvalidValue("--save needs the mass of the ball, such as --mass 57g")
-    done = [measure_file(path, known, _words) for path in files] + measure_numbers(known)
+    done = [measure_file(path, known, _wording) for path in files] + measure_numbers(known)
     if not done:
         raise InvalidValue("measure needs a file, --heights, --contact-time or --restitution")
     law = _law_of(known, done) if "law" in known else None
@@ -98,7 +114,7 @@ def run(
         typer.echo(f"Picture: {plot}")
 
 
-def _words(hint: Hint) -> str:
+def _wording(hint: OptionHint) -> str:
     """Return the options of a hint as they are typed, with the whole command if it names a file."""
     known = {option.name: option.on_command_line for option in OPTIONS}
     typed = []
@@ -115,52 +131,15 @@ def _words(hint: Hint) -> str:
     return (", " if all_names else " ").join(typed)
 
 
-def _parameter(option: Option) -> inspect.Parameter:
-    """Return the command's parameter for an option of the table."""
-    repeatable = option.form == "columns"
-    kinds: dict[str, Any] = {"flag": bool, "file": Path | None, "columns": list[str] | None}
-    told = typer.Option(
-        option.on_command_line,
-        metavar=None if option.form == "flag" else option.value_name,
-        help=option.says,
-        rich_help_panel=option.panel or None,
-        readable=option.form != "file",
-        show_default=not repeatable,
-    )
-    kind = kinds.get(option.form, str if option.default else str | None)
-    return inspect.Parameter(
-        option.name,
-        inspect.Parameter.KEYWORD_ONLY,
-        default=option.default,
-        annotation=Annotated[kind, told],
-    )
-
-
-def _signature() -> inspect.Signature:
-    """Return the command's signature, with the table's options between its own."""
-    own = inspect.signature(run)
-    files, name, *rest, _ = own.parameters.values()
-    mass, diameter, *others = (_parameter(option) for option in OPTIONS)
-    ordered = [mass, diameter, name, *others, *rest]
-    return own.replace(parameters=[files, *ordered])
-
-
-run.__signature__ = _signature()  # type: ignore[attr-defined]
-
-
 def _law_of(known: Mapping[str, Any], done: "Sequence[Measurement]") -> "LawConstants":
     """Return the law of ``--law``, calibrated to the results and the known numbers."""
     from stackbounce.measure import one_law
-    from stackbounce.measure.drag import drag_of, speed_after_fall
-    from stackbounce.model.drop import STANDARD_GRAVITY
+    from stackbounce.measure.setup import Setup
 
     names = ("mass", "contact_time", "restitution", "exponent")
     given = {name: known[name] for name in names if name in known}
-    speed = known.get("speed")
-    if speed is None and "height" in known:
-        names = ("mass", "diameter", "drag_coefficient", "air_density")
-        drag = drag_of(*(known.get(name) for name in names))
-        speed = speed_after_fall(known["height"], known.get("gravity", STANDARD_GRAVITY), drag)
+    of_fall = ("height", "speed", "gravity", "mass", "diameter", "drag_coefficient", "air_density")
+    speed = Setup.of(of_fall, known).impact_speed
     found = [finding for each in done for finding in each.found]
     return one_law(known["law"], found, **given, impact_speed=speed)
 

@@ -28,11 +28,11 @@ def summary(
 def print_measured(console: Console, done: Sequence[Measurement], law: LawConstants | None) -> None:
     """Print what was found, for people."""
     for source in done:
-        console.print(f"{source.source}: {source.told['format']}", style="bold")
-        if source.told["why"]:
-            console.print(f"  {source.told['why']}")
-        if source.told["doubt"]:
-            console.print(f"  Unsure: {source.told['doubt']}")
+        console.print(f"{source.source}: {source.evidence['format']}", style="bold")
+        if source.evidence["why"]:
+            console.print(f"  {source.evidence['why']}")
+        if source.evidence["doubt"]:
+            console.print(f"  Unsure: {source.evidence['doubt']}")
         console.print(table_of_rows(source.rows))
         for note in source.notes:
             console.print(f"  {note}")

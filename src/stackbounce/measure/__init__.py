@@ -7,12 +7,13 @@ kind          the record of a kind; `kinds.KINDS` lists all
 finding       the shape that all results share
 options       the table of options, for all user interfaces
 option_values texts from a user interface -> values that the analyses take
+setup         what is known of ball and drop besides the file, from the options
 analysis      the right analysis for what a file holds
 measurement   a file or typed numbers, with the results, for all user interfaces
 drag          the drag of the air in measured flights
 constants     contact time and restitution -> stiffness, constants of any law
 assembly      results -> a law, a ball to drop
-hints         options that a message recommends, in the words of each interface
+messages      texts with options that they recommend, worded for each user interface
 unrecognised  a table of an unknown kind: its columns, and how to go on
 quantities    numbers with errors; a row of a table
 samples       columns of a Dataset or arrays, runs, rounding, areas
@@ -38,9 +39,8 @@ if TYPE_CHECKING:
     from stackbounce.measure.kinds.sound.analysis import knocks
     from stackbounce.measure.kinds.track.analysis import track
     from stackbounce.measure.kinds.waveform.analysis import waveform
-    from stackbounce.measure.kinds.waveform.gap.delay import gap_from_delay
+    from stackbounce.measure.kinds.waveform.gap.delay import gap_from_delay, sensor_gap
     from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
-    from stackbounce.measure.kinds.waveform.gap.sensor_gap import sensor_gap
     from stackbounce.measure.reading import read
 
 __all__ = [
@@ -81,7 +81,7 @@ _HOMES = {
     "one_law": "assembly",
     "press": "kinds.press.analysis",
     "read": "reading",
-    "sensor_gap": "kinds.waveform.gap.sensor_gap",
+    "sensor_gap": "kinds.waveform.gap.delay",
     "series_stiffness": "kinds.press.series",
     "split_series": "kinds.press.series",
     "track": "kinds.track.analysis",

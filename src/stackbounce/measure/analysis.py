@@ -1,11 +1,13 @@
 """The right analysis for what a file holds."""
 
-import inspect
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.measure.kinds import KINDS
-from stackbounce.measure.options import check_options, options_for
+from stackbounce.measure.quantities import Number
+from stackbounce.measure.setup import Place, Setup
+from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -15,7 +17,28 @@ if TYPE_CHECKING:
 __all__ = ["analyse"]
 
 
-def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
+def analyse(
+    data: "xr.Dataset",
+    *,
+    mass: Number | float | None = None,
+    diameter: Number | float | None = None,
+    contact_time: Number | float | None = None,
+    restitution: Number | float | None = None,
+    law: type[ContactLaw] | ContactLaw | str | None = None,
+    exponent: float | None = None,
+    height: Number | float | None = None,
+    speed: Number | float | None = None,
+    height_error: float | None = None,
+    repeated: bool = False,
+    measured_to: Place | tuple[Place, Place] = "bottom",
+    floor: float | None = None,
+    alone: "xr.Dataset | None" = None,
+    tabulated: bool = False,
+    time_constant: float | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    drag_coefficient: Number | float | None = None,
+    air_density: Number | float | None = None,
+) -> "tuple[Finding, ...]":
     r"""Return the results of the analyses that belong to the kind of a measurement.
 
     Parameters
@@ -71,7 +94,7 @@ def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
     Raises
     ------
     InvalidType
-        If `data` is not from `read`, or an option is unknown or belongs to `read`.
+        If `data` is not from `read`.
     InvalidValue
         If there is no analysis for what `data` holds, or the analysis finds nothing.
 
@@ -90,29 +113,14 @@ def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
     >>> f"{found.mean.nominal_value:.3f}"
     '0.800'
     """
+    options = dict(locals())
     holds = getattr(data, "attrs", {}).get("holds")
     if holds is None:
         raise InvalidType(f"data must be a Dataset from read, got {shown(data)}")
-    check_options(options, "analyse")
-    kind = KINDS.get(holds)
-    if kind is None or kind.analyse is None:
+    if holds not in KINDS:
         raise InvalidValue(
             f"there is no analysis of {holds}: give the kind of measurement, one of "
             f"{', '.join(KINDS)}"
         )
-    given = {name: value for name, value in options.items() if value is not None}
-    found = kind.analyse(data, **{name: given[name] for name in kind.options if name in given})
-    return found if isinstance(found, tuple) else (found,)
-
-
-def _signature() -> inspect.Signature:
-    """Return the signature of `analyse` with each option of the table."""
-    own = inspect.signature(analyse)
-    options = [
-        inspect.Parameter(one.name, inspect.Parameter.KEYWORD_ONLY, default=one.default)
-        for one in options_for("analyse").values()
-    ]
-    return own.replace(parameters=[own.parameters["data"], *options])
-
-
-analyse.__signature__ = _signature()  # type: ignore[attr-defined]
+    kind = KINDS[holds]
+    return kind.analyse(data, Setup.of(kind.options, options))

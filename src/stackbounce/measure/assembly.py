@@ -71,8 +71,8 @@ def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> 
     law : type or str
         The law's class or its name, such as ``"HuntCrossley"``.
     found : sequence
-        What the analyses returned; each result's ``told()`` names the contact time, restitution
-        and impact speed that it has. Where two results have the same one, the later counts.
+        What the analyses returned; each result's ``law_arguments()`` has the contact time,
+        restitution and impact speed that it found. Where two results have one, the later counts.
     **given
         Other arguments of `law_constants`, which take precedence over the results.
 
@@ -96,9 +96,9 @@ def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> 
     """
     kind = law_named(law) if isinstance(law, str) else law
     known: dict[str, Any] = {}
-    for one in found:
-        told = one.told().items()
-        known |= {name: _usable(value) for name, value in told if value is not None}
+    for result in found:
+        values = result.law_arguments().items()
+        known |= {name: _usable(value) for name, value in values if value is not None}
     known |= {name: value for name, value in given.items() if value is not None}
     exponent = known.get("exponent")
     needed = kind.calibration_needs(getattr(exponent, "nominal_value", exponent))
@@ -130,8 +130,8 @@ def _together(contacts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
         )
     if len(contacts) == 1:
         return dict(contacts[0])
-    rigid = [one for one in contacts if law_named(one["law"]).rigid]
-    sprung = [one for one in contacts if law_named(one["law"]).rate_free]
+    rigid = [contact for contact in contacts if law_named(contact["law"]).rigid]
+    sprung = [contact for contact in contacts if law_named(contact["law"]).rate_free]
     if len(contacts) == 2 and len(rigid) == len(sprung) == 1:
         law = sprung[0]
         if law["law"] == "Tabulated":
@@ -143,7 +143,7 @@ def _together(contacts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
             "exponent": law.get("exponent", law_named(law["law"]).default_exponent() or 1.0),
             "restitution": rigid[0]["restitution"],
         }
-    names = ", ".join(one["law"] for one in contacts)
+    names = ", ".join(contact["law"] for contact in contacts)
     raise InvalidValue(
         f"the files must give one contact, or one with a stiffness and one with a restitution, "
         f"got {names}"

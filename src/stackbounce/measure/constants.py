@@ -173,8 +173,8 @@ def law_constants(
 
     constants = propagate(constants_of, sources, _BOUNDS)
     try:
-        for name, one in zip(names, constants, strict=True):
-            deviation(name, one.std_dev)
+        for name, constant in zip(names, constants, strict=True):
+            deviation(name, constant.std_dev)
     except OverflowError:
         raise InvalidValue(f"{kind.__name__} must have constants in the range of numbers") from None
     return LawConstants(found, dict(zip(names, constants, strict=True)), sources)

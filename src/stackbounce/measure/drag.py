@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import Any, TypeVar
 
 from stackbounce.errors import InvalidValue, non_negative, shown
-from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Number, Row, measured, nominal
 from stackbounce.model import drag
 from stackbounce.model.air import Air
@@ -19,7 +19,7 @@ Found = TypeVar("Found")
 
 _THINNEST, _THICKEST = 1e-15, 1e6  # 1/m, of what is called a ball in air
 _MOST = 1e12  # m/s, m, s
-_LEAST = 1e-3  # of the drag: errors of nearly all of it are taken down to there
+_LEAST_DRAG = 1e-3  # of the drag, taken where its error is nearly all of it
 _WIDER = 1e-6  # of a bracket: more than the steps of a derivative move its root
 
 
@@ -237,15 +237,18 @@ def drag_of(mass: Any, diameter: Any, drag_coefficient: Any, air_density: Any) -
             )
         if air_density is not None:
             raise InvalidValue(
-                Said("the density of the air counts with a ", Hint({"drag_coefficient": None}),
-                     " only, got none")
-            )  # fmt: skip
+                Message(
+                    "the density of the air counts with a ",
+                    OptionHint({"drag_coefficient": None}),
+                    " only, got none",
+                )
+            )
         return None
     if mass is None or diameter is None:
         needed = {"mass": mass, "diameter": diameter}
-        missing = Hint({name: None for name, value in needed.items() if value is None})
+        missing = OptionHint({name: None for name, value in needed.items() if value is None})
         raise InvalidValue(
-            Said("a drag coefficient needs mass and diameter of the ball: give ", missing)
+            Message("a drag coefficient needs mass and diameter of the ball: give ", missing)
         )
     return Drag(mass, diameter, known, Air.density if air_density is None else air_density)
 
@@ -284,7 +287,7 @@ def with_error_of_drag(found: Found, found_with: Callable[[Drag], Found], drag: 
     error = rate.std_dev / rate.nominal_value
     if not error > 0.0:
         return found
-    least = max(1.0 - error, _LEAST)
+    least = max(1.0 - error, _LEAST_DRAG)
     low, high = found_with(drag.exact(least)), found_with(drag.exact(1.0 + error))
     off = (rate / rate.nominal_value - 1.0) / (1.0 + error - least)  # 0, with an error
     moved: Found = _moved(found, low, high, off=off)

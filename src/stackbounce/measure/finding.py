@@ -1,5 +1,6 @@
 """The shape that the results of all analyses share."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
@@ -38,7 +39,7 @@ class Branch(NamedTuple):
     fit: Array
 
 
-class Finding:
+class Finding(ABC):
     """The result of an analysis.
 
     Attributes
@@ -52,15 +53,15 @@ class Finding:
     picture: ClassVar[str] = "numbers"
     notes: tuple[str, ...]
 
+    @abstractmethod
     def rows(self) -> list[Row]:
         """Return the quantities that were found, the most important first."""
-        raise NotImplementedError
 
     def parts(self) -> dict[str, Any]:
         """Return ball, contact, height and impact speed, as far as known, as in a drop's TOML."""
         return {}
 
-    def told(self) -> dict[str, Any]:
+    def law_arguments(self) -> dict[str, Any]:
         """Return contact time, restitution and impact speed, as `law_constants` takes them."""
         return {}
 

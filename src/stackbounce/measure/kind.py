@@ -1,16 +1,21 @@
 """A kind of measurement: what a file of it has, and which analysis it gets."""
 
-import inspect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from importlib import import_module
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from stackbounce.measure.finding import Finding
     from stackbounce.measure.reading.roles import Column
+    from stackbounce.measure.setup import Setup
 
-__all__ = ["Kind", "keywords_of"]
+__all__ = ["IN_AIR", "Kind"]
+
+IN_AIR = ("mass", "diameter", "drag_coefficient", "air_density")
+"""The options that tell the drag of the air."""
 
 
 @dataclass(frozen=True)
@@ -23,9 +28,12 @@ class Kind:
         As users write it: ``holds="track"``.
     says : str
         The help text.
-    analyse : callable or None
-        From a Dataset to the result, or a tuple of results. Its keywords are the options that it
-        takes, each one of `stackbounce.measure.options.OPTIONS`. None for a kind without files.
+    module : str
+        Where its analysis is, imported when it is needed: ``analyse(data, setup)`` goes from a
+        Dataset to the result, or a tuple of results, and ``of_numbers(setup)`` to the result
+        without a file. A kind has one of them or both.
+    options : tuple of str
+        What its analysis takes of `Setup`. Other options have no effect on it.
     columns : tuple of tuple of str
         The columns that its file needs: one of each tuple, given by role or name. A file with these
         columns is recognised, unless `recognised` decides.
@@ -36,8 +44,6 @@ class Kind:
         with longer ones are in milliseconds or in something smaller.
     recognised : callable, optional
         Whether columns are those of this kind.
-    of_numbers : callable, optional
-        From options, its keywords, to the result without a file.
     starts_with : tuple of str
         The options of which one is enough for `of_numbers`.
     typed : str
@@ -52,25 +58,21 @@ class Kind:
 
     name: str
     says: str
-    analyse: "Callable[..., Finding | tuple[Finding, ...]] | None" = None
+    module: str
+    options: tuple[str, ...] = ()
     columns: tuple[tuple[str, ...], ...] = ()
     dimension: str = "time"
     longest_step: float = 0.2
     recognised: "Callable[[Sequence[Column]], bool] | None" = None
-    of_numbers: "Callable[..., Finding] | None" = None
     starts_with: tuple[str, ...] = ()
     typed: str = ""
 
-    @cached_property
-    def options(self) -> tuple[str, ...]:
-        """The options that its analyses take."""
-        functions = (self.analyse, self.of_numbers)
-        return tuple(
-            dict.fromkeys(name for one in functions if one is not None for name in keywords_of(one))
-        )
+    def analyse(self, data: "xr.Dataset", setup: "Setup") -> "tuple[Finding, ...]":
+        """Return the results of a file."""
+        found = import_module(self.module).analyse(data, setup)
+        return found if isinstance(found, tuple) else (found,)
 
-
-def keywords_of(function: Callable[..., Any]) -> tuple[str, ...]:
-    """Return the names of a function's keyword-only arguments."""
-    every = inspect.signature(function).parameters.values()
-    return tuple(one.name for one in every if one.kind is one.KEYWORD_ONLY)
+    def of_numbers(self, setup: "Setup") -> "Finding":
+        """Return the result of numbers without a file."""
+        found: Finding = import_module(self.module).of_numbers(setup)
+        return found

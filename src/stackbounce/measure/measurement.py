@@ -1,25 +1,25 @@
 """A measurement: a file or typed numbers, with the results, for all user interfaces."""
 
+import logging
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
 
-import numpy as np
-
-from stackbounce.errors import InvalidValue, StackbounceError, a_or_an
+from stackbounce.errors import InvalidValue, StackbounceError
 from stackbounce.measure.analysis import analyse
 from stackbounce.measure.finding import Branch, Curve, Finding, channels
-from stackbounce.measure.hints import Hint, Said, Words, about, in_python, in_words, said
-from stackbounce.measure.kind import keywords_of
 from stackbounce.measure.kinds import TYPED
+from stackbounce.measure.messages import Message, Wording, python_wording
 from stackbounce.measure.options import OPTIONS, options_for
 from stackbounce.measure.quantities import Row, nominal
 from stackbounce.measure.reading import read, read_content
+from stackbounce.measure.setup import Setup
 
 __all__ = ["File", "Measurement", "measure_file", "measure_numbers", "row_mapping"]
 
+_LOG = logging.getLogger(__name__)
 _CALCULATING = r"(numpy|scipy|pandas|xarray|uncertainties|stackbounce\.measure)\b"
 """Modules whose warnings are no user's: of numbers that an analysis refuses or leaves out."""
 
@@ -35,50 +35,49 @@ class Measurement:
     ----------
     source : str
         The file's name, or the options that were typed.
-    told : mapping
+    evidence : mapping
         `format`, `why`, `doubt` and `holds` of what was read.
     data : xarray.Dataset or None
         What was read.
     found : tuple of Finding
         What was found in it.
-    words : callable, optional
+    wording : callable, optional
         What the user interface makes of hints in notes.
     """
 
     source: str
-    told: Mapping[str, str]
+    evidence: Mapping[str, str]
     data: Any
     found: tuple[Finding, ...]
-    words: Words = in_python
+    wording: Wording = python_wording
 
     @property
     def rows(self) -> list[Row]:
         """The quantities of all results."""
-        return [row for one in self.found for row in one.rows()]
+        return [row for result in self.found for row in result.rows()]
 
     @property
     def notes(self) -> list[str]:
         """The notes of all results, each once."""
-        every = (note for one in self.found for note in one.notes)
-        return list(dict.fromkeys(in_words(note, self.words) for note in every))
+        every = (note for result in self.found for note in result.notes)
+        return list(dict.fromkeys(Message(note).worded(self.wording) for note in every))
 
     @property
     def measured(self) -> dict[str, str]:
         """The measured values that a fit can use, by the names that `stackbounce.fit` takes."""
-        return {
-            name: value for one in self.found for name, value in one.measured(self.data).items()
-        }
+        every = [result.measured(self.data) for result in self.found]
+        return {name: value for values in every for name, value in values.items()}
 
     @property
     def curves(self) -> list[Curve]:
         """The curves over time, to draw over a simulated drop."""
-        own = (one.curves(self.data) for one in self.found)
+        own = (result.curves(self.data) for result in self.found)
         return next((curves for curves in own if curves is not None), None) or channels(self.data)
 
     @property
     def branches(self) -> list[Branch]:
         """The branches of a press curve."""
-        return [branch for one in self.found for branch in one.branches()]
+        return [branch for result in self.found for branch in result.branches()]
 
     @property
     def bounce(self) -> dict[str, Any] | None:
@@ -88,10 +87,10 @@ class Measurement:
         `contact` instead, a law as a drop's TOML has it.
         """
         names = ("restitution", "contact_time", "impact_speed")
-        for one in self.found:
-            told = one.told()
-            known = {name: nominal(told[name]) for name in names if told.get(name) is not None}
-            contact = None if known else one.parts().get("contact")
+        for result in self.found:
+            values = result.law_arguments()
+            known = {name: nominal(values[name]) for name in names if values.get(name) is not None}
+            contact = None if known else result.parts().get("contact")
             if contact or {"restitution", "contact_time"} & set(known):
                 return {**dict.fromkeys(names), **known, "contact": contact}
         return None
@@ -99,16 +98,18 @@ class Measurement:
     @property
     def first_touch(self) -> float | None:
         """When the lowest ball first touches the floor, in s on the record's clock."""
-        times = (one.first_touch() for one in self.found)
+        times = (result.first_touch() for result in self.found)
         return next((time for time in times if time is not None), None)
 
     def to_mapping(self) -> dict[str, Any]:
         """Return source, evidence, quantities and notes, for JSON."""
         rows = [row_mapping(row) for row in self.rows]
-        return {"file": self.source, **self.told, "found": rows, "notes": self.notes}
+        return {"file": self.source, **self.evidence, "found": rows, "notes": self.notes}
 
 
-def measure_file(file: File, options: Mapping[str, Any], words: Words = in_python) -> Measurement:
+def measure_file(
+    file: File, options: Mapping[str, Any], wording: Wording = python_wording
+) -> Measurement:
     """Read a file and analyse it.
 
     Parameters
@@ -118,7 +119,7 @@ def measure_file(file: File, options: Mapping[str, Any], words: Words = in_pytho
     options : mapping
         Those of `read` and `analyse`, as `read_options` returns them;
         `alone` is a file.
-    words : callable, optional
+    wording : callable, optional
         What the user interface makes of hints in doubts and errors; by default Python.
 
     Raises
@@ -127,15 +128,12 @@ def measure_file(file: File, options: Mapping[str, Any], words: Words = in_pytho
         If the file cannot be read, or the analysis finds nothing in it.
     """
     try:
-        return _measured(file, options, words)
+        return _measured(file, options, wording)
     except StackbounceError as error:
-        text = said(error)
-        if not isinstance(text, Said):
-            raise
-        raise type(error)(in_words(text, words)) from error
+        raise type(error)(Message.of(error).worded(wording)) from error
 
 
-def _measured(file: File, options: Mapping[str, Any], words: Words) -> Measurement:
+def _measured(file: File, options: Mapping[str, Any], wording: Wording) -> Measurement:
     of_reader = options_for("read")
     reading = {name: value for name, value in options.items() if name in of_reader}
     own = {name: options[name] for name in options_for("analyse") if name in options}
@@ -148,31 +146,13 @@ def _measured(file: File, options: Mapping[str, Any], words: Words) -> Measureme
         try:
             found = analyse(data, **own)
         except StackbounceError as error:
-            raise about(name, error) from error
-        except (ArithmeticError, LookupError, ValueError) as error:
-            raise about(name, InvalidValue(_refusal(data))) from error
-    told = {key: data.attrs[key] for key in ("format", "why", "doubt", "holds")}
-    told["doubt"] = in_words(told["doubt"], words)
-    return Measurement(name, told, data, found, words)
-
-
-def _refusal(data: Any) -> Said:
-    """Return that the numbers of a file are not those of its kind, and what they are."""
-    spans = []
-    for name, values in [*data.coords.items(), *data.data_vars.items()][:6]:
-        if values.dtype.kind != "f":
-            continue
-        known = values.values[np.isfinite(values.values)]
-        if known.size:
-            unit = f" {values.attrs['units']}" if values.attrs.get("units") else ""
-            spans.append(f"{name} from {known.min():.4g} to {known.max():.4g}{unit}")
-    rows = max(data.sizes.values(), default=0)
-    return Said(
-        f"its {rows} rows cannot be analysed as {a_or_an(data.attrs['holds'])}, got "
-        f"{', '.join(spans) or 'no numbers'}: ",
-        Hint({"holds": None, "names": None, "units": None}),
-        " tell another kind, other columns and units",
-    )
+            raise type(error)(Message.of(error).of_file(name)) from error
+        except Exception:
+            _LOG.exception("the analysis of %s as %s has a bug", name, data.attrs["holds"])
+            raise
+    evidence = {key: data.attrs[key] for key in ("format", "why", "doubt", "holds")}
+    evidence["doubt"] = Message(evidence["doubt"]).worded(wording)
+    return Measurement(name, evidence, data, found, wording)
 
 
 def _read(file: File, reading: Mapping[str, Any]) -> Any:
@@ -181,25 +161,20 @@ def _read(file: File, reading: Mapping[str, Any]) -> Any:
 
 def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:
     """Analyse typed numbers; return a measurement of each kind for which they suffice."""
-    known = {one.name: one for one in OPTIONS}
+    known = {option.name: option for option in OPTIONS}
     done = []
     for kind in TYPED:
         given = [name for name in kind.starts_with if name in options]
-        if not given or kind.of_numbers is None:
+        if not given:
             continue
-        own = {name: options[name] for name in keywords_of(kind.of_numbers) if name in options}
-        told = {
-            "format": "numbers of the command line",
-            "why": "",
-            "doubt": "",
-            "holds": kind.typed,
-        }
+        form = "numbers of the command line"
+        evidence = {"format": form, "why": "", "doubt": "", "holds": kind.typed}
         source = " ".join(known[name].on_command_line for name in given)
         try:
-            found = kind.of_numbers(**own)
+            found = kind.of_numbers(Setup.of(kind.options, options))
         except ArithmeticError as error:
             raise InvalidValue(f"{source} has numbers that are too large or too small") from error
-        done.append(Measurement(source, told, None, (found,)))
+        done.append(Measurement(source, evidence, None, (found,)))
     return done
 
 

@@ -50,12 +50,12 @@ def read_options(
             raise InvalidType(f"{shown(name)} is no option; {nearest(name, known)}")
         if value is None or (isinstance(value, str) and not value):
             continue
-        one = known[name]
-        told = _READERS.get(one.form, _checked)(value, one, face(one))
-        values = told if one.form == "law" else {name: told}  # a law may bring its exponent
+        option = known[name]
+        taken = _READERS.get(option.form, _checked)(value, option, face(option))
+        values = taken if option.form == "law" else {name: taken}  # a law may bring its exponent
         twice = [key for key in values if key in found]
         if twice:
-            raise InvalidValue(f"{twice[0]} is given twice, by {face(one)} and on its own")
+            raise InvalidValue(f"{twice[0]} is given twice, by {face(option)} and on its own")
         found |= values
     return found
 
@@ -98,7 +98,7 @@ def _lengths(text: str, option: Option, called: str) -> list[Any]:
 
 def _points(value: Any, _: Option, called: str) -> tuple[str, ...]:
     """Return the points that the drop's height and the bounces' were measured to."""
-    from stackbounce.measure.kinds.heights.analysis import places
+    from stackbounce.measure.setup import places
 
     if not isinstance(value, str):
         return places(value)
@@ -111,16 +111,16 @@ def _points(value: Any, _: Option, called: str) -> tuple[str, ...]:
 def _law(value: Any, _: Option, called: str) -> dict[str, Any]:
     """Return the law's class and, if the text has it, the exponent."""
     name, *rest = (value.split() or [""]) if isinstance(value, str) else (value,)
-    told: dict[str, Any] = {}
+    found: dict[str, Any] = {}
     for word in rest:
         key, __, number = word.partition("=")
-        if key != "exponent" or not number or told:
+        if key != "exponent" or not number or found:
             raise InvalidValue(
                 f"{called} must be a law, or 'LAW exponent=NUMBER', got {shown(value)}; "
                 "restitution and contact time have options of their own"
             )
-        told[key] = quantity(number, "", f"{called}: exponent")
-    return {"law": law_named(name), **told}
+        found[key] = quantity(number, "", f"{called}: exponent")
+    return {"law": law_named(name), **found}
 
 
 def _columns(value: Any, option: Option, called: str) -> Any:
@@ -129,13 +129,13 @@ def _columns(value: Any, option: Option, called: str) -> Any:
         return value
     found: dict[str | int, str | int] = {}
     for text in value.split(",") if isinstance(value, str) else value:
-        name, _, told = (part.strip() for part in text.partition("="))
-        if not (name and told):
+        name, _, meaning = (part.strip() for part in text.partition("="))
+        if not (name and meaning):
             example = option.example.split(", ")[0]
             raise InvalidValue(
                 f"{called} must be {option.value_name}, such as {example}, got {shown(text)}"
             )
-        found[_column(name)] = _column(told) if option.name == "names" else told
+        found[_column(name)] = _column(meaning) if option.name == "names" else meaning
     return found
 
 

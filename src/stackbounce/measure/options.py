@@ -1,7 +1,7 @@
 """The options of a measurement, defined once for all user interfaces.
 
-`OPTIONS` feeds the signature of `analyse`, the command line, the page's form, and the table in
-`docs/measure.md`. An option is in effect where the analysis of a kind has a keyword of its name.
+`OPTIONS` feeds the command line, the page's form, and the table in `docs/measure.md`. An option is
+in effect for the kinds that name it in their `options`.
 """
 
 import re
@@ -10,32 +10,16 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, Literal, TypeAlias
 
-from stackbounce.errors import (
-    InvalidType,
-    finite,
-    fraction,
-    nearest,
-    non_negative,
-    positive,
-    shown,
-)
+from stackbounce.errors import finite, fraction, non_negative, positive
 from stackbounce.measure.kinds import KINDS, TYPED
 from stackbounce.model.laws import LAWS
+from stackbounce.units import examples
 
-__all__ = ["OPTIONS", "Option", "check_options", "options_for", "taken_by"]
+__all__ = ["OPTIONS", "Option", "options_for", "taken_by"]
 
 Form: TypeAlias = Literal[
     "number", "measured", "lengths", "flag", "points", "law", "file", "columns", "text"
 ]
-_UNIT_NAMES = {
-    "": "NUMBER",
-    "kg": "MASS",
-    "m": "LENGTH",
-    "s": "TIME",
-    "m/s": "SPEED",
-    "m/s**2": "ACCELERATION",
-    "kg/m**3": "DENSITY",
-}
 _FORM_NAMES = {"lengths": "LENGTHS", "points": "POINT"}
 _BALL, _DROP = "What is known of the ball", "What is known of the drop"
 _FILE = "What the file does not state"
@@ -101,8 +85,9 @@ class Option:
     @property
     def value_name(self) -> str:
         """What the command line calls its value."""
-        own = _UNIT_NAMES[self.unit] if self.form in ("number", "measured") else ""
-        return self.metavar or own or _FORM_NAMES.get(self.form, self.name.upper())
+        if self.form in ("number", "measured"):
+            return examples()[self.unit][0].split()[-1].upper()  # a mass: MASS
+        return self.metavar or _FORM_NAMES.get(self.form, self.name.upper())
 
     def to_mapping(self) -> dict[str, Any]:
         """Return what the page needs to offer it."""
@@ -122,7 +107,7 @@ def _typed(law: str) -> str:
 
 
 _number, _measured = partial(Option, form="number"), partial(Option, form="measured")
-_told = partial(Option, to="read")
+_read = partial(Option, to="read")
 
 # fmt: off
 _TABLE: dict[str, tuple[Option, ...]] = {
@@ -184,19 +169,19 @@ _TABLE: dict[str, tuple[Option, ...]] = {
                   "sea level, 1.204kg/m^3."),
     ),
     _FILE: (
-        _told("holds", "Kind of measurement", "as recognised", metavar="KIND",
+        _read("holds", "Kind of measurement", "as recognised", metavar="KIND",
               choices=lambda: KINDS,
               says=f"Kind of measurement in the file, if not recognised: {_listed(KINDS)}."),
-        _told("names", "Columns", "1=time, 2=force", form="columns", metavar="COLUMN=MEANING",
+        _read("names", "Columns", "1=time, 2=force", form="columns", metavar="COLUMN=MEANING",
               flag="--column",
               says="What a column is, by its name or its number from 1: 2=force or force=2; once "
               "per column."),
-        _told("units", "Units of columns", "x=cm, y=cm", form="columns", metavar="COLUMN=UNIT",
+        _read("units", "Units of columns", "x=cm, y=cm", form="columns", metavar="COLUMN=UNIT",
               flag="--unit", says="Unit of a column: x=cm; once per column."),
-        _told("table", "Table", "Energy", metavar="NAME", rare=True,
+        _read("table", "Table", "Energy", metavar="NAME", rare=True,
               says="Which table of a zip file, or sheet of a spreadsheet."),
-        _told("run", "Run", "2", rare=True, says="Which of several runs in the file."),
-        _told("decimal", "Decimal mark", "as recognised", rare=True, choices=lambda: (".", ","),
+        _read("run", "Run", "2", rare=True, says="Which of several runs in the file."),
+        _read("decimal", "Decimal mark", "as recognised", rare=True, choices=lambda: (".", ","),
               says="Decimal mark, . or , where 1,234 could be either."),
         _number("frame_rate", "Frame rate", "240", to="read",
                 says="Frames per second of a video, where a table counts frames: 240."),
@@ -207,33 +192,17 @@ _TABLE: dict[str, tuple[Option, ...]] = {
 # fmt: on
 
 OPTIONS: tuple[Option, ...] = tuple(
-    replace(one, panel=panel) for panel, group in _TABLE.items() for one in group
+    replace(option, panel=panel) for panel, group in _TABLE.items() for option in group
 )
 """All options; the command line lists them in this order."""
 
 
 def options_for(*to: str) -> dict[str, Option]:
     """Return the options of the reader, of the analyses or of numbers, by their names."""
-    return {one.name: one for one in OPTIONS if one.to in to}
+    return {option.name: option for option in OPTIONS if option.to in to}
 
 
 def taken_by(option: Option) -> list[str]:
     """Return the kinds whose analysis takes an option; the reader's are for every file."""
     kinds = {**KINDS, **{kind.name: kind for kind in TYPED}}
     return [name for name, kind in kinds.items() if option.name in kind.options]
-
-
-def check_options(given: Iterable[str], to: str) -> None:
-    """Refuse options that a function does not take.
-
-    Raises
-    ------
-    InvalidType
-        If one is unknown, or is another function's.
-    """
-    own = options_for(to)
-    for name in given:
-        if name not in own:
-            misplaced = to == "analyse" and name in options_for("read")
-            right = "read takes it" if misplaced else nearest(name, own)
-            raise InvalidType(f"{shown(name)} is no option of {to}; {right}")

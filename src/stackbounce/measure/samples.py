@@ -12,12 +12,13 @@ from stackbounce.measure.quantities import Array
 
 __all__ = ["columns", "quantisation_error", "resolution", "runs", "trapezoid"]
 
-_LEVELS = 2**18  # numbers that tell their step
+# Set by hand on records of oscilloscopes and rulers (`tests/measure/test_samples.py`).
+_MOST_NUMBERS = 2**18  # of which the step is looked for
 _REPEATED = 0.8  # share of different numbers among rounded ones, unless these change quickly
 _CHANGES = 5  # different changes between neighbours, which evenly moved numbers have not
 _STRAY = 0.05  # share of the numbers that may lie between two steps
-_OFF = (0.1, 0.25)  # in steps: how uneven one step is, and how far off a distance may be
-_ON = 0.9  # share of the distances that are whole numbers of steps
+_STEP_UNEVEN, _DISTANCE_OFF = 0.1, 0.25  # in steps: of one step, and at most of a longer distance
+_ON_STEPS = 0.9  # share of the distances that are whole numbers of steps
 _STUCK = 0.4  # of a step: scatter, with rounding, below which numbers are stuck at it
 
 
@@ -52,7 +53,7 @@ def columns(data: Any, names: Sequence[str]) -> list[Array]:
     unmasked("data", data)
     try:
         given = [data[name] for name in names] if hasattr(data, "data_vars") else list(data)
-        arrays = [np.asarray(one, dtype=np.float64) for one in given]
+        arrays = [np.asarray(array, dtype=np.float64) for array in given]
     except (KeyError, TypeError, ValueError):
         got = ", ".join(map(str, getattr(data, "data_vars", ()))) or shown(data)
         raise InvalidType(
@@ -61,8 +62,8 @@ def columns(data: Any, names: Sequence[str]) -> list[Array]:
         ) from None
     if len(arrays) != len(names):
         raise InvalidValue(f"data must be ({', '.join(names)}), got {len(arrays)} arrays")
-    if any(one.shape != arrays[0].shape or one.ndim != 1 for one in arrays):
-        shapes = " and ".join(str(one.shape) for one in arrays)
+    if any(array.shape != arrays[0].shape or array.ndim != 1 for array in arrays):
+        shapes = " and ".join(str(array.shape) for array in arrays)
         raise InvalidValue(
             f"data must hold {' and '.join(names)} of one length, got shapes {shapes}"
         )
@@ -93,7 +94,7 @@ def resolution(values: NDArray[np.floating]) -> float:
     >>> resolution(wave), resolution(np.round(8.0 * wave) / 8.0)
     (0.0, 0.125)
     """
-    some = values[:: max(1, len(values) // _LEVELS)]
+    some = values[:: max(1, len(values) // _MOST_NUMBERS)]
     distinct = np.unique(some).astype(np.float64)
     gaps = np.diff(distinct)
     gaps = np.sort(gaps[gaps > 1e-9 * np.ptp(distinct)]) if len(gaps) else gaps
@@ -102,7 +103,11 @@ def resolution(values: NDArray[np.floating]) -> float:
         changes = np.unique(np.round(np.diff(some) / step))
         seen = len(distinct) <= _REPEATED * len(some) or len(changes) > _CHANGES
         off = np.abs(multiples - np.round(multiples))
-        if seen and np.mean(off < np.minimum(_OFF[0] * np.sqrt(multiples), _OFF[1])) > _ON:
+        if (
+            seen
+            and np.mean(off < np.minimum(_STEP_UNEVEN * np.sqrt(multiples), _DISTANCE_OFF))
+            > _ON_STEPS
+        ):
             return float(step)
     return 0.0
 

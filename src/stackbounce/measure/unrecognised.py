@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ class _Look(NamedTuple):
         return self.look.startswith("rises")
 
 
-def unrecognised(data: "xr.Dataset", kinds: Iterable[str]) -> Said:
+def unrecognised(data: "xr.Dataset", kinds: Iterable[str]) -> Message:
     """Return why a table cannot be analysed: its columns, their first numbers, and what to type.
 
     Parameters
@@ -53,15 +53,15 @@ def unrecognised(data: "xr.Dataset", kinds: Iterable[str]) -> Said:
     >>> print(unrecognised(data, ["track", "sound"]))
     its columns do not tell ... kind of measurement: 'CH1' (3, 1). If these are heights: ...
     """
-    looks = [_look(one) for one in data.data_vars.values()]
+    looks = [_look(column) for column in data.data_vars.values()]
     shown = ", ".join(map(_described, looks[:_LISTED]))
     more = f" and {len(looks) - _LISTED} more" if len(looks) > _LISTED else ""
     beginning = f"its columns do not tell a kind of measurement: {shown}{more}. "
     file = str(data.attrs.get("source", "")) or "FILE"
     words, holds, names = _guess(looks)
-    hint = Hint({"holds": holds, "names": names}, file)
+    hint = OptionHint({"holds": holds, "names": names}, file)
     others = ", ".join(name for name in kinds if name not in (holds, "bounces", "table"))
-    return Said(beginning, words, hint, f"; other kinds: {others}")
+    return Message(beginning, words, hint, f"; other kinds: {others}")
 
 
 def _look(one: "xr.DataArray") -> _Look:
@@ -88,10 +88,10 @@ def _described(one: _Look) -> str:
 
 def _guess(looks: list[_Look]) -> tuple[str, str, dict[str | int, str]]:
     """Return what a table may be, in words and as the options that say so."""
-    clocks = [one for one in looks if one.is_time]
-    clock = next((one for one in clocks if one.look == _EVENLY), clocks[0] if clocks else None)
-    moving = [one for one in looks if one is not clock and one.look != "constant"]
-    others = [one for one in moving if one.look != _EVENLY] or moving
+    clocks = [look for look in looks if look.is_time]
+    clock = next((look for look in clocks if look.look == _EVENLY), clocks[0] if clocks else None)
+    moving = [look for look in looks if look is not clock and look.look != "constant"]
+    others = [look for look in moving if look.look != _EVENLY] or moving
     if clock is None:
         if len(looks) < 2:
             return "If these are heights: ", "table", _named(looks, ["y"])
@@ -112,7 +112,7 @@ def _guess(looks: list[_Look]) -> tuple[str, str, dict[str | int, str]]:
 
 def _named(looks: list[_Look], roles: list[str]) -> dict[str | int, str]:
     """Return roles by columns: by headers where these are plain and differ, else by numbers."""
-    names = [one.name for one in looks]
+    names = [look.name for look in looks]
     return {
         one.name if _PLAIN.fullmatch(one.name) and names.count(one.name) == 1 else one.number: role
         for one, role in zip(looks, roles, strict=False)

@@ -8,22 +8,11 @@ import numpy as np
 import openpyxl
 import pytest
 
-import stackbounce as sb
 from measure import make_files as made
 from stackbounce.errors import FileError, InvalidValue, MissingExtra
 from stackbounce.measure.reading import sheets
 
 TIMES = 0.01 * np.arange(8)
-
-
-@pytest.fixture
-def read(tmp_path):
-    def reader(content, name="file", **options):
-        path = tmp_path / name
-        path.write_bytes(content.encode() if isinstance(content, str) else content)
-        return sb.read(path, **options)
-
-    return reader
 
 
 # --- spreadsheets

@@ -1,9 +1,5 @@
 """A layout is one place: a function that is registered makes its files readable."""
 
-import pytest
-
-import stackbounce as sb
-from stackbounce.errors import InvalidValue
 from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.layouts import LAYOUTS, Layout, first_row, layout
 from stackbounce.measure.reading.roles import column
@@ -22,21 +18,14 @@ def toy_logger(text: Text) -> Layout | None:
     return Layout("Toy Logger", "it begins with TOYLOGGER", columns, first_row(text, 2))
 
 
-@pytest.fixture
-def path(tmp_path):
-    path = tmp_path / "toy.txt"
-    path.write_text(FILE)
-    return path
+def test_without_its_layout_the_file_has_columns_of_no_meaning(read):
+    assert read(FILE).attrs["format"] == "table of numbers"
 
 
-def test_without_its_layout_the_file_has_columns_of_no_meaning(path):
-    assert sb.read(path).attrs["format"] == "table of numbers"
-
-
-def test_a_registered_layout_is_all_that_a_format_takes(path):
+def test_a_registered_layout_is_all_that_a_format_takes(read):
     layout(toy_logger)
     try:
-        data = sb.read(path)
+        data = read(FILE)
     finally:
         LAYOUTS.remove(toy_logger)
     assert (data.attrs["format"], data.attrs["holds"]) == ("Toy Logger", "waveform")
@@ -45,12 +34,7 @@ def test_a_registered_layout_is_all_that_a_format_takes(path):
     assert data.force.values.tolist() == [0.0, 500.0, 250.0]
 
 
-def test_only_a_layout_that_says_so_holds_bounces(path):
-    with pytest.raises(InvalidValue, match="only phyphox's"):
-        sb.read(path, holds="bounces")
-
-
-def test_each_layout_is_registered_once(path):
-    sb.read(path)
-    names = [one.__name__ for one in LAYOUTS]
-    assert len(names) == len(set(names)) == 18
+def test_each_layout_is_registered_once(read):
+    read(FILE)
+    names = [recognise.__name__ for recognise in LAYOUTS]
+    assert len(names) == len(set(names))

@@ -3,23 +3,11 @@
 import numpy as np
 import pytest
 
-import stackbounce as sb
 from stackbounce.errors import FileError
-from stackbounce.measure import analyse
 
 STEP = 1e-4  # s
 TIMES = STEP * np.arange(60)
 VOLTS = np.round(np.where((TIMES > 1e-3) & (TIMES < 4e-3), 1.5, 0.01 * np.sin(9e4 * TIMES)), 4)
-
-
-@pytest.fixture
-def read(tmp_path):
-    def reader(content, name="file.csv", **options):
-        path = tmp_path / name
-        path.write_text(content, encoding="utf-8")
-        return sb.read(path, **options)
-
-    return reader
 
 
 def lines(*columns, form="{:.6e}", between=",", end="\n"):
@@ -219,9 +207,3 @@ def test_bare_columns_of_a_video_are_a_track(read):
 def test_a_capital_s_is_a_second(read):
     data = read("Time(S),Force(N)\n0,1\n1,2\n2,3\n")
     assert (data.attrs["holds"], data.attrs["doubt"]) == ("waveform", "")
-
-
-def test_a_force_of_a_made_up_scope_is_analysed(read):
-    head = "LECROYX,0,Waveform\nTime,Ampl\n"
-    (found,) = analyse(read(head + lines(TIMES, VOLTS)))
-    assert len(found.contacts) == 1

@@ -8,16 +8,6 @@ from measure import make_files as made
 from stackbounce.errors import FileError, InvalidType, InvalidValue
 
 
-@pytest.fixture
-def read(tmp_path):
-    def reader(content, **options):
-        path = tmp_path / "some file"
-        path.write_bytes(content.encode() if isinstance(content, str) else content)
-        return sb.read(path, **options)
-
-    return reader
-
-
 def same(got, wanted, tolerance=1e-12):
     np.testing.assert_allclose(got, wanted, rtol=tolerance, atol=1e-15)
 

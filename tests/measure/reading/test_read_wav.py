@@ -5,19 +5,8 @@ import struct
 import numpy as np
 import pytest
 
-import stackbounce as sb
 from measure import make_files as made
 from stackbounce.errors import FileError, InvalidValue
-
-
-@pytest.fixture
-def read(tmp_path):
-    def reader(content, **options):
-        path = tmp_path / "sound"
-        path.write_bytes(content)
-        return sb.read(path, **options)
-
-    return reader
 
 
 @pytest.mark.parametrize("channels", [1, 2, 5])

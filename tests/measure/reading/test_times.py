@@ -5,17 +5,16 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.reading.even import even_times, spread
-from stackbounce.measure.reading.rounding import rounding_of
+from stackbounce.measure.reading.rounding import even_times, rounding_of, spread
 
 
 @pytest.fixture
-def read(tmp_path):
+def read(read):
+    """Read columns below a header."""
+
     def reader(head, *columns, **options):
-        path = tmp_path / "some.csv"
-        rows = zip(*(map(str, one) for one in columns), strict=True)
-        path.write_text("\n".join([head, *map(",".join, rows)]))
-        return sb.read(path, **options)
+        rows = zip(*(map(str, column) for column in columns), strict=True)
+        return read("\n".join([head, *map(",".join, rows)]), **options)
 
     return reader
 
@@ -176,12 +175,6 @@ def test_a_unit_that_is_told_is_not_doubted(read):
         data = read(head, range(0, 6000, 100), noise(60), **options)
         assert float(data.time[-1]) == 5900.0
         assert data.attrs["doubt"] == ""
-
-
-def test_a_capital_s_is_seconds(read):
-    data = read("TIME [S],F (N)", np.arange(20) / 100, noise(20))
-    assert data.time.attrs["units"] == "s"
-    assert data.attrs["doubt"] == ""
 
 
 # --- values

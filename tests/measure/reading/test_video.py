@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-import stackbounce as sb
 from stackbounce.cli import main
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import analyse
@@ -24,16 +23,6 @@ RISES = FRAMES < IMPACT + KEPT * 2 * SPEED / FALL  # before the second bounce
 FRAMES, DOWN = FRAMES[RISES], DOWN[RISES]
 NOISE = np.random.default_rng(3).normal(0.0, 0.05, (2, len(FRAMES)))
 X, Y = 200.0 + 0.2 * FRAMES + NOISE[0], DOWN + NOISE[1]
-
-
-@pytest.fixture
-def read(tmp_path):
-    def reader(content, **options):
-        path = tmp_path / "results"
-        path.write_text(content, encoding="utf-8")
-        return sb.read(path, **options)
-
-    return reader
 
 
 def imagej(slices=True, delimiter=",", extra=""):
@@ -94,7 +83,7 @@ def test_positions_by_frame_are_a_track_in_pixels(read, content):
     assert found.axis == "-y"
     assert "restitutions do not depend on frame rate and scale" in " ".join(found.notes)
     assert "impact_speed" not in found.parts()
-    assert "impact_speed" not in found.told()
+    assert "impact_speed" not in found.law_arguments()
     assert found.first_touch() is None
 
 

@@ -12,9 +12,9 @@ from stackbounce.explorer.answers.play import run_drop
 from stackbounce.fitting import Fit, fit
 from stackbounce.json_values import as_json
 from stackbounce.measure.finding import Branch, Curve
-from stackbounce.measure.hints import Hint
 from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.measurement import Measurement, measure_file
+from stackbounce.measure.messages import OptionHint
 from stackbounce.measure.option_values import read_options
 from stackbounce.measure.options import OPTIONS, Option, options_for
 from stackbounce.model import Drop
@@ -159,7 +159,7 @@ def _measure(
 ) -> Measurement:
     given = dict(options) if alone is None else {**options, "alone": alone}
     known = read_options(given, _control, to=("read", "analyse"))
-    return measure_file((name, content), known, _words)
+    return measure_file((name, content), known, _wording)
 
 
 def _control(option: Option) -> str:
@@ -167,7 +167,7 @@ def _control(option: Option) -> str:
     return f"“{option.label}”"
 
 
-def _words(hint: Hint) -> str:
+def _wording(hint: OptionHint) -> str:
     """Return a hint as it is entered in the page's form."""
     known = {one.name: _control(one) for one in OPTIONS}
     entered = []
@@ -210,9 +210,8 @@ def _find_channel(drop: Drop, what: str, which: str, record: Measurement) -> "xr
         for name, force in one.forces(record.data, lasting).items()
     }
     if not own:
-        raise InvalidValue(
-            f"{what}: {record.source} holds no force over time, but {a_or_an(record.told['holds'])}"
-        )
+        holds = a_or_an(record.evidence["holds"])
+        raise InvalidValue(f"{what}: {record.source} holds no force over time, but {holds}")
     if which not in own:
         raise InvalidValue(f"{what} must be a channel, got {shown(which)}; {nearest(which, own)}")
     return own[which]

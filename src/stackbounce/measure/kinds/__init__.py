@@ -1,14 +1,14 @@
 """The kinds of measurement: a folder for each, with its analysis, its result and its `Kind`."""
 
 from stackbounce.measure.kind import Kind
-from stackbounce.measure.kinds.acceleration.kind import ACCELERATION
-from stackbounce.measure.kinds.bounces.kind import BOUNCES, KNOCKS
-from stackbounce.measure.kinds.contact.kind import CONTACT
-from stackbounce.measure.kinds.heights.kind import TABLE
-from stackbounce.measure.kinds.press.kind import PRESS
-from stackbounce.measure.kinds.sound.kind import SOUND
-from stackbounce.measure.kinds.track.kind import TRACK
-from stackbounce.measure.kinds.waveform.kind import WAVEFORM
+from stackbounce.measure.kinds.acceleration import ACCELERATION
+from stackbounce.measure.kinds.bounces import BOUNCES, KNOCKS
+from stackbounce.measure.kinds.contact import CONTACT
+from stackbounce.measure.kinds.heights import TABLE
+from stackbounce.measure.kinds.press import PRESS
+from stackbounce.measure.kinds.sound import SOUND
+from stackbounce.measure.kinds.track import TRACK
+from stackbounce.measure.kinds.waveform import WAVEFORM
 
 __all__ = ["KINDS", "TYPED", "Kind", "kind_named"]
 

@@ -15,11 +15,9 @@ video      frames as times, pixels as lengths, one row for each frame
 dataset    columns -> the Dataset of what they hold
 clock      what a column of times counts: since when, in which unit
 series     the rows in time: runs, gaps, repeats
-even       rounded times -> the even ones that they were
-rounding   to what steps numbers were rounded, told from their digits
+rounding   to what steps times were rounded, and the even times that they were
 bounces    the table of phyphox's (in)elastic collision
-containers files with several tables, or in a packing of their own
-tables     these tables, as bytes
+tables     the tables of a file with several, or in a packing of its own, as bytes
 zipped     a zip archive
 sheets     spreadsheets of Excel
 projects   own files of Tracker and Logger Pro

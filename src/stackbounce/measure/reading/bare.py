@@ -4,18 +4,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.roles import Column, column
 
 __all__ = ["NOT_NAMED", "Guess", "guess"]
 
-_LEAST, _MANY = 5, 20  # rows that tell times, and that tell frames or samples of a scope
+_LEAST_ROWS = 5  # that tell times
+_MANY_ROWS = 20  # that tell frames, or samples of a scope
 _UNEVEN = 0.1  # of a step, by which rounding may move times
-_SCOPE, _VIDEO = 1e-3, 0.2  # s, the longest step of samples and that of frames
-_TELL = Said("name them, as in ", Hint({"names": {1: "time", 2: "force"}}))
-NOT_NAMED = Said("no header names the columns: ", _TELL)
+_LONGEST_SAMPLE = 1e-3  # s, the step of an oscilloscope or sensor
+_LONGEST_FRAME = 0.2  # s, the step of a video
+_TELL = Message("name them, as in ", OptionHint({"names": {1: "time", 2: "force"}}))
+NOT_NAMED = Message("no header names the columns: ", _TELL)
 
 
 @dataclass(frozen=True)
@@ -49,16 +51,16 @@ def guess(rows: Array) -> Guess:
     """
     width = rows.shape[1]
     known = rows[np.isfinite(rows).all(axis=1)]
-    step = _step(known[:, 0]) if len(known) >= _LEAST and width > 1 else 0.0
-    many = len(known) >= _MANY
+    step = _step(known[:, 0]) if len(known) >= _LEAST_ROWS and width > 1 else 0.0
+    many = len(known) >= _MANY_ROWS
     if many and step == 1.0 and width == 3 and (known[:, 0] == np.round(known[:, 0])).all():
         return _named(("frame", "x", "y"), "the first counts frames, so that x and y follow")
     said = f"the first rises in steps of {step:.4g}, so that it is taken as time in s"
-    if many and 0.0 < step <= _SCOPE and width == 2:
+    if many and 0.0 < step <= _LONGEST_SAMPLE and width == 2:
         return _named(("time", "voltage"), f"{said}, the other as the voltage of a scope")
-    if _SCOPE < step <= _VIDEO and width == 3:
+    if _LONGEST_SAMPLE < step <= _LONGEST_FRAME and width == 3:
         return _named(("time", "x", "y"), f"{said}, the others as x and y")
-    if 0.0 < step <= _SCOPE:
+    if 0.0 < step <= _LONGEST_SAMPLE:
         return _named(("time", *[""] * (width - 1)), said)
     return Guess(tuple(column(k, heading("")) for k in range(width)), NOT_NAMED)
 
@@ -68,7 +70,9 @@ def _named(roles: tuple[str, ...], said: str) -> Guess:
     columns = tuple(
         column(k, heading("", units.get(role, "")), role) for k, role in enumerate(roles)
     )
-    return Guess(columns, Said(f"no header names the columns: {said}; if that is wrong, ", _TELL))
+    return Guess(
+        columns, Message(f"no header names the columns: {said}; if that is wrong, ", _TELL)
+    )
 
 
 def _step(numbers: Array) -> float:

@@ -7,8 +7,8 @@ from datetime import UTC, datetime
 import numpy as np
 
 from stackbounce.errors import a_or_an
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kind import Kind
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.roles import Column
 
@@ -32,11 +32,11 @@ def without_counts(columns: Sequence[Column], values: Array) -> list[Column]:
         Their numbers.
     """
     found = list(columns)
-    for k, one in enumerate(found):
-        if one.role == "knock_time" and not (one.unit or one.heading.unit or one.named):
+    for k, column in enumerate(found):
+        if column.role == "knock_time" and not (column.unit or column.heading.unit or column.named):
             steps = np.diff(values[:, k][np.isfinite(values[:, k])])
             if steps.size and (steps == 1.0).all():
-                found[k] = replace(one, role="")
+                found[k] = replace(column, role="")
     return found
 
 
@@ -60,7 +60,7 @@ def on_the_clock(
     found = list(columns)
     needed = {role for roles in kind.columns for role in roles}
     clocks = needed & {"time", "knock_time"}
-    places = [k for k, one in enumerate(found) if one.role in clocks]
+    places = [k for k, column in enumerate(found) if column.role in clocks]
     if not places:
         return found, []
     since = {k: _epoch(found[k], values[:, k]) for k in places}
@@ -85,7 +85,7 @@ def _epoch(column: Column, times: Array) -> str:
     first, last, step = float(known[0]), float(known[-1]), _step(known)
     for unit, (factor, _) in _UNITS.items():
         told = not column.unit or abs(column.factor / factor - 1.0) < 1e-9
-        within = all(_EPOCH[0] < factor * one < _EPOCH[1] for one in (first, last))
+        within = all(_EPOCH[0] < factor * time < _EPOCH[1] for time in (first, last))
         if told and within and factor * step <= _LONGEST:
             return unit
     return ""
@@ -112,10 +112,10 @@ def _by_steps(kind: Kind, column: Column, times: Array) -> tuple[Column, list[st
     if unit == "s" or factor * step < _SHORTEST:
         return column, []
     name = column.heading.name or str(column.index + 1)
-    doubt = Said(
+    doubt = Message(
         f"no unit is told for {name}: taken as {unit}, as steps of {step:.4g} s are too long for "
         f"{a_or_an(kind.name)}; ",
-        Hint({"units": {name if column.heading.name else column.index + 1: "s"}}),
+        OptionHint({"units": {name if column.heading.name else column.index + 1: "s"}}),
         " tells another",
     )
     return _in_unit(column, factor), [doubt]

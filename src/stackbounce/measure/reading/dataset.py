@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import FileError, InvalidValue, a_or_an
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kind import Kind
 from stackbounce.measure.kinds import KINDS
+from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.bounces import INFERRED, bounces
 from stackbounce.measure.reading.clock import on_the_clock
@@ -27,7 +27,8 @@ __all__ = ["assemble", "holds_of"]
 Values = Array
 _ASSUMED = {"time": "s", "knock_time": "s", "force": "N", "compression": "m", "x": "m", "y": "m"}
 _OTHER_UNITS = {"s": "ms", "N": "kN", "m": "cm"}  # examples in doubts
-_LEAST, _MOST = 1e-60, 1e60  # of a number in any unit; squares and ratios of such are finite
+_SMALLEST = 1e-60  # number in any unit; squares and ratios of such are finite
+_LARGEST = 1e60  # number in any unit
 _UNITS = _ASSUMED | {"voltage": "V", "sound": "1"} | dict.fromkeys(ACCELERATIONS, "m/s^2")
 
 
@@ -39,7 +40,9 @@ def holds_of(columns: Sequence[Column]) -> str:
 def _fits(kind: Kind, columns: Sequence[Column]) -> bool:
     if kind.recognised is not None:
         return kind.recognised(columns)
-    needed = [any(_is(one, what) for one in columns for what in each) for each in kind.columns]
+    needed = [
+        any(_is(column, what) for column in columns for what in each) for each in kind.columns
+    ]
     return bool(needed) and all(needed)
 
 
@@ -78,13 +81,13 @@ def assemble(
     columns, values = _named_first(columns, values)
     over_time = {"time": _series, "track": _track}.get(kind.dimension)
     build = over_time or partial(_rows, kind)
-    columns, told = on_the_clock(kind, _fitting(holds, columns), values)
-    doubts = [one.doubt for one in columns if one.doubt] + told
+    columns, unsure = on_the_clock(kind, _fitting(holds, columns), values)
+    doubts = [column.doubt for column in columns if column.doubt] + unsure
     columns = _assumed(columns, doubts)
     clock = _at(columns, "time") if over_time else -1  # left as written: its digits tell
-    for k, one in enumerate(columns):
-        if one.factor != 1.0 and k != clock:
-            values[:, k] *= one.factor
+    for k, column in enumerate(columns):
+        if column.factor != 1.0 and k != clock:
+            values[:, k] *= column.factor
     data, more = build(columns, values, run)
     return data, doubts + more
 
@@ -92,7 +95,7 @@ def assemble(
 def _is_number(values: Values) -> NDArray[np.bool_]:
     """Tell which numbers can be measured: programs write others where a number is missing."""
     sizes = np.abs(values)
-    known: NDArray[np.bool_] = (sizes == 0.0) | ((sizes >= _LEAST) & (sizes <= _MOST))
+    known: NDArray[np.bool_] = (sizes == 0.0) | ((sizes >= _SMALLEST) & (sizes <= _LARGEST))
     return known
 
 
@@ -113,22 +116,24 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
     taken: set[int] = set()
     missing = []
     for roles in KINDS[holds].columns:
-        fit = [k for k, one in enumerate(found) if any(_is(one, role) for role in roles)]
+        fit = [k for k, column in enumerate(found) if any(_is(column, role) for role in roles)]
         taken.update(fit[:1])
         missing += [] if fit else [roles]
     for roles in missing:
         wanted = _UNITS.get(roles[0], "")
         fits = ("", wanted, "V") if roles[0] == "sound" else ("", wanted)
-        free = [k for k, one in enumerate(found) if k not in taken and one.unit in fits]
+        free = [k for k, column in enumerate(found) if k not in taken and column.unit in fits]
         free.sort(key=lambda k: found[k].unit != wanted)
         if not free:
-            needs = " and ".join(" or ".join(one) for one in KINDS[holds].columns)
-            names = ", ".join(one.heading.text or f"column {one.index + 1}" for one in found[:20])
+            needs = " and ".join(" or ".join(roles) for roles in KINDS[holds].columns)
+            names = ", ".join(
+                column.heading.text or f"column {column.index + 1}" for column in found[:20]
+            )
             raise InvalidValue(
-                Said(
-                    Hint({"holds": None}),
+                Message(
+                    OptionHint({"holds": None}),
                     f": {a_or_an(holds)} needs columns of {needs}; it has {names}: ",
-                    Hint({"names": {found[-1].index + 1: roles[0]}}),
+                    OptionHint({"names": {found[-1].index + 1: roles[0]}}),
                     " tells which, for instance",
                 )
             )
@@ -139,38 +144,42 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
 
 def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
     """Return columns; those in a role of `_ASSUMED` without a unit are assumed to be in SI."""
-    without = [one for one in columns if one.role in _ASSUMED and not one.unit]
-    told = [one for one in without if not one.heading.unit]
-    if told:
-        names = dict.fromkeys(one.heading.name or one.variable for one in told)
-        units = dict.fromkeys(_ASSUMED[one.role] for one in told)
+    without = [column for column in columns if column.role in _ASSUMED and not column.unit]
+    bare = [column for column in without if not column.heading.unit]
+    if bare:
+        names = dict.fromkeys(column.heading.name or column.variable for column in bare)
+        units = dict.fromkeys(_ASSUMED[column.role] for column in bare)
         others = {
-            one.heading.name or one.index + 1: _OTHER_UNITS[_ASSUMED[one.role]] for one in told
+            column.heading.name or column.index + 1: _OTHER_UNITS[_ASSUMED[column.role]]
+            for column in bare
         }
         doubts.append(
-            Said(
+            Message(
                 f"no unit is told for {', '.join(names)}: taken as {', '.join(units)}; ",
-                Hint({"units": others}),
+                OptionHint({"units": others}),
                 " tells another",
             )
         )
-    return [replace(one, unit=_ASSUMED[one.role]) if one in told else one for one in columns]
+    return [
+        replace(column, unit=_ASSUMED[column.role]) if column in bare else column
+        for column in columns
+    ]
 
 
-def _said(one: Column) -> dict[str, str | int]:
-    """Return what is said of a column in the Dataset; `column` is its number in the file."""
-    name = one.heading.text or f"column {one.index + 1}"
-    return {"units": one.unit, "long_name": name, "column": one.index + 1}
+def _attributes(column: Column) -> dict[str, str | int]:
+    """Return the attributes of a column in the Dataset; `column` is its number in the file."""
+    name = column.heading.text or f"column {column.index + 1}"
+    return {"units": column.unit, "long_name": name, "column": column.index + 1}
 
 
 def _named(columns: Sequence[Column], without: Sequence[str] = ()) -> list[str]:
     """Return names for columns, each only once."""
     names: list[str] = list(without)
-    for one in columns:
-        name, k = one.variable, 1
+    for column in columns:
+        name, k = column.variable, 1
         while name in names:
             k += 1
-            name = f"{one.variable}_{k}"
+            name = f"{column.variable}_{k}"
         names.append(name)
     return names[len(without) :]
 
@@ -181,7 +190,7 @@ def _data(
     kept = [k for k in range(len(columns)) if k != skip]
     names = _named([columns[k] for k in kept], [dimension])
     return {
-        name: (dimension, np.ascontiguousarray(values[:, k]), _said(columns[k]))
+        name: (dimension, np.ascontiguousarray(values[:, k]), _attributes(columns[k]))
         for name, k in zip(names, kept, strict=True)
     }
 
@@ -199,7 +208,7 @@ def _series(columns: Sequence[Column], values: Values, run: object) -> _Built:
     data = _data(columns, values, "time", skip=at)
     if "sound" in data:
         data["sound"][2]["rate"] = 1.0 / step if (step := step_of(times)) > 0.0 else np.nan
-    return xr.Dataset(data, coords={"time": ("time", times, _said(columns[at]))}), doubts
+    return xr.Dataset(data, coords={"time": ("time", times, _attributes(columns[at]))}), doubts
 
 
 def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
@@ -221,12 +230,14 @@ def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
         own = [j for j in others if columns[j].track == track]
         names = _named([columns[j] for j in own], ["time", "track"])
         for name, j in zip(names, own, strict=True):
-            place = data.setdefault(name, (("time", "track"), blank.copy(), _said(columns[j])))
+            place = data.setdefault(
+                name, (("time", "track"), blank.copy(), _attributes(columns[j]))
+            )
             place[1][:, k] = values[:, j]
-            place[2].update(_said(columns[j]))
+            place[2].update(_attributes(columns[j]))
     coords = {
-        "time": ("time", times, _said(columns[at])),
-        "track": [one or f"track {k}" for k, one in enumerate(tracks, 1)],
+        "time": ("time", times, _attributes(columns[at])),
+        "track": [track or f"track {k}" for k, track in enumerate(tracks, 1)],
     }
     if not any(columns[k].role == "x" for k in others):
         doubts.append("only one position: taken as the height y, upwards")
@@ -238,8 +249,7 @@ def _rows(kind: Kind, columns: Sequence[Column], values: Values, run: object) ->
     import xarray as xr
 
     if run is not None:
-        name = Hint({"run": None})
-        raise InvalidValue(Said(name, ": there is none to choose, as this holds no times"))
+        raise InvalidValue(about_option("run", ": there is none to choose, as this holds no times"))
     roles = [each[0] for each in kind.columns]
     whole = np.isfinite(values[:, [_at(columns, role) for role in roles]]).all(axis=1)
     if not whole.any():
@@ -248,4 +258,4 @@ def _rows(kind: Kind, columns: Sequence[Column], values: Values, run: object) ->
 
 
 def _at(columns: Sequence[Column], role: str) -> int:
-    return next(k for k, one in enumerate(columns) if _is(one, role))
+    return next(k for k, column in enumerate(columns) if _is(column, role))

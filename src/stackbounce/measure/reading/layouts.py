@@ -5,6 +5,7 @@ with `layout`, that returns a `Layout`, or None if another program wrote the tab
 """
 
 import re
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -16,9 +17,9 @@ from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.bare import Guess, guess
 from stackbounce.measure.reading.headings import heading, is_unit
 from stackbounce.measure.reading.roles import Column, column
-from stackbounce.measure.reading.text import Text, number
+from stackbounce.measure.reading.text import Text, count_numbers, number
 
-__all__ = ["LAYOUTS", "Layout", "columns_of", "first_row", "first_with", "general", "layout"]
+__all__ = ["LAYOUTS", "Layout", "columns_of", "first_row", "general", "layout"]
 
 
 @dataclass(frozen=True)
@@ -70,23 +71,10 @@ def layout(recognise: _Recognise) -> _Recognise:
     return recognise
 
 
-def first_row(text: Text, start: int = 0) -> int:
+def first_row(text: Text, start: int = 0, columns: Sequence[int] | None = None) -> int:
     """Return the index of the first row of numbers, among the first lines from `start` on.
 
-    Raises
-    ------
-    FileError
-        If there is none.
-    """
-    for index in range(start, len(text.head)):
-        values = [number(cell, text.decimal) for cell in text.head[index]]
-        if None not in values and any(value == value for value in values):
-            return index
-    raise FileError("it has a header and no row of numbers below it")
-
-
-def first_with(text: Text, columns: Sequence[int], start: int = 0) -> int:
-    """Return the index of the first row with numbers in some columns, whatever the others hold.
+    It has numbers only, and one at least; or one in each of some columns, whatever else it has.
 
     Raises
     ------
@@ -95,9 +83,11 @@ def first_with(text: Text, columns: Sequence[int], start: int = 0) -> int:
     """
     for index in range(start, len(text.head)):
         row = text.head[index]
-        cells = [row[k] if k < len(row) else "" for k in columns]
-        values = [number(cell, text.decimal) for cell in cells]
-        if all(value is not None and value == value for value in values):
+        if columns is None:
+            found = count_numbers(row, text.decimal) > 0
+        else:
+            found = all(k < len(row) and count_numbers([row[k]], text.decimal) for k in columns)
+        if found:
             return index
     raise FileError("it has a header and no row of numbers below it")
 
@@ -177,26 +167,16 @@ def _beside(text: Text, width: int, index: int) -> list[str]:
 def _numbers(text: Text, first: int, width: int) -> Array:
     """Return the numbers of the first rows, NaN where there is none."""
     rows = [[number(cell, text.decimal) for cell in row[:width]] for row in text.head[first:]]
-    return np.array(
-        [[np.nan if one is None else one for one in row] for row in rows if len(row) == width]
-    ).reshape(-1, width)
+    return np.array([row for row in rows if len(row) == width], np.float64).reshape(-1, width)
 
 
 def _body(text: Text) -> int:
     """Return the index of the first row of numbers that has the most frequent width."""
-    rows: list[int] = []
-    start = 0
-    while start < len(text.head):
-        try:
-            start = first_row(text, start) + 1
-        except FileError:
-            break
-        rows.append(start - 1)
-    if not rows:
-        raise FileError("it has a header and no row of numbers below it")
-    widths = [len(text.head[k]) for k in rows]
-    usual = max(set(widths), key=lambda width: (widths.count(width), width))
-    return next(k for k, width in zip(rows, widths, strict=True) if width == usual)
+    first_row(text)
+    rows = [row for row in text.head if count_numbers(row, text.decimal)]
+    widths = Counter(map(len, rows))
+    usual = max(widths, key=lambda width: (widths[width], width))
+    return next(k for k, row in enumerate(text.head) if len(row) == usual and row in rows)
 
 
 def _width(text: Text, first: int) -> int:

@@ -175,5 +175,5 @@ def _cell_by_cell(lines: list[str], text: Text, used: Sequence[int], table: Tabl
                 cells[k] for k, one in zip(used, row, strict=True) if one is None
             )
             table.strange += [one is None for one in row]
-        rows.append([nan if one is None else one for one in row])
-    return np.array(rows, dtype=np.float64).reshape(len(rows), len(used))
+        rows.append(row)
+    return np.array(rows, np.float64).reshape(len(rows), len(used))  # None becomes NaN

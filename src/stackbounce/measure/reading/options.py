@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, positive, shown
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds import KINDS, kind_named
+from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.reading.headings import slug
 from stackbounce.measure.reading.roles import ROLES, Column
 from stackbounce.units import in_si
@@ -14,6 +14,11 @@ from stackbounce.units import in_si
 __all__ = ["ReadOptions", "apply_options", "of_run"]
 
 _Key = str | int
+_KINDS: dict[str, tuple[Any, str]] = {
+    "table": (str, "a name"),
+    "run": (str | int, "a name or a number"),
+    "decimal": (str, '"." or ","'),
+}
 
 
 @dataclass(frozen=True)
@@ -31,36 +36,27 @@ class ReadOptions:
 
     def __post_init__(self) -> None:
         if self.holds is not None:
-            object.__setattr__(self, "holds", _kind(self.holds))
-        if not isinstance(self.table, str | None):
-            raise InvalidType(_wrong("table", f" must be a name, got {shown(self.table)}"))
-        if isinstance(self.run, bool) or not isinstance(self.run, str | int | None):
-            raise InvalidType(_wrong("run", f" must be a name or a number, got {shown(self.run)}"))
-        if not isinstance(self.decimal, str | None):
-            raise InvalidType(_wrong("decimal", f' must be "." or ",", got {shown(self.decimal)}'))
+            holds = kind_named(self.holds) if isinstance(self.holds, str) else None
+            if holds is None:
+                near = nearest(self.holds, KINDS)
+                wrong = f" must be what a file holds, got {shown(self.holds)}; {near}"
+                raise InvalidValue(about_option("holds", wrong))
+            object.__setattr__(self, "holds", holds)
+        for option, (kind, wanted) in _KINDS.items():
+            given = getattr(self, option)
+            if isinstance(given, bool) or not isinstance(given, kind | None):
+                raise InvalidType(about_option(option, f" must be {wanted}, got {shown(given)}"))
         for option, unit in (("frame_rate", "frames per second"), ("scale", "metres per pixel")):
             if getattr(self, option) is not None:
                 positive(option, getattr(self, option), unit)
         for key, name in _checked("names", self.names, (str, int)).items():
             if key not in ROLES and not str(name).isidentifier():
-                raise InvalidValue(_wrong("names", f": {shown(name)} is no name, such as 'force'"))
+                wrong = f": {shown(name)} is no name, such as 'force'"
+                raise InvalidValue(about_option("names", wrong))
         for unit in _checked("units", self.units, (str,)).values():
             if unit != "S" and in_si(unit) is None:
-                told = f": {shown(unit)} is no unit that is known, such as 'mm'"
-                raise InvalidValue(_wrong("units", told))
-
-
-def _wrong(option: str, text: str) -> Said:
-    """Return a message that begins with the name of an option."""
-    return Said(Hint({option: None}), text)
-
-
-def _kind(holds: object) -> str:
-    found = kind_named(holds) if isinstance(holds, str) else None
-    if found is None:
-        told = f" must be what a file holds, got {shown(holds)}; {nearest(holds, KINDS)}"
-        raise InvalidValue(_wrong("holds", told))
-    return found
+                wrong = f": {shown(unit)} is no unit that is known, such as 'mm'"
+                raise InvalidValue(about_option("units", wrong))
 
 
 def _checked(option: str, given: object, kinds: tuple[type, ...]) -> Mapping[_Key, Any]:
@@ -68,46 +64,46 @@ def _checked(option: str, given: object, kinds: tuple[type, ...]) -> Mapping[_Ke
     if given is None:
         return {}
     if not isinstance(given, Mapping):
-        raise InvalidType(_wrong(option, f" must be a mapping of columns, got {shown(given)}"))
+        wrong = f" must be a mapping of columns, got {shown(given)}"
+        raise InvalidType(about_option(option, wrong))
     for key, value in given.items():
         meant = isinstance(value, str) or (key in ROLES and isinstance(value, kinds))
         if not isinstance(key, str | int) or not meant:
-            told = f" must map columns to text, got {shown({key: value})}"
-            raise InvalidType(_wrong(option, told))
+            wrong = f" must map columns to text, got {shown({key: value})}"
+            raise InvalidType(about_option(option, wrong))
     return given
 
 
 def _by_column(names: Mapping[_Key, Any], columns: Sequence[Column]) -> dict[_Key, str]:
     """Return meanings by columns; those given the other way round, ``{"time": 1}``, are turned."""
+    turned = {}
+    for key, value in names.items():
+        known = isinstance(value, int) or any(_is(column, value) for column in columns)
+        if key in ROLES and value not in ROLES and known:
+            turned[value] = key
+        else:
+            turned[key] = value
+    return turned
 
-    def turned(key: _Key, value: _Key) -> bool:
-        if key not in ROLES or value in ROLES:
-            return False
-        return isinstance(value, int) or any(_is(one, value) for one in columns)
 
-    return dict(
-        (value, key) if turned(key, value) else (key, value) for key, value in names.items()
-    )
-
-
-def apply_options(columns: Sequence[Column], told: ReadOptions) -> list[Column]:
-    """Return columns with the names and units of the options."""
+def apply_options(columns: Sequence[Column], options: ReadOptions) -> list[Column]:
+    """Return columns with the names and units that options give them."""
     found = list(columns)
-    named = _by_column(told.names or {}, columns)
-    for option, mapping in (("units", told.units or {}), ("names", named)):
+    named = _by_column(options.names or {}, columns)
+    for option, mapping in (("units", options.units or {}), ("names", named)):
         for key, value in mapping.items():
-            places = [k for k, one in enumerate(found) if _is(one, key)]
+            places = [k for k, column in enumerate(found) if _is(column, key)]
             if not places:
-                known = [one.heading.text or str(one.index + 1) for one in found[:50]]
+                known = [column.heading.text or str(column.index + 1) for column in found[:50]]
                 message = f": there is no column {shown(key)}; {nearest(key, known)}"
-                raise InvalidValue(_wrong(option, message))
+                raise InvalidValue(about_option(option, message))
             for k in places:
                 name, unit = (value, None) if option == "names" else ("", value)
                 found[k] = found[k].called(name, unit)
-    if any(one.named == "time" for one in found):  # a named time replaces that of a header
+    if any(column.named == "time" for column in found):  # a named time replaces that of a header
         found = [
-            replace(one, role="") if one.role == "time" and one.named != "time" else one
-            for one in found
+            replace(column, role="") if column.role == "time" and column.named != "time" else column
+            for column in found
         ]
     return found
 
@@ -124,23 +120,23 @@ def of_run(
     columns: Sequence[Column], run: str | int | None, doubts: list[str]
 ) -> tuple[list[Column], bool]:
     """Return the columns of one run, and whether there are several of them side by side."""
-    runs = list(dict.fromkeys(one.heading.run for one in columns if one.heading.run))
+    runs = list(dict.fromkeys(column.heading.run for column in columns if column.heading.run))
     if len(runs) < 2:
         return list(columns), False
     if run is None:
         chosen = runs[0]
-        other = Hint({"run": runs[1]})
-        doubts.append(Said(f"{len(runs)} runs; {chosen!r} is read, ", other, " reads another"))
+        other = OptionHint({"run": runs[1]})
+        doubts.append(Message(f"{len(runs)} runs; {chosen!r} is read, ", other, " reads another"))
     else:
         word = str(run).casefold()
-        named = [one for k, one in enumerate(runs, 1) if word in (one.casefold(), str(k))]
+        named = [name for k, name in enumerate(runs, 1) if word in (name.casefold(), str(k))]
         if not named:
             known = nearest(run, runs)
             raise InvalidValue(
-                _wrong("run", f" must be one that is there, got {shown(run)}; {known}")
+                about_option("run", f" must be one that is there, got {shown(run)}; {known}")
             )
         chosen = named[0]
-    own = [one for one in columns if one.heading.run in (chosen, "")]
-    if not any(one.role == "time" for one in own):  # one time for all runs
-        own = [one for one in columns if one.role == "time"][:1] + own
+    own = [column for column in columns if column.heading.run in (chosen, "")]
+    if not any(column.role == "time" for column in own):  # one time for all runs
+        own = [column for column in columns if column.role == "time"][:1] + own
     return own, True

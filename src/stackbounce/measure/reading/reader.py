@@ -11,12 +11,11 @@ import numpy as np
 
 from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
 from stackbounce.files import content_of
-from stackbounce.measure.hints import Hint, Said, about, joined
+from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading import arrays, projects, wav
+from stackbounce.measure.reading import arrays, projects, sheets, wav, zipped
 from stackbounce.measure.reading.bare import NOT_NAMED
 from stackbounce.measure.reading.clock import without_counts
-from stackbounce.measure.reading.containers import tables_in
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
 from stackbounce.measure.reading.layouts import Layout
@@ -124,8 +123,8 @@ def read(
     >>> data.force.values
     array([   0., 1500.,  100.])
     """
-    told = ReadOptions(holds, table, run, names, units, decimal, frame_rate, scale)
-    return _named(*content_of(path, BYTES), told)
+    options = ReadOptions(holds, table, run, names, units, decimal, frame_rate, scale)
+    return _named(*content_of(path, BYTES), options)
 
 
 def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
@@ -157,56 +156,64 @@ def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
     >>> read_content("force.csv", content).attrs["holds"]
     'waveform'
     """
-    told = ReadOptions(**options)
+    checked = ReadOptions(**options)
     if not content:
         raise FileError(f"{name} is empty")
-    return _named(name, bytearray(content), told)
+    return _named(name, bytearray(content), checked)
 
 
-def _named(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
+def _named(name: str, content: bytearray, options: ReadOptions) -> "xr.Dataset":
     try:
-        data = _read(name, content, told)
+        data = _read(name, content, options)
     except StackbounceError as error:
-        raise about(name, error) from error
+        raise type(error)(Message.of(error).of_file(name)) from error
     except MemoryError as error:
         raise FileError(f"{name} is too large for the memory of this machine") from error
     data.attrs["source"] = Path(name).name
     return data
 
 
-def _read(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
+def _read(name: str, content: bytearray, options: ReadOptions) -> "xr.Dataset":
     if wav.is_wav(content):
         data, why, doubts = wav.read_wav(content)
-        if told.holds not in (None, "sound"):
-            holds = Hint({"holds": None})
-            raise InvalidValue(Said(holds, f": the file is a sound, got {shown(told.holds)}"))
+        if options.holds not in (None, "sound"):
+            wrong = f": the file is a sound, got {shown(options.holds)}"
+            raise InvalidValue(about_option("holds", wrong))
         return _signed(data, "WAV", why, "sound", doubts)
-    tables = tables_in(content)
+    tables = _tables_in(content)
     if tables is not None:
-        return _from_tables(tables, told)
-    if told.table is not None:
-        table = Hint({"table": None})
-        kind = "as it is no zip archive or spreadsheet"
-        raise InvalidValue(Said(table, f": there is one only, {kind}"))
-    return _from_table(name, content, told)
+        return _from_tables(tables, options)
+    if options.table is not None:
+        alone = ": there is one only, as it is no zip archive or spreadsheet"
+        raise InvalidValue(about_option("table", alone))
+    return _from_table(name, content, options)
 
 
-def _from_tables(tables: Tables, told: ReadOptions) -> "xr.Dataset":
+def _tables_in(content: bytearray) -> Tables | None:
+    """Return the tables in a packing of its own, each as a program writes it; None if it is one."""
+    if content.startswith((b"PK\x03\x04", b"PK\x05\x06")):
+        return sheets.from_xlsx(content) if zipped.is_xlsx(content) else zipped.members(content)
+    if content.startswith(b"\xd0\xcf\x11\xe0"):
+        raise FileError("it is an old Excel file (.xls): save it as .xlsx or CSV")
+    return projects.tables(content)
+
+
+def _from_tables(tables: Tables, options: ReadOptions) -> "xr.Dataset":
     """Read the first table that holds a known kind of measurement, or the one that is asked for."""
     names = sorted(tables.members, key=lambda one: one.count("/"))
-    if told.table is not None:
-        names = [chosen(tables, told.table)]
-    told = replace(told, table=None, decimal=tables.decimal or told.decimal)
+    if options.table is not None:
+        names = [chosen(tables, options.table)]
+    options = replace(options, table=None, decimal=tables.decimal or options.decimal)
     read: list[tuple[str, xr.Dataset]] = []
     for name in names:
         try:
             content = bytearray(tables.members.pop(name))
             inner = projects.tables(content)  # one of Tracker in a zip archive
-            own = _from_tables(inner, told) if inner else _from_table(name, content, told)
+            own = _from_tables(inner, options) if inner else _from_table(name, content, options)
             read.append((name, own))
         except StackbounceError as error:
             if name == names[-1] and not read:
-                raise about(name, error) from error
+                raise type(error)(Message.of(error).of_file(name)) from error
             continue
         if read[-1][1].attrs["holds"] != "table":
             break
@@ -216,29 +223,31 @@ def _from_tables(tables: Tables, told: ReadOptions) -> "xr.Dataset":
     data.attrs["why"] = "; ".join(filter(None, [tables.why, data.attrs["why"]]))
     others = [one for one in names if one != name]
     if others:
-        more = Said(f"{name} of it is read; ", Hint({"table": others[0]}), " reads another")
-        data.attrs["doubt"] = joined("; ", filter(None, [data.attrs["doubt"], more]))
+        more = Message(
+            f"{name} of it is read; ", OptionHint({"table": others[0]}), " reads another"
+        )
+        data.attrs["doubt"] = Message("; ").join(filter(None, [data.attrs["doubt"], more]))
     return data
 
 
-def _from_table(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
-    layout, columns, table, doubts, runs = _table(name, content, told)
+def _from_table(name: str, content: bytearray, options: ReadOptions) -> "xr.Dataset":
+    layout, columns, table, doubts, runs = _table(name, content, options)
     _count(layout, columns, table)
     doubts += _flaws(table)
     values = table.values
     if layout.holds != "bounces":
         columns, values = _numeric(columns, table)
         columns = without_counts(columns, values)
-    holds = told.holds or layout.holds or holds_of(columns)
+    holds = options.holds or layout.holds or holds_of(columns)
     if holds == "bounces" != layout.holds:
         whose = ": only phyphox's (in)elastic collision holds bounces"
-        raise InvalidValue(Said(Hint({"holds": None}), whose))
-    data, more = assemble(holds, columns, values, None if runs else told.run)
+        raise InvalidValue(about_option("holds", whose))
+    data, more = assemble(holds, columns, values, None if runs else options.run)
     return _signed(data, layout.format, layout.why, holds, doubts + more)
 
 
 def _table(
-    name: str, content: bytearray, told: ReadOptions
+    name: str, content: bytearray, options: ReadOptions
 ) -> tuple[Layout, list[Column], Table, list[str], bool]:
     """Return the layout of a table, its columns, numbers and doubts, and whether it has runs.
 
@@ -254,28 +263,28 @@ def _table(
         )
     else:
         refuse_others(content)
-        text = tabulate(decode(content), told.decimal, Path(name).name)
+        text = tabulate(decode(content), options.decimal, Path(name).name)
         layout = layout_of(text)
         if layout.end is not None:
             text = replace(text, content=text.content[: layout.end])
         numbers, doubts = partial(rows_of, text, layout.first), list(text.doubts)
-    named, unsure = _meant(layout, told)
-    columns = apply_options(named, told)
-    doubts += () if told.names else unsure
-    columns, runs = of_run(columns, told.run, doubts)
-    if told.holds in (None, "track"):
-        columns, more = on_frames(columns, told.frame_rate, told.scale)
+    named, unsure = _meant(layout, options)
+    columns = apply_options(named, options)
+    doubts += () if options.names else unsure
+    columns, runs = of_run(columns, options.run, doubts)
+    if options.holds in (None, "track"):
+        columns, more = on_frames(columns, options.frame_rate, options.scale)
         doubts += more
     table = numbers([one.index for one in columns if one.index >= 0])
     return layout, columns, table, doubts, runs
 
 
-def _meant(layout: Layout, told: ReadOptions) -> tuple[Sequence[Column], Sequence[str]]:
+def _meant(layout: Layout, options: ReadOptions) -> tuple[Sequence[Column], Sequence[str]]:
     """Return the columns of a layout, or what they look like, and what is unsure."""
     found = layout.guess
     if found is None:
         return layout.columns, layout.doubts
-    if told.names or told.holds not in (None, holds_of(on_frames(found.columns)[0])):
+    if options.names or options.holds not in (None, holds_of(on_frames(found.columns)[0])):
         return layout.columns, (NOT_NAMED,)
     return found.columns, (found.doubt,)
 
@@ -296,7 +305,7 @@ def _count(layout: Layout, columns: Sequence[Column], table: Table) -> None:
 def _signed(
     data: "xr.Dataset", form: str, why: str, holds: str, doubts: Sequence[str]
 ) -> "xr.Dataset":
-    doubt = joined("; ", dict.fromkeys(doubts))
+    doubt = Message("; ").join(dict.fromkeys(doubts))
     data.attrs = {"format": form, "why": why, "doubt": doubt, "holds": holds}
     return data
 

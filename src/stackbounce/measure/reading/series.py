@@ -6,16 +6,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, shown
-from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading.even import even_times, spread
 from stackbounce.measure.reading.roles import Column
-from stackbounce.measure.reading.rounding import Rounding, rounding_of
+from stackbounce.measure.reading.rounding import Rounding, even_times, rounding_of, spread
 
 __all__ = ["Series", "in_time", "step_of"]
 
 _RUNS = 50
 """Runs below each other, at most: with more, the column does not hold times."""
+
+_ANOTHER = Message(
+    OptionHint({"names": {2: "time"}}), " tells that it is another column, such as the second"
+)
 
 
 class Series(NamedTuple):
@@ -56,13 +59,8 @@ def in_time(time: Array, column: Column, run: object, *, gaps: bool) -> Series:
     rows, own, doubts = _of_run(rows, own, run)
     factor, unit = column.factor, column.unit or "s"
     if own.size > 1 and own[0] == own[-1]:
-        raise InvalidValue(
-            Said(
-                f"time is {factor * own[0]:.6g} {unit} in all of {own.size} rows: ",
-                Hint({"names": {2: "time"}}),
-                " tells that it is another column, such as the second",
-            )
-        )
+        constant = f"time is {factor * own[0]:.6g} {unit} in all of {own.size} rows: "
+        raise InvalidValue(Message(constant, _ANOTHER))
     rounded = rounding_of(own)
     even = even_times(own, rounded)
     if even is not None:
@@ -87,13 +85,8 @@ def _of_run(
     """Return the rows and times of one of the runs below each other."""
     again = np.flatnonzero(np.diff(own) < 0.0) + 1
     if again.size >= _RUNS:
-        raise InvalidValue(
-            Said(
-                f"time runs backwards in {again.size} of {own.size} rows: ",
-                Hint({"names": {2: "time"}}),
-                " tells that it is another column, such as the second",
-            )
-        )
+        back = f"time runs backwards in {again.size} of {own.size} rows: "
+        raise InvalidValue(Message(back, _ANOTHER))
     if not again.size:
         if run is not None:
             _counted(run, 1)
@@ -140,8 +133,7 @@ def step_of(time: Array) -> float:
 
 def _counted(run: object, count: int) -> int:
     if not str(run).isascii() or not str(run).isdigit() or not 1 <= int(str(run)[:9]) <= count:
-        name = Hint({"run": None})
         raise InvalidValue(
-            Said(name, f" must be one of the {count} that there are, got {shown(run)}")
+            about_option("run", f" must be one of the {count} that there are, got {shown(run)}")
         )
     return int(str(run))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, shown
-from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.messages import about_option
 
 __all__ = ["Tables", "as_text", "chosen"]
 
@@ -77,6 +77,6 @@ def chosen(tables: Tables, table: object) -> str:
             found.append(name)
     if len(found) != 1:
         near = nearest(table, tables.members)
-        told = f" must be one in the {tables.kind}, got {shown(table)}; {near}"
-        raise InvalidValue(Said(Hint({"table": None}), told))
+        wrong = f" must be one in the {tables.kind}, got {shown(table)}; {near}"
+        raise InvalidValue(about_option("table", wrong))
     return found[0]

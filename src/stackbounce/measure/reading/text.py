@@ -6,10 +6,10 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 from stackbounce.errors import FileError, InvalidValue, shown
-from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.reading.limits import COLUMNS, LINE
 
-__all__ = ["MISSING", "Text", "decode", "number", "split", "tabulate"]
+__all__ = ["MISSING", "Text", "count_numbers", "decode", "number", "split", "tabulate"]
 
 HEAD = 200
 """Lines from which the layout of a table is recognised."""
@@ -162,8 +162,7 @@ def tabulate(content: str, decimal: str | None = None, name: str = "") -> Text:
         If a line is too long, there are too many columns, or there is no row of numbers.
     """
     if decimal not in (None, ".", ","):
-        option = Hint({"decimal": None})
-        raise InvalidValue(Said(option, f' must be "." or ",", got {shown(decimal)}'))
+        raise InvalidValue(about_option("decimal", f' must be "." or ",", got {shown(decimal)}'))
     starts, lines = _head(content)
     marks = decimal or ".,"
     found = [_score(lines, delimiter, marks) for delimiter in _DELIMITERS]
@@ -177,7 +176,7 @@ def tabulate(content: str, decimal: str | None = None, name: str = "") -> Text:
     if wide > COLUMNS:
         raise FileError(f"it has a line of {wide} cells: at most {COLUMNS} columns are read")
     mark, doubts = (decimal, []) if decimal else _decimal(head, delimiter)
-    if not any(_numbers(row, mark) or _labelled(row, mark) for row in head):
+    if not any(count_numbers(row, mark) or _labelled(row, mark) for row in head):
         raise FileError(
             f"it has no row of numbers in its first {len(head)} lines; "
             f"it begins with {shown(next((one for one in lines if one.strip()), ''))}"
@@ -200,7 +199,7 @@ def _head(content: str) -> tuple[list[int], list[str]]:
     return starts, lines
 
 
-def _numbers(row: list[str], decimal: str) -> int:
+def count_numbers(row: list[str], decimal: str) -> int:
     """Return how many numbers a row has; 0 if any cell is something else."""
     count = 0
     for cell in row[:COLUMNS]:
@@ -226,7 +225,7 @@ def _score(lines: list[str], delimiter: str, decimals: str) -> tuple[int, int]:
         if len(row) < 2:
             continue
         marks = [mark for mark in decimals if not (mark == delimiter == "," and '"' not in line)]
-        count = max((_numbers(row, mark) for mark in marks), default=0)
+        count = max((count_numbers(row, mark) for mark in marks), default=0)
         rows += count > 0
         widths[len(row)] += count > 0
         if not rows:
@@ -248,9 +247,9 @@ def _decimal(head: list[list[str]], delimiter: str) -> tuple[str, list[str]]:
         return ("," if mixed and delimiter != "," else "."), []
     if len(grouped) == len(commas):
         return ",", [
-            Said(
+            Message(
                 f"{grouped[0]!r} is read with a decimal comma: ",
-                Hint({"decimal": "."}),
+                OptionHint({"decimal": "."}),
                 " if it is not one",
             )
         ]

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.roles import FRAME, PIXEL, POINT, Column, column
@@ -15,7 +15,7 @@ __all__ = ["on_frames", "rows_by_frame"]
 _TRACKS = 12
 """Tracks below each other that are read, at most: the longest ones."""
 
-_RATE, _SCALE = Hint({"frame_rate": None}), Hint({"scale": None})
+_RATE, _SCALE = OptionHint({"frame_rate": None}), OptionHint({"scale": None})
 _ROLES = {"", "x", "y", "track_id"}  # of columns beside which rows are frames
 _LEAST = 5  # points of a track that is put together
 _REACH = 0.05  # of the range of all points: how far from its path the next point of a track may be
@@ -54,12 +54,12 @@ def _timed(found: list[Column], frame_rate: float | None) -> tuple[list[Column],
     """Return columns in which frames are times, where there are no others."""
     at = next((k for k, one in enumerate(found) if one.role == "frame"), None)
     if at is None or any(one.role == "time" for one in found):
-        unused = Said(_RATE, " is not used, as the file has times")
+        unused = Message(_RATE, " is not used, as the file has times")
         return found, [] if frame_rate is None else [unused]
     said = replace(found[at].heading, unit=FRAME)
     factor, unit = (1.0, FRAME) if frame_rate is None else (1.0 / frame_rate, "s")
     found[at] = replace(found[at], heading=said, role="time", factor=factor, unit=unit)
-    doubt = Said(
+    doubt = Message(
         "it has no times, so that a frame is the unit of time: ", _RATE, " tells frames per second"
     )
     return found, [doubt] if frame_rate is None else []
@@ -78,9 +78,9 @@ def _scaled(
         found[k] = replace(found[k], factor=factor, unit=unit, doubt="")
     if pixels and scale is None:
         names = " and ".join(dict.fromkeys(found[k].role for k in pixels))
-        doubts.append(Said(f"{names} are taken as pixels: ", _SCALE, " tells metres per pixel"))
+        doubts.append(Message(f"{names} are taken as pixels: ", _SCALE, " tells metres per pixel"))
     if scale is not None and not pixels:
-        doubts.append(Said(_SCALE, " is not used, as the positions have units"))
+        doubts.append(Message(_SCALE, " is not used, as the positions have units"))
     return found, doubts
 
 

@@ -11,7 +11,7 @@ from stackbounce.measure.reading.tables import Tables
 
 __all__ = ["is_xlsx", "members"]
 
-_MEMBERS = 1000
+_MEMBERS = 1000  # of an archive, at most
 _RATIO = 400  # of bytes to packed bytes; numbers as text come to about 10
 _BROKEN = (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, RuntimeError)
 _ENDINGS = (".csv", ".tsv", ".txt", ".dat", ".lvm", ".npy", ".trk")

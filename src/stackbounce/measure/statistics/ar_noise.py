@@ -6,7 +6,6 @@ a law that does not quite fit. Assuming independent errors makes error bars far 
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,15 +19,15 @@ __all__ = [
     "linear_prediction_residual",
 ]
 
-_SHARES = (0.2, 0.6, 0.9, 1.0)  # of the variance that is AR(1) noise
+_SHARES = (0.2, 0.6, 0.9, 1.0)  # of the variance that is AR(1) noise, on the grid
 _TIMES = 7  # correlation times on the grid, from one point on
-_LONGEST = 0.5  # of the record, the longest correlation time
-_NONE = 1e-6  # a weight that does not count
-_ALMOST_NONE = 1e-9  # degrees of freedom of as many points as parameters
-_CHUNK = 1024  # samples over which a linear prediction is learned
-_LAGS = 200
-_ENOUGH = 48  # samples that tell an autocorrelation
-_MAD = 0.6745  # median absolute value of a standard normal variable
+_LONGEST_TIME = 0.5  # of the record: the longest correlation time on the grid
+_LEAST_WEIGHT = 1e-6  # of a noise model that counts in the mean
+_LEAST_FREEDOM = 1e-9  # degrees of freedom of as many points as parameters, instead of 0
+_CHUNK = 1024  # samples in a row from which a linear prediction is learned
+_MOST_LAGS = 200  # of an autocorrelation that are added up, for speed
+_LEAST_SAMPLES = 48  # of a series whose autocorrelation is estimated
+_NORMAL_MEDIAN = 0.6745  # median absolute value of a standard normal variable
 
 
 class Noise:
@@ -76,16 +75,14 @@ class Noise:
     def _grid(self) -> tuple[float, list[tuple[float, float]]]:
         """Return the mean variance of the white noise, and of AR(1) noise of each correlation."""
         count = len(self.residual)
-        longest = max(2.0, _LONGEST * count)
-        apart = np.append(np.inf, np.ones(count - 1))
+        longest = max(2.0, _LONGEST_TIME * count)
         found: list[tuple[float, float, float, float]] = []
 
         def add(times: Array, shares: Sequence[float] = _SHARES) -> None:
             for time in times.tolist():
                 for share in shares:
                     phi = float(np.exp(-1.0 / time))
-                    fit = _fit(self.jacobian, self.residual, phi**apart, share)
-                    found.append((time, share, fit.likelihood, fit.variance))
+                    found.append((time, share, *_fit(self.jacobian, self.residual, phi, share)))
 
         add(np.ones(1), (0.0,))
         add(np.geomspace(1.0, longest, _TIMES))
@@ -109,7 +106,7 @@ def _mean(
     kept: dict[float, float] = {}
     for (time, share, _, variance), weight in zip(found, weights.tolist(), strict=True):
         white += weight * variance * (1.0 - share)
-        if share * weight > _NONE:
+        if share * weight > _LEAST_WEIGHT:
             phi = float(np.exp(-1.0 / time))
             kept[phi] = kept.get(phi, 0.0) + weight * variance * share
     return white, list(kept.items())
@@ -174,11 +171,11 @@ def correlation_factor(residuals: Array) -> float:
     (1.0, 4)
     """
     count = len(residuals)
-    if count < _ENOUGH:
+    if count < _LEAST_SAMPLES:
         return 1.0
     power = float(np.mean(residuals**2))
     total = 1.0
-    for lag in range(1, min(_LAGS, count // 4)):
+    for lag in range(1, min(_MOST_LAGS, count // 4)):
         rho = float(np.mean(residuals[lag:] * residuals[:-lag])) / power if power > 0.0 else 0.0
         if rho < 2.0 / np.sqrt(count):
             break
@@ -209,64 +206,57 @@ def difference_noise(values: Array, order: int = 2) -> float:
     if len(values) < 4:
         return 0.0
     middle = float(np.median(np.abs(np.diff(values, order))))
-    return float(middle / _MAD / np.sqrt(float(comb(2 * order, order))))
+    return float(middle / _NORMAL_MEDIAN / np.sqrt(float(comb(2 * order, order))))
 
 
-class _Generalised(NamedTuple):
-    """A generalised least squares fit, its restricted log-likelihood, the variance of an error."""
+def _fit(design: Array, values: Array, phi: float, share: float) -> tuple[float, float]:
+    """Fit ``values = design @ parameters`` by generalised least squares to white and AR(1) noise.
 
-    values: Array
-    covariance: Array
-    likelihood: float
-    variance: float
-
-
-def _fit(design: Array, values: Array, kept: Array, share: float) -> _Generalised:
-    """Return the fit of ``values = design @ parameters`` with white and AR(1) noise.
+    Return the restricted log-likelihood of the noise, and the variance of an error.
 
     Parameters
     ----------
     design, values : ndarray
         (N, P) and (N,).
-    kept : ndarray
-        (N,) correlation of a point's AR(1) noise with that of the one before it.
+    phi : float
+        Correlation of neighbouring points' AR(1) noise.
     share : float
         Of the variance that is AR(1) noise.
     """
     both = np.column_stack([values, design])
-    solved, log_det = _solved(both, kept, share)
+    solved, log_det = _solved(both, phi, share)
     gram = both.T @ solved
     sizes, vectors = np.linalg.eigh(gram[1:, 1:])
     sizes = np.maximum(sizes, 1e-12 * sizes[-1])
     along = vectors.T @ gram[1:, 0]
     square = max(float(gram[0, 0] - (along**2 / sizes).sum()), 1e-300)
-    freedom = max(len(values) - design.shape[1], _ALMOST_NONE)
+    freedom = max(len(values) - design.shape[1], _LEAST_FREEDOM)
     variance = square / freedom
     likelihood = -0.5 * (freedom * np.log(variance) + log_det + float(np.log(sizes).sum()))
-    covariance = variance * (vectors / sizes) @ vectors.T
-    return _Generalised(vectors @ (along / sizes), covariance, likelihood, variance)
+    return likelihood, variance
 
 
-def _solved(both: Array, kept: Array, share: float) -> tuple[Array, float]:
+def _solved(columns: Array, phi: float, share: float) -> tuple[Array, float]:
     """Return V⁻¹ times columns and ln det V, with V = (1 - share) + share R of AR(1) noise's R.
 
     R⁻¹ is tridiagonal, and V = ((1 - share) R⁻¹ + share) R.
     """
     from scipy.linalg import cho_solve_banded, cholesky_banded
 
-    innovations = 1.0 - kept**2
-    inverse = np.stack([-kept / innovations, 1.0 / innovations])  # upper form, by scipy
-    inverse[1, :-1] += kept[1:] ** 2 / innovations[1:]
-    half, log_det = both, float(np.log(innovations).sum())
+    innovation = 1.0 - phi**2
+    beside = -phi / innovation
+    diagonal = np.full(len(columns), (1.0 + phi**2) / innovation)
+    diagonal[[0, -1]] = 1.0 / innovation
+    half, log_det = columns, (len(columns) - 1) * float(np.log(innovation))
     if share < 1.0:
-        band = (1.0 - share) * inverse
+        band = np.stack([np.full_like(diagonal, beside), diagonal]) * (1.0 - share)  # upper form
         band[1] += share
         factor = cholesky_banded(band, check_finite=False)
-        half = cho_solve_banded((factor, False), both, check_finite=False)
+        half = cho_solve_banded((factor, False), columns, check_finite=False)
         log_det += 2.0 * float(np.log(factor[1]).sum())
-    solved = inverse[1][:, None] * half
-    solved[1:] += inverse[0, 1:, None] * half[:-1]
-    solved[:-1] += inverse[0, 1:, None] * half[1:]
+    solved = diagonal[:, None] * half
+    solved[1:] += beside * half[:-1]
+    solved[:-1] += beside * half[1:]
     return solved, log_det
 
 

@@ -9,21 +9,27 @@ from stackbounce.measure.quantities import Array
 
 __all__ = ["Kink", "find_kink"]
 
-_EVEN = 0.06  # of the contact time: width of averages before a slope or a maximum is taken
-_PART = 0.6  # of the largest departure: the fit ends there
-_LATEST = 0.9  # of the contact time of the lowest ball alone: later forces are too small
+_AVERAGED = 0.06  # of the contact time alone: averages before a slope or a maximum is taken
+_END = 0.6  # of the largest departure: where it is reached the fit ends
+_LATEST_END = 0.9  # of the contact time alone: later forces are too small
 _TIMES = 110  # change points on the grid
-# Priors of the departure's exponent and bend: mean, change over the contact time, and standard
-# deviation. They are those of simulated stacks with floors that are springs, Hertz's, hysteretic or
-# viscous, restitutions from 0.7, upper masses of 0.08 to 0.6 of the lower one, and contacts between
-# the balls that last 0.6 to 1.1 times as long as the floor's.
-_POWERS, _POWER, _POWER_CHANGE, _POWER_ERROR = np.linspace(2.0, 4.8, 9), 4.4, -2.15, 0.4
-_BENDS, _BEND, _BEND_CHANGE, _BEND_ERROR = np.linspace(-0.85, 0.15, 6), -0.78, 0.69, 0.16
-_SAME = 0.02  # relative: how well the force repeats in two drops from one height
-_ROUNDS = 2
-_TAIL = (0.6, 1.25)  # of the contact time alone: where a second ball changes the force most
-_MATCHED, _DOUBTLESS = 0.005, 5.0  # relative error of the gain; significance in errors
-_SEEN = 25.0  # decrease of χ² that a departure must give
+# Priors of the departure's exponent and bend: those of simulated stacks with floors that are
+# springs, Hertz's, hysteretic or viscous, restitutions from 0.7, upper masses of 0.08 to 0.6 of the
+# lower one, and contacts between the balls that last 0.6 to 1.1 times as long as the floor's.
+_POWERS = np.linspace(2.0, 4.8, 9)  # exponents on the grid
+_POWER = 4.4  # mean exponent of a departure at the touch
+_POWER_CHANGE = -2.15  # of that mean over the contact time
+_POWER_ERROR = 0.4  # standard deviation
+_BENDS = np.linspace(-0.85, 0.15, 6)  # bends on the grid
+_BEND = -0.78  # mean bend of a departure at the touch
+_BEND_CHANGE = 0.69  # of that mean over the contact time
+_BEND_ERROR = 0.16  # standard deviation
+_REPEATED_WITHIN = 0.02  # relative: how well the force repeats in two drops from one height
+_ROUNDS = 2  # of fits, each with the shift and gain of the one before
+_LATE = (0.6, 1.25)  # of the contact time alone: where a second ball changes the force most
+_GAIN_ERROR = 0.005  # relative, of the force under the ball alone that is matched to the stack's
+_LEAST_PRESS = 5.0  # standard errors of the force late in the contact that tell a second ball
+_LEAST_GAIN = 25.0  # decrease of χ² that a departure must give
 
 
 class Kink(NamedTuple):
@@ -82,7 +88,7 @@ def find_kink(
     from scipy.signal import savgol_filter
 
     step = float(np.median(np.diff(alone[0])))
-    width = min(2 * max(2, int(0.5 * _EVEN * lasting / step)) + 1, len(alone[1]))
+    width = min(2 * max(2, int(0.5 * _AVERAGED * lasting / step)) + 1, len(alone[1]))
     slope = savgol_filter(alone[1], width, 2, deriv=1, delta=step)
     shift, gain = 0.0, 1.0
     time, error, until = math.nan, math.nan, lasting
@@ -100,28 +106,30 @@ def find_kink(
 
 def _pressed(share: Array, force: Array, like: Array, noise: float) -> bool:
     """Return whether a force is significantly larger than another late in the contact."""
-    late = (share > _TAIL[0]) & (share < _TAIL[1])
-    error = math.hypot(noise / math.sqrt(max(late.sum(), 1)), _MATCHED * float(like[late].mean()))
-    return float((force - like)[late].mean()) > _DOUBTLESS * error
+    late = (share > _LATE[0]) & (share < _LATE[1])
+    error = math.hypot(
+        noise / math.sqrt(max(late.sum(), 1)), _GAIN_ERROR * float(like[late].mean())
+    )
+    return float((force - like)[late].mean()) > _LEAST_PRESS * error
 
 
 def _until(times: Array, departure: Array, lasting: float) -> float:
     """Return when the departure has grown to a part of its largest value."""
-    width = max(1, int(_EVEN * lasting / (times[1] - times[0])))
+    width = max(1, int(_AVERAGED * lasting / (times[1] - times[0])))
     even = np.convolve(departure, np.ones(width) / width, mode="same")
     inside = (times > 0.0) & (times < 1.2 * lasting)
     top = float(even[inside].max())
-    large = np.flatnonzero(inside & (even >= _PART * top))
-    return float(np.clip(times[large[0]], 0.3 * lasting, _LATEST * lasting))
+    large = np.flatnonzero(inside & (even >= _END * top))
+    return float(np.clip(times[large[0]], 0.3 * lasting, _LATEST_END * lasting))
 
 
 def _search(
     times: Array, force: Array, known: Array, noise: float, ends: tuple[float, float]
 ) -> tuple[float, float, float, float]:
     """Search the grid; return the change point, its error, the gain, and shift times gain."""
-    rows = np.concatenate([known / noise, [[1.0 / _SAME, 0.0]]])
+    rows = np.concatenate([known / noise, [[1.0 / _REPEATED_WITHIN, 0.0]]])
     base, _ = np.linalg.qr(rows)
-    right = np.append(force / noise, 1.0 / _SAME)
+    right = np.append(force / noise, 1.0 / _REPEATED_WITHIN)
     left = right - base @ (base.T @ right)
     without = float(left @ left)
     until, lasting = ends
@@ -143,7 +151,7 @@ def _search(
     least = float(table.min())
     i, j, k = (int(place) for place in np.unravel_index(int(table.argmin()), table.shape))
     best = _padded(since[:, [k]] ** _POWERS[i] * (1.0 + _BENDS[j] * since[:, [k]]) / noise)
-    seen = without - least > _SEEN
+    seen = without - least > _LEAST_GAIN
     gain, moved, *_ = np.linalg.lstsq(np.hstack([rows, best][: 1 + seen]), right, rcond=None)[0]
     if not seen:
         return math.nan, math.nan, float(gain), float(moved)

@@ -9,7 +9,6 @@ from stackbounce.measure.quantities import Array, Number
 
 __all__ = [
     "Fit",
-    "average_fits",
     "covariance_of",
     "fit_with_excess_scatter",
     "half_width",
@@ -17,10 +16,11 @@ __all__ = [
     "widening",
 ]
 
-_RARE = 0.01  # p-value of chi squared below which an excess scatter is reported
-_LEAST, _SCATTERS = 0.1, 20  # the smallest excess scatter, in errors; size of the grid
-_NONE = 4.0  # prior odds of no excess scatter
-_ONE = 0.6826894921370859  # probability within one sigma
+_REPORTED_BELOW = 0.01  # p-value of chi squared: then an excess scatter is reported
+_LEAST_SCATTER = 0.1  # of the smallest error: the smallest excess scatter on the grid
+_SCATTERS = 20  # excess scatters on the grid
+_ODDS_OF_NONE = 4.0  # prior odds of no excess scatter
+_WITHIN_ONE = 0.6826894921370859  # probability of a normal variable within one sigma
 
 
 class Fit(NamedTuple):
@@ -125,52 +125,29 @@ def fit_with_excess_scatter(
     from scipy.stats import chi2
 
     plain = least_squares(design, values, covariance)
-    least = _LEAST * float(np.sqrt(np.diag(covariance).min()))
+    least = _LEAST_SCATTER * float(np.sqrt(np.diag(covariance).min()))
     if plain.freedom < 1 or not 0.0 < least < most:
         return plain, 0.0
     scatters = np.concatenate([[0.0], np.geomspace(least, most, _SCATTERS)])
     every = covariance + scatters[:, None, None] ** 2 * np.eye(len(values))
     means, spreads, squares = _fits(design, values, every)
     evidence = np.linalg.slogdet(spreads)[1] - np.linalg.slogdet(every)[1] - squares
-    weights = np.exp(0.5 * (evidence - evidence.max())) * [_NONE * _SCATTERS, *[1.0] * _SCATTERS]
+    weights = np.exp(0.5 * (evidence - evidence.max())) * [
+        _ODDS_OF_NONE * _SCATTERS,
+        *[1.0] * _SCATTERS,
+    ]
     weights /= weights.sum()
-    mean, total = average_fits(weights, means, spreads)
+    mean = weights @ means
     off = means - mean
+    total = np.einsum("k,kij->ij", weights, spreads) + (weights[:, None] * off).T @ off
     errors = np.sqrt(np.diagonal(spreads, axis1=1, axis2=2))
     halves = [half_width(weights, off[:, i], errors[:, i]) for i in range(len(mean))]
     stretch = np.array(halves) / np.sqrt(np.diag(total))
     fit = Fit(mean, total * np.outer(stretch, stretch), plain.chi_squared, plain.freedom)
-    if chi2.sf(plain.chi_squared, plain.freedom) > _RARE:
+    if chi2.sf(plain.chi_squared, plain.freedom) > _REPORTED_BELOW:
         return fit, 0.0
     share = np.cumsum(weights[1:]) / weights[1:].sum()
     return fit, float(scatters[1 + np.searchsorted(share, 0.5)])
-
-
-def average_fits(weights: Array, values: Array, covariances: Array) -> tuple[Array, Array]:
-    """Return the parameters and their covariance, averaged over fits under several noise models.
-
-    Parameters
-    ----------
-    weights : ndarray
-        (K,) posterior probabilities of the noise models.
-    values, covariances : ndarray
-        (K, P) and (K, P, P) of each fit.
-
-    Returns
-    -------
-    values, covariance : ndarray
-        (P,) and (P, P): the mean covariance plus the covariance of the parameters over the fits.
-
-    Examples
-    --------
-    >>> values, covariance = average_fits(np.array([0.5, 0.5]), np.eye(2), np.zeros((2, 2, 2)))
-    >>> values.tolist(), covariance.tolist()
-    ([0.5, 0.5], [[0.25, -0.25], [-0.25, 0.25]])
-    """
-    mean = weights @ values
-    off = values - mean
-    total = np.einsum("k,kij->ij", weights, covariances) + (weights[:, None] * off).T @ off
-    return mean, total
 
 
 def half_width(weights: Array, off: Array, errors: Array) -> float:
@@ -179,7 +156,10 @@ def half_width(weights: Array, off: Array, errors: Array) -> float:
     from scipy.special import ndtr
 
     def excess(half: float) -> float:
-        return float(weights @ (ndtr((half - off) / errors) - ndtr((-half - off) / errors))) - _ONE
+        return (
+            float(weights @ (ndtr((half - off) / errors) - ndtr((-half - off) / errors)))
+            - _WITHIN_ONE
+        )
 
     return float(brentq(excess, 0.0, 10.0 * float((errors + np.abs(off)).max())))
 

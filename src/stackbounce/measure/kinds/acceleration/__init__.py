@@ -1,1 +1,14 @@
 """Accelerations of what falls and bounces: flights, restitutions, drop height."""
+
+from stackbounce.measure.kind import Kind
+
+__all__ = ["ACCELERATION"]
+
+_AXES = ("acceleration", "acceleration_absolute", "acceleration_z", "acceleration_y")
+ACCELERATION = Kind(
+    "acceleration",
+    "drop height, restitution, contact times of fast sensors",
+    f"{__name__}.kind",
+    options=("gravity",),
+    columns=(("time",), (*_AXES, "acceleration_x")),
+)

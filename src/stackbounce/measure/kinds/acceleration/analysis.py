@@ -21,7 +21,7 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 
 __all__ = ["accelerometer"]
 
-_TOLD = 6  # samples of a contact whose duration can be told
+_CONTACT_SAMPLES = 6  # of a contact whose duration is given
 
 
 def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerometer:
@@ -80,36 +80,37 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
     series = series_of(record, g)
     if not series:
         raise InvalidValue(WANTED + what_is_seen(record, g))
-    starts = [_edge(times, one.first) for one in series]
-    ends = [_edge(times, one.last + 1) for one in series]
+    starts = [_edge(times, flight.first) for flight in series]
+    ends = [_edge(times, flight.last + 1) for flight in series]
     lasting = [end - start for start, end in zip(starts, ends, strict=True)]
     held = is_held(record, series[0].first, g)
     fall, flights = (lasting[0], lasting[1:]) if held else (None, lasting)
-    speeds = [g * lasting[0]] * held + [g * one / 2.0 for one in flights]  # at the end of each
+    speeds = [g * lasting[0]] * held + [g * lasts / 2.0 for lasts in flights]  # at the end of each
     before, after = speeds[:-1], speeds[1:]
     kept = [out / into for into, out in zip(before, after, strict=True)]
-    if gains := no_gain(kept, [float(times[one.last]) for one in series]):
+    if gains := no_gain(kept, [float(times[flight.last]) for flight in series]):
         raise InvalidValue(WANTED + gains)
     pulses = list(pairwise(series))
-    counts = [other.first - one.last - 1 for one, other in pulses]
-    tops = [values[one.last + 1 : other.first] for one, other in pulses]
+    counts = [other.first - flight.last - 1 for flight, other in pulses]
+    tops = [values[flight.last + 1 : other.first] for flight, other in pulses]
     notes += _notes(times, counts, kept, held)
     return Accelerometer(
         fall=fall,
         flights=tuple(flights),
         drop_height=None if fall is None else g * fall**2 / 2.0,
-        apex_heights=tuple(g * one**2 / 8.0 for one in flights),
+        apex_heights=tuple(g * lasts**2 / 8.0 for lasts in flights),
         impact_speeds=tuple(before),
         restitutions=tuple(kept),
         mean=(after[-1] / before[0]) ** (1.0 / len(kept)) if kept else None,
         contact_times=tuple(
-            starts[k + 1] - ends[k] if count >= _TOLD else None for k, count in enumerate(counts)
+            starts[k + 1] - ends[k] if count >= _CONTACT_SAMPLES else None
+            for k, count in enumerate(counts)
         ),
         peaks=tuple(float(top.max()) for top in tops),
         notes=tuple(notes),
         times=times,
         values=values,
-        spans=tuple((float(times[one.first]), float(times[one.last])) for one in series),
+        spans=tuple((float(times[flight.first]), float(times[flight.last])) for flight in series),
     )
 
 
@@ -124,16 +125,16 @@ def _edge(times: Array, k: int) -> Any:
 def _notes(times: Array, counts: list[int], kept: list[Any], held: bool) -> list[str]:
     step = float(np.median(np.diff(times)))
     notes = []
-    if min(counts) < _TOLD:
+    if min(counts) < _CONTACT_SAMPLES:
         notes.append(
             f"it was sampled every {1e3 * step:.2g} ms: contact times and peaks of bounces with "
-            f"fewer than {_TOLD} samples, {min(counts)} here, cannot be told from it"
+            f"fewer than {_CONTACT_SAMPLES} samples, {min(counts)} here, cannot be told from it"
         )
     if held:
         notes.append("the drop height supposes a fall from rest: a hand that follows adds to it")
     else:
         notes.append("what came before the first flight is not in the record: no drop height")
-    if any(one.nominal_value > 1.0 + 2.0 * one.std_dev for one in kept):
+    if any(restitution.nominal_value > 1.0 + 2.0 * restitution.std_dev for restitution in kept):
         notes.append(
             "a restitution above 1: a bounce fell between two samples before it, or it was thrown"
         )

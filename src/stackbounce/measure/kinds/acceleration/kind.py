@@ -2,22 +2,13 @@
 
 from typing import Any
 
-from stackbounce.measure.kind import Kind
-from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.measure.kinds.acceleration.analysis import accelerometer
+from stackbounce.measure.kinds.acceleration.result import Accelerometer
+from stackbounce.measure.setup import Setup
 
-__all__ = ["ACCELERATION"]
-
-
-def _analyse(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Any:
-    from stackbounce.measure.kinds.acceleration.analysis import accelerometer
-
-    return accelerometer(data, gravity=gravity)
+__all__ = ["analyse"]
 
 
-_AXES = ("acceleration", "acceleration_absolute", "acceleration_z", "acceleration_y")
-ACCELERATION = Kind(
-    "acceleration",
-    "drop height, restitution, contact times of fast sensors",
-    _analyse,
-    columns=(("time",), (*_AXES, "acceleration_x")),
-)
+def analyse(data: Any, setup: Setup) -> Accelerometer:
+    """Return the flights and bounces of a falling sensor."""
+    return accelerometer(data, gravity=setup.gravity)

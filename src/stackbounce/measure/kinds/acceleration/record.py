@@ -11,12 +11,13 @@ from stackbounce.measure.samples import columns
 __all__ = ["FEWEST", "Record", "record_of"]
 
 FEWEST = 4  # samples of a flight
-_EQUAL = 3  # samples that have exactly the largest value are cut off
+_CLIPPED = 3  # samples of exactly the largest value: the range of the sensor ended
 _AXES = ("acceleration_x", "acceleration_y", "acceleration_z")
 _LINEAR = ("without g", "linear", "user acceleration", "ohne g")
-_QUIET = 1.0  # s: a rest; a fall of that duration is one of 5 m
-_REST, _CALM = 0.2, 0.05  # of gravity: mean and scatter in a rest, if gravity is subtracted
-_PULSE = 1.5  # of gravity: beyond it the phone feels the floor, if gravity is subtracted
+# How a record without gravity is told. Set by hand on the records of `tests/synthetic`.
+_REST_SECONDS = 1.0  # s: a rest; a fall of that duration is one of 5 m
+_REST_MEAN, _REST_SCATTER = 0.2, 0.05  # of gravity: the most in a rest
+_PULSE = 1.5  # of gravity: beyond it the phone feels the floor
 
 
 class Record(NamedTuple):
@@ -58,7 +59,7 @@ def record_of(data: Any, gravity: float) -> Record:
     else:
         times, axes, size, notes = _of_dataset(data)
         cut = any(
-            int((one == np.nanmax(one)).sum()) >= _EQUAL for one in map(np.abs, axes) if one.size
+            (size == np.nanmax(size)).sum() >= _CLIPPED for size in map(np.abs, axes) if size.size
         )
         linear = _is_linear(data, times, size, gravity)
     known = np.isfinite(times) & np.isfinite(size)
@@ -98,16 +99,16 @@ def _of_dataset(data: Any) -> tuple[Array, list[Array], Array, list[str]]:
 
 def _is_linear(data: Any, times: Array, size: Array, gravity: float) -> bool:
     """Return whether gravity was subtracted: by what the file says, or as a rest shows nothing."""
-    said = [str(data.attrs.get("format", ""))]
-    said += [str(one.attrs.get("long_name", "")) for one in data.data_vars.values()]
-    if any(word in one.casefold() for one in said for word in _LINEAR):
+    texts = [str(data.attrs.get("format", ""))]
+    texts += [str(column.attrs.get("long_name", "")) for column in data.data_vars.values()]
+    if any(word in text.casefold() for text in texts for word in _LINEAR):
         return True
     step = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
-    wide = round(_QUIET / step) if step > 0.0 else 0
+    wide = round(_REST_SECONDS / step) if step > 0.0 else 0
     if not FEWEST <= wide < len(size):
         return False
     sums = np.cumsum(np.stack([size, size**2]), axis=1)
     mean, square = (sums[:, wide:] - sums[:, :-wide]) / wide
-    calm = square - mean**2 < (_CALM * gravity) ** 2
-    near = np.abs(mean[calm] / gravity - 1.0) < _REST
-    return bool((mean[calm] < _REST * gravity).any() and not near.any())
+    calm = square - mean**2 < (_REST_SCATTER * gravity) ** 2
+    near = np.abs(mean[calm] / gravity - 1.0) < _REST_MEAN
+    return bool((mean[calm] < _REST_MEAN * gravity).any() and not near.any())

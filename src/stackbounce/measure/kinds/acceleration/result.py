@@ -85,9 +85,9 @@ class Accelerometer(Finding):
             parts["height"] = nominal(self.drop_height)
         return parts
 
-    def told(self) -> dict[str, Any]:
+    def law_arguments(self) -> dict[str, Any]:
         """Return the mean restitution and, after a fall, impact speed and contact time."""
-        told: dict[str, Any] = {"restitution": self.mean}
+        found: dict[str, Any] = {"restitution": self.mean}
         if self.fall is not None:
-            told |= {"impact_speed": self.impact_speeds[0], "contact_time": self.contact_times[0]}
-        return told
+            found |= {"impact_speed": self.impact_speeds[0], "contact_time": self.contact_times[0]}
+        return found

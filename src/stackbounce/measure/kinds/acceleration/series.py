@@ -12,17 +12,19 @@ __all__ = ["WANTED", "Flight", "is_held", "no_gain", "series_of", "what_is_seen"
 
 WANTED = "data must hold a free fall and a bounce, got "
 
-_HALF = 0.5  # of gravity: below it, it flies
-_WITHIN, _MOST = 0.35, 0.5  # of gravity: below it is this share of a flight's samples
-_LINEAR_WITHIN, _LINEAR_MOST = 0.15, 0.8  # the same, if gravity was subtracted
+# Set by hand on the records of `tests/synthetic/accelerometer.py`, and on swings, jumps and rides
+# (`tests/motions.py`), which must be refused.
+_FLYING = 0.5  # of gravity: below it, it flies
+_NEAR_ZERO, _NEAR_SHARE = 0.35, 0.5  # of gravity: below it is at least this share of a flight
+_LINEAR_NEAR_ZERO, _LINEAR_NEAR_SHARE = 0.15, 0.8  # the same, if gravity was subtracted
 _SHORTEST = 0.06  # s: a flight of 4 mm
 _LONGEST = 0.12  # s: a contact; longer ones are hands, legs, or a rest
 _PULSE = 2.0  # of gravity: the least top of a pulse
-_SEEN = 3  # samples of a pulse that show its top
-_SUMMED = 6  # samples of a pulse that tell its impulse
-_IMPULSE = 0.3  # of the change of speed that the flights tell
-_MANY = 100  # bounces of a drop
-_GAIN = 0.02  # above 1, and 3 errors, that a restitution does not reach
+_TOP_SAMPLES = 3  # of a pulse, which show its top
+_IMPULSE_SAMPLES = 6  # of a pulse, which tell its impulse
+_LEAST_IMPULSE = 0.3  # of the change of speed that the flights tell
+_MOST_BOUNCES = 100  # of a drop
+_GAIN, _GAIN_SIGMAS = 0.02, 3.0  # above 1 by both: a restitution that no ball has
 
 
 class Flight(NamedTuple):
@@ -36,8 +38,8 @@ def series_of(record: Record, gravity: float) -> list[Flight]:
     """Return the longest series of two or more flights with only bounces between them."""
     best: list[Flight] = []
     own: list[Flight] = []
-    for one in _flights(record, gravity):
-        own = [*own, one] if own and _bounces(record, own[-1], one, gravity) else [one]
+    for flight in _flights(record, gravity):
+        own = [*own, flight] if own and _bounces(record, own[-1], flight, gravity) else [flight]
         if len(own) > max(len(best), 1) and _begins(record, own[0], gravity):
             best = own
     return best
@@ -53,10 +55,10 @@ def is_held(record: Record, first: int, gravity: float) -> bool:
 
 def no_gain(restitutions: Sequence[Any], moments: Sequence[float]) -> str:
     """Return why restitutions are none: too many, or above 1; nothing where they are."""
-    if len(restitutions) > _MANY:
-        return f"{len(restitutions)} bounces, more than one drop has ({_MANY}): a machine?"
+    if len(restitutions) > _MOST_BOUNCES:
+        return f"{len(restitutions)} bounces, more than one drop has ({_MOST_BOUNCES}): a machine?"
     for k, (kept, moment) in enumerate(zip(restitutions, moments, strict=False)):
-        if kept.nominal_value > 1.0 + max(_GAIN, 3.0 * kept.std_dev):
+        if kept.nominal_value > 1.0 + max(_GAIN, _GAIN_SIGMAS * kept.std_dev):
             return (
                 f"a restitution of {kept:.1uS} at {moment:.3g} s (bounce {k}): nothing rebounds "
                 "faster than it came; it swings, jumps or is thrown, or a bounce before fell "
@@ -100,10 +102,12 @@ def what_is_seen(record: Record, gravity: float) -> str:
 def _flights(record: Record, gravity: float, *, whole: bool = True) -> list[Flight]:
     """Return the free flights; if `whole`, without those with the first or the last sample."""
     times, felt = record.times, record.felt
-    within, most = (_LINEAR_WITHIN, _LINEAR_MOST) if record.linear else (_WITHIN, _MOST)
+    within, most = (
+        (_LINEAR_NEAR_ZERO, _LINEAR_NEAR_SHARE) if record.linear else (_NEAR_ZERO, _NEAR_SHARE)
+    )
     return [
         Flight(int(a), int(b))
-        for a, b in zip(*runs(felt < _HALF * gravity), strict=True)
+        for a, b in zip(*runs(felt < _FLYING * gravity), strict=True)
         if b + 1 - a >= FEWEST
         and times[b] - times[a] >= _SHORTEST
         and not (whole and (a == 0 or b == len(times) - 1))
@@ -122,13 +126,13 @@ def _bounces(record: Record, before: Flight, after: Flight, gravity: float) -> b
     if times[after.first] - times[before.last] >= _LONGEST:
         return False
     pulse = felt[before.last + 1 : after.first]
-    if len(pulse) < _SEEN or pulse.max() >= record.clipped:
+    if len(pulse) < _TOP_SAMPLES or pulse.max() >= record.clipped:
         return True
     if pulse.max() < _PULSE * gravity:
         return False
-    if len(pulse) < _SUMMED:
+    if len(pulse) < _IMPULSE_SAMPLES:
         return True
     part = slice(before.last, after.first + 1)
     change = float(trapezoid(times[part]) @ felt[part])
     lasting = sum(float(times[last] - times[first]) for first, last in (before, after))
-    return change > _IMPULSE * 0.5 * gravity * lasting
+    return change > _LEAST_IMPULSE * 0.5 * gravity * lasting

@@ -17,13 +17,14 @@ from stackbounce.measure.kinds.bounces.scatter import (
     scatter_of,
 )
 from stackbounce.measure.quantities import Number, nominal
+from stackbounce.measure.samples import columns
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 __all__ = ["bounces"]
 
-_LONGEST = 200  # bounces of one drop
-_EQUAL = 1e-9  # of an interval, by which equal ones differ
+_MOST_BOUNCES = 200  # of one drop
+_ROUNDING = 1e-5  # of an interval: a clock in single precision makes equal ones differ by less
 _INSTANT = 1e-6  # s: no ball bounces twice in so short a time
 
 
@@ -93,9 +94,10 @@ def bounces(
         positive("drop_height", nominal(drop_height), "metres")
     notes: list[str] = []
     moments, missed = _moments(times, time_error, 3 if drop_height is None else 2, notes)
-    if len(moments) > _LONGEST:
+    if len(moments) > _MOST_BOUNCES:
         raise InvalidValue(
-            f"times must be those of one drop's bounces, at most {_LONGEST}, got {len(moments)}"
+            f"times must be those of one drop's bounces, at most {_MOST_BOUNCES}, "
+            f"got {len(moments)}"
         )
 
     def found_with(drag: Drag | None) -> Bounces:
@@ -149,7 +151,7 @@ def _analysed(moments: Sequence[Any], fall: _Fall) -> Bounces:
     known = isinstance(moments[0], UFloat)
     if not known:
         found = _with_errors_from_scatter(moments, found_at, notes)
-    if any(one.nominal_value > 1.0 + 2.0 * one.std_dev for one in found.kept):
+    if any(kept.nominal_value > 1.0 + 2.0 * kept.std_dev for kept in found.kept):
         notes.append(
             "A restitution above 1: a bounce was missed before it, or it was not left to itself."
         )
@@ -193,17 +195,17 @@ def _moments(
         values, missed = _plain(times), None
     if error is not None:
         error = positive("time_error", error, "seconds")
-    plain = np.array([nominal(one) for one in values])
+    plain = np.array([nominal(time) for time in values])
     if len(plain) < least:
         many = "three bounces" if least == 3 else "two bounces where the drop height is known"
         raise InvalidValue(f"times must hold at least {many}, got {len(plain)}")
     if not np.isfinite(plain).all():
         raise InvalidValue("times must be finite numbers of seconds, got one that is not")
-    moments: list[Any] = [float(one) for one in plain]
-    if all(isinstance(one, UFloat) and one.std_dev > 0.0 for one in values):
+    moments: list[Any] = [float(time) for time in plain]
+    if all(isinstance(time, UFloat) and time.std_dev > 0.0 for time in values):
         moments = values
     elif error is not None:
-        moments = [ufloat(one, error) for one in moments]
+        moments = [ufloat(time, error) for time in moments]
     steps = np.diff(plain)
     if (steps <= 0.0).any():
         k = int(np.argmax(steps <= 0.0))
@@ -227,23 +229,16 @@ def _moments(
 def _plain(times: Any) -> list[Any]:
     """Return times out of a Dataset or a sequence."""
     if hasattr(times, "data_vars"):
-        if "knock_time" not in times.data_vars:
-            raise InvalidType(
-                "times must hold a variable knock_time, got a Dataset with "
-                f"{', '.join(map(str, times.data_vars)) or 'none'}"
-            )
-        known = np.asarray(times["knock_time"], dtype=np.float64).ravel()
-        known = known[np.isfinite(known)]
-        while len(known) > 1 and known[-1] == 0.0:
-            known = known[:-1]  # what phyphox writes for knocks that did not come
-        return list(known)
+        (known,) = columns(times, ("knock_time",))
+        # phyphox writes 0 for knocks that did not come
+        return list(np.trim_zeros(known[np.isfinite(known)], "b"))
     if isinstance(times, str | bytes):
         raise InvalidType(f"times must be a sequence of seconds, got {shown(times)}")
     unmasked("times", times)
     try:
         values = list(times)
-        for one in values:
-            nominal(one)
+        for time in values:
+            nominal(time)
     except (TypeError, ValueError):
         raise InvalidType(f"times must be a sequence of seconds, got {shown(times)}") from None
     return values
@@ -259,8 +254,8 @@ def _flights(moments: Sequence[Any], missed: Sequence[int], contact_time: float)
                 f"interval of {nominal(flight) + contact_time:g} s"
             )
         flights.append(None if lost else flight)
-    known = [nominal(one) for one in flights if one is not None]
-    if len(known) > 1 and max(known) - min(known) < _EQUAL * max(known):
+    known = [nominal(flight) for flight in flights if flight is not None]
+    if len(known) > 1 and max(known) - min(known) < _ROUNDING * max(known):
         raise InvalidValue(
             "times must be those of bounces, which come faster and faster, got "
             f"{len(known)} equal intervals of {known[0]:.4g} s"
@@ -274,7 +269,7 @@ def _restitutions(flights: Sequence[Any], fall: _Fall) -> tuple[list[int], list[
     speeds: list[Any] = []
     kept: list[Any] = []
     gravity, missed = fall.gravity, fall.missed
-    ends = [_ends(one, fall) for one in flights]
+    ends = [_ends(flight, fall) for flight in flights]
     if fall.height is not None and flights[0] is not None:
         speed = speed_after_fall(fall.height, gravity, fall.drag)
         numbers, speeds, kept = [0], [speed], [0.5 * gravity * ends[0][0] / speed]
@@ -317,7 +312,7 @@ def _with_errors_from_scatter(
     from uncertainties import ufloat
 
     def again(error: float) -> _Found:
-        return found_at([ufloat(one, error) for one in moments])
+        return found_at([ufloat(time, error) for time in moments])
 
     small = 1e-6  # s; errors are proportional to it
     *_, speeds, kept = again(small)
@@ -343,14 +338,14 @@ def _with_scatter(
     """
     from uncertainties import ufloat
 
-    if any(not one.std_dev > 0.0 for one in found.kept):
+    if any(not restitution.std_dev > 0.0 for restitution in found.kept):
         return found, *laws_of(found.speeds, found.kept)
     mean, laws, scatter = laws_of(found.speeds, found.kept, **({} if known else {"most": 0.0}))
     meant = scatter_of(found.speeds, found.kept)
     note = meaning_of_excess(scatter, meant) if scatter else meaning_of_explained(meant)
     notes.extend([note] if note else [])
     if scatter and meant is not None and meant.cause == "timing":
-        times = [ufloat(one.nominal_value, meant.factor * one.std_dev) for one in found.moments]
+        times = [ufloat(time.n, meant.factor * time.s) for time in found.moments]
         found = found_at(times)
         mean, laws, scatter = laws_of(found.speeds, found.kept, most=0.0)
     return found, mean, laws, scatter
@@ -360,6 +355,6 @@ def _energy_kept(kept: Sequence[Any]) -> Any:
     """Return the mean of e²; its error includes the standard deviation from bounce to bounce."""
     from uncertainties import ufloat
 
-    squares = [one**2 for one in kept]
-    spread = float(np.std([one.nominal_value for one in squares], ddof=1)) if kept[1:] else 0.0
-    return sum(squares) / len(squares) + (ufloat(0.0, spread) if spread > 0.0 else 0.0)
+    energies = [restitution**2 for restitution in kept]
+    spread = float(np.std([nominal(energy) for energy in energies], ddof=1)) if kept[1:] else 0.0
+    return sum(energies) / len(energies) + (ufloat(0.0, spread) if spread > 0.0 else 0.0)

@@ -7,16 +7,14 @@ from typing import Any, Literal
 import numpy as np
 
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.quantities import Array, Number
+from stackbounce.measure.quantities import Array, Number, nominal
 from stackbounce.measure.statistics.regression import Fit, covariance_of, fit_with_excess_scatter
 
 __all__ = ["RestitutionLaw", "fit_line", "laws_of"]
 
-_MOST = 0.3  # largest excess scatter of restitutions
-_STEEPEST = (
-    30.0  # logarithm of a power law's restitution at 1 m/s; beyond it all speeds are far away
-)
-_ALIKE = 1e-6  # part of a speed by which speeds must differ for a line
+_MOST_SCATTER = 0.3  # excess scatter of restitutions that the fits allow for
+_STEEPEST = 30.0  # logarithm of a power law's restitution at 1 m/s: beyond, all speeds are far off
+_ALIKE = 1e-5  # of a speed: a line through closer ones is singular in double precision
 
 
 @dataclass(frozen=True)
@@ -70,10 +68,8 @@ def fit_line(
     if degree:
         _differ(speeds)
     x = [umath.log(speed) for speed in speeds] if power else list(speeds)
-    y = [umath.log(one) for one in kept] if power else list(kept)
-    design = np.vander(
-        [float(getattr(one, "nominal_value", one)) for one in x], degree + 1, increasing=True
-    )
+    y = [umath.log(restitution) for restitution in kept] if power else list(kept)
+    design = np.vander([nominal(speed) for speed in x], degree + 1, increasing=True)
     values = np.array([one.nominal_value for one in y])
     slope = 0.0
     if degree:
@@ -85,18 +81,18 @@ def fit_line(
 
 def _differ(speeds: Sequence[Any]) -> None:
     """Refuse speeds of which a line has no slope."""
-    known = [float(getattr(one, "nominal_value", one)) for one in speeds]
+    known = [nominal(speed) for speed in speeds]
     if max(known) - min(known) < _ALIKE * max(known):
         raise InvalidValue(f"impact speeds must differ, got {len(known)} of {known[0]:.4g} m/s")
 
 
 def laws_of(
-    speeds: Sequence[Any], kept: Sequence[Any], most: float = _MOST
+    speeds: Sequence[Any], kept: Sequence[Any], most: float = _MOST_SCATTER
 ) -> tuple[Number, tuple[RestitutionLaw, ...], float]:
     """Return the mean restitution, its laws, and the scatter about the linear one."""
     from uncertainties import correlated_values, umath
 
-    if any(np.isnan(one.std_dev) for one in kept):
+    if any(np.isnan(restitution.std_dev) for restitution in kept):
         return sum(kept) / len(kept), (), 0.0
     laws: list[RestitutionLaw] = []
     scatter = 0.0

@@ -92,12 +92,12 @@ class Bounces(Finding):
             parts[start] = nominal(self.drop_height if self.drag is None else self._speed)
         return parts
 
-    def told(self) -> dict[str, Any]:
+    def law_arguments(self) -> dict[str, Any]:
         """Return the mean restitution and, if a drop height was given, the impact speed."""
-        told: dict[str, Any] = {"restitution": self.mean}
+        found: dict[str, Any] = {"restitution": self.mean}
         if self.drop_height is not None and not self.inferred:
-            told["impact_speed"] = self._speed
-        return told
+            found["impact_speed"] = self._speed
+        return found
 
     @property
     def _speed(self) -> Any:

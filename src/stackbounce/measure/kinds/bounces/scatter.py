@@ -6,12 +6,13 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, nominal
 from stackbounce.measure.statistics.regression import covariance_of, least_squares
 
 __all__ = ["Scatter", "meaning_of_excess", "meaning_of_explained", "scatter_of"]
 
-_LEAST = 6  # restitutions that tell anything
+# Set by hand on the drops of `tests/synthetic/falls.py` with errors of the times or uneven floors.
+_FEWEST = 6  # restitutions that tell anything
 _CLEAR = 2.0  # standard deviations, or log-likelihood, by which a cause is told
 _EXPLAINED = 1.5  # times their errors: then the times may be the only cause
 _NOTABLE = 2e-3  # scatter of restitutions that is worth a note
@@ -67,10 +68,10 @@ def scatter_of(speeds: Sequence[Any], kept: Sequence[Any]) -> Scatter | None:
     ('timing', True, True)
     """
     count = len(kept)
-    if count < _LEAST:
+    if count < _FEWEST:
         return None
-    values = np.array([one.nominal_value for one in kept])
-    x = np.array([float(getattr(one, "nominal_value", one)) for one in speeds])
+    values = np.array([restitution.nominal_value for restitution in kept])
+    x = np.array([nominal(speed) for speed in speeds])
     design = np.stack([np.ones(count), x], axis=1)
     covariance = covariance_of(kept)
     plain = np.eye(count) - design @ np.linalg.pinv(design)
@@ -83,8 +84,8 @@ def scatter_of(speeds: Sequence[Any], kept: Sequence[Any]) -> Scatter | None:
     timing, factor = _best_factor(design, values, covariance)
     alone, _ = _best_factor(design, values, np.eye(count))
     if factor > _EXPLAINED:  # the errors are there, too
-        every = (covariance + q**2 * np.eye(count) for q in _SCATTERS)
-        alone = max(_likelihood(design, values, one) for one in every)
+        totals = (covariance + q**2 * np.eye(count) for q in _SCATTERS)
+        alone = max(_likelihood(design, values, total) for total in totals)
     cause: Literal["timing", "floor or spin", "unknown"] = "unknown"
     if lag_one < mean - _CLEAR * deviation or (lag_one < mean and timing > alone + _CLEAR):
         cause = "timing"

@@ -1,22 +1,76 @@
-"""A known contact time and restitution as a kind of measurement without a file."""
+"""A known contact time and restitution, as a result like those of the analyses."""
 
+from dataclasses import dataclass
 from typing import Any
 
-from stackbounce.measure.kind import Kind
+from stackbounce.errors import fraction
+from stackbounce.measure.constants import dynamic_stiffness
+from stackbounce.measure.finding import Finding
+from stackbounce.measure.quantities import Number, Row, known_rows, measured_if_given, nominal
+from stackbounce.measure.setup import Setup
 
-__all__ = ["CONTACT"]
-
-
-def _of_numbers(*, contact_time: Any = None, restitution: Any = None, mass: Any = None) -> Any:
-    from stackbounce.measure.kinds.contact.analysis import known_contact
-
-    return known_contact(contact_time=contact_time, restitution=restitution, mass=mass)
+__all__ = ["Known", "of_numbers"]
 
 
-CONTACT = Kind(
-    "contact",
-    "dynamic stiffness of a contact time",
-    of_numbers=_of_numbers,
-    starts_with=("contact_time", "restitution"),
-    typed="contact with the floor",
-)
+@dataclass(frozen=True)
+class Known(Finding):
+    """A contact with the floor as typed, without a file; made by `of_numbers`.
+
+    Attributes
+    ----------
+    contact_time : ufloat or None
+        In s.
+    restitution : ufloat or None
+        Of the bounce.
+    stiffness : ufloat or None
+        Dynamic, in N/m, where contact time and mass are known.
+    notes : tuple of str
+        What should be known about it, a sentence each.
+    """
+
+    contact_time: Number | None
+    restitution: Number | None
+    stiffness: Number | None
+    notes: tuple[str, ...] = ()
+
+    def rows(self) -> list[Row]:
+        """Return the table, the most important first."""
+        return known_rows(
+            [
+                ("dynamic stiffness", self.stiffness, "N/m"),
+                ("contact time", self.contact_time, "s"),
+                ("restitution", self.restitution, ""),
+            ]
+        )
+
+    def parts(self) -> dict[str, Any]:
+        """Return the floor's contact, as in a drop's TOML."""
+        numbers = {"stiffness": self.stiffness, "restitution": self.restitution}
+        known = {name: nominal(one) for name, one in numbers.items() if one is not None}
+        if not known:
+            return {}
+        law = "Hysteretic" if len(known) > 1 else "Spring" if "stiffness" in known else "Rigid"
+        return {"contact": {"law": law, **known}}
+
+
+def of_numbers(setup: Setup) -> Known:
+    """Return a contact with the floor from a contact time, a restitution or both.
+
+    Raises
+    ------
+    InvalidValue
+        If a number is out of its range.
+    InvalidType
+        If something has the wrong type.
+
+    Examples
+    --------
+    >>> for row in of_numbers(Setup(contact_time=5e-3, mass=0.057)).rows():
+    ...     print(row.name, f"{row.value.nominal_value:.4g}", row.unit)
+    dynamic stiffness 2.25e+04 N/m
+    contact time 0.005 s
+    """
+    time = measured_if_given("contact_time", setup.contact_time, "seconds")
+    kept = measured_if_given("restitution", setup.restitution, check=fraction)
+    known = time is not None and setup.mass is not None
+    return Known(time, kept, dynamic_stiffness(setup.mass, time) if known else None)

@@ -1,1 +1,15 @@
 """Heights of successive bounces: restitutions."""
+
+from stackbounce.measure.kind import IN_AIR, Kind
+
+__all__ = ["TABLE"]
+
+TABLE = Kind(
+    "table",
+    "restitution of each bounce, where its one column is heights",
+    f"{__name__}.kind",
+    options=("heights", "height_error", "repeated", "measured_to", *IN_AIR),
+    dimension="row",
+    starts_with=("heights",),
+    typed="heights of bounces",
+)

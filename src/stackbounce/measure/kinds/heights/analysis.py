@@ -2,23 +2,19 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any, Literal, TypeAlias
+from typing import Any
 
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.measure.drag import Drag
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.heights.result import Heights
-from stackbounce.measure.quantities import Number, deviation, nominal
+from stackbounce.measure.messages import Message, OptionHint
+from stackbounce.measure.quantities import Number, deviation
+from stackbounce.measure.setup import Place, lowest_point, places
 from stackbounce.measure.statistics.regression import widening
 
-__all__ = ["Place", "above_bottom", "fallen", "heights", "places"]
-
-Place: TypeAlias = Literal["bottom", "centre", "top"]
-"""The point of the ball that a height was read at."""
-
-_UP = {"bottom": 0.0, "centre": 0.5, "top": 1.0}  # diameters above the lowest point
+__all__ = ["heights"]
 
 
 def heights(
@@ -93,13 +89,14 @@ def heights(
     error = math.nan
     if height_error is not None:
         error = deviation("height", positive("height_error", height_error, "metres"))
-    size = _size(diameter, *points)
-    listed = _listed(bounce_heights)
-    start = _counted("drop_height", _number("drop_height", drop_height, error), points[0], size)
-    names = [f"bounce_heights.{k}" for k in range(len(listed))]
+
+    def counted_from_bottom(name: str, height: Any, point: Place) -> Number:
+        return lowest_point(name, _with_error(name, height, error), point, diameter)
+
+    start = counted_from_bottom("drop_height", drop_height, points[0])
     counted = [
-        _counted(name, _number(name, one, error), points[1], size)
-        for name, one in zip(names, listed, strict=True)
+        counted_from_bottom(f"bounce_heights.{k}", height, points[1])
+        for k, height in enumerate(_listed(bounce_heights))
     ]
     before = [start] * len(counted) if repeated else [start, *counted[:-1]]
     kept = [_kept(first, after, drag) for first, after in zip(before, counted, strict=True)]
@@ -108,72 +105,6 @@ def heights(
     if drag is not None:
         notes.insert(0, drag.note(_mean(start, counted, repeated, None)))
     return Heights(start, tuple(counted), tuple(kept), mean, bool(repeated), tuple(notes), drag)
-
-
-def above_bottom(measured_to: str, diameter: float | Number | None = None) -> Any:
-    """Return how far the bottom, centre or top of a ball lies above its lowest point.
-
-    Parameters
-    ----------
-    measured_to : {"bottom", "centre", "top"}
-        Which point of the ball.
-    diameter : float or ufloat, optional
-        In m; needed but for the bottom.
-
-    Returns
-    -------
-    float or ufloat
-        In m.
-
-    Raises
-    ------
-    InvalidValue
-        If the diameter is missing or not above 0.
-
-    Examples
-    --------
-    >>> above_bottom("centre", 0.066)
-    0.033
-    """
-    return _UP[measured_to] * _size(diameter, measured_to)
-
-
-def fallen(height: Any, measured_to: object, diameter: Any) -> Any:
-    """Return the drop height of the ball's lowest point; None where none is given.
-
-    Examples
-    --------
-    >>> fallen(1.0, "top", 0.065)
-    0.935
-    """
-    if height is None:
-        return None
-    place, _ = places(measured_to)
-    return _counted("height", _number("height", height, 0.0), place, _size(diameter, place))
-
-
-def places(measured_to: object) -> tuple[str, str]:
-    """Return the points that the drop's height and the bounces' were measured to.
-
-    Raises
-    ------
-    InvalidType, InvalidValue
-        If it is neither one of the three nor a pair of them.
-
-    Examples
-    --------
-    >>> places("centre"), places(("bottom", "top"))
-    (('centre', 'centre'), ('bottom', 'top'))
-    """
-    pair = (measured_to, measured_to) if isinstance(measured_to, str) else measured_to
-    if not (isinstance(pair, tuple | list) and len(pair) == 2):
-        raise InvalidType(
-            f"measured_to must be bottom, centre or top, or a pair, got {shown(measured_to)}"
-        )
-    for place in pair:
-        if place not in _UP:
-            raise InvalidValue(f"measured_to must be bottom, centre or top, got {shown(place)}")
-    return str(pair[0]), str(pair[1])
 
 
 def _listed(values: Any) -> list[Any]:
@@ -188,37 +119,10 @@ def _listed(values: Any) -> list[Any]:
     return listed
 
 
-def _number(name: str, value: Any, error: float) -> Any:
+def _with_error(name: str, value: Any, error: float) -> Number:
     from uncertainties import UFloat, ufloat
 
-    if isinstance(value, UFloat):
-        positive(name, value.nominal_value, "metres")
-        return value
-    number = positive(name, value, "metres")
-    return number if error == 0.0 else ufloat(number, error)
-
-
-def _size(diameter: Any, *places: str) -> Any:
-    if diameter is None:
-        away = [place for place in places if _UP[place]]
-        if away:
-            raise InvalidValue(
-                f"diameter must be given where a height was measured to the {away[0]}, got None"
-            )
-        return 0.0
-    return _number("diameter", diameter, 0.0)  # a number is taken to be exact
-
-
-def _counted(name: str, height: Any, place: str, size: Any) -> Any:
-    """Return a height of the ball's lowest point."""
-    counted = height - _UP[place] * size
-    least, got = nominal(_UP[place] * size), nominal(height)
-    if got <= least:
-        raise InvalidValue(
-            f"{name} must be more than the height of the ball's {place} on the floor "
-            f"({least:g} m), got {got:g} m"
-        )
-    return counted
+    return value if isinstance(value, UFloat) else ufloat(positive(name, value, "metres"), error)
 
 
 def _kept(first: Any, after: Any, drag: Drag | None) -> Any:
@@ -239,7 +143,7 @@ def _mean(start: Any, counted: list[Any], repeated: bool, drag: Drag | None) -> 
     mean = sum(counted) / len(counted)
     if len(counted) > 1:
         # The scatter of the heights includes their reading errors.
-        values = np.array([one.nominal_value for one in counted])
+        values = np.array([height.nominal_value for height in counted])
         error = float(values.std(ddof=1)) / math.sqrt(len(values)) * widening(len(values) - 1)
         mean = ufloat(values.mean(), error) if error else mean
     return _kept(start, mean, drag)
@@ -247,11 +151,11 @@ def _mean(start: Any, counted: list[Any], repeated: bool, drag: Drag | None) -> 
 
 def _notes(before: list[Any], counted: list[Any]) -> list[str]:
     notes: list[str] = []
-    if any(math.isnan(one.std_dev) for one in [before[0], *counted]):
+    if any(math.isnan(height.std_dev) for height in [before[0], *counted]):
         notes.append(
-            Said(
+            Message(
                 "A height has no error, so that the restitutions' are unknown: give ",
-                Hint({"height_error": None}),
+                OptionHint({"height_error": None}),
                 ".",
             )
         )

@@ -62,7 +62,7 @@ class Heights(Finding):
             return {"impact_speed": nominal(self._speed), **contact}
         return {"height": nominal(self.drop_height), **contact}
 
-    def told(self) -> dict[str, Any]:
+    def law_arguments(self) -> dict[str, Any]:
         """Return the restitution and the impact speed, at standard gravity."""
         return {"restitution": self.mean, "impact_speed": self._speed}
 

@@ -3,12 +3,10 @@
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from stackbounce.errors import InvalidType, InvalidValue, non_negative, shown, whole
 from stackbounce.measure.kinds.press.branches import Cycle, Record, cycles, record_of
+from stackbounce.measure.kinds.press.cycle import result_of
 from stackbounce.measure.kinds.press.notes import sentences
-from stackbounce.measure.kinds.press.numbers import result_of, unloading_only
 from stackbounce.measure.kinds.press.result import Press
 from stackbounce.measure.quantities import measured
 
@@ -93,53 +91,62 @@ def press(
         raise InvalidType(f"tabulated must be True or False, got {shown(tabulated)}")
     soft = measured("compliance", compliance, "m/N", non_negative)
     at = float(soft.nominal_value)
-    one = replace(_press(record_of(data, at, sign), cycle), tabulated=tabulated)
+    found = replace(_press(record_of(data, at, sign), cycle), tabulated=tabulated)
     if soft.std_dev == 0.0:
-        return one
-    moved = _press(record_of(data, at + float(soft.std_dev), sign), one.cycle)
-    return _with_compliance(one, moved, (soft - at) / soft.std_dev)
+        return found
+    moved = _press(record_of(data, at + float(soft.std_dev), sign), found.cycle)
+    unit = (soft - at) / soft.std_dev
+    changes = {
+        name: value + (getattr(moved, name).nominal_value - value.nominal_value) * unit
+        for name, value in vars(found).items()
+        if hasattr(value, "std_dev") and getattr(moved, name) is not None
+    }
+    return replace(found, **changes)
 
 
-def _press(record: Record, cycle: int | None) -> Press:
+def _press(record: Record, number: int | None) -> Press:
     found = cycles(record)
-    chosen = _chosen(found, cycle)
-    try:
-        if len(found[chosen].loading):
-            own = {i: result_of(record, one) for i, one in enumerate(found) if len(one.loading)}
-        else:
-            own = {chosen: unloading_only(record, found[chosen])}
-    except (ArithmeticError, np.linalg.LinAlgError):
-        span = f"{np.ptp(record.compression):.3g} m and {np.ptp(record.force):.3g} N"
-        raise InvalidValue(
-            f"a press curve must follow a power law in numbers of a finite size, got {span}: are "
-            "the columns and their units right?"
-        ) from None
-    own = {i: replace(one, cycle=i, cycles=len(found)) for i, one in own.items()}
-    result = own.pop(chosen)
-    result = replace(result, others=tuple(own.values()))
+    chosen = _chosen(found, number)
+    if len(found[chosen].loading):
+        results = {k: result_of(record, one) for k, one in enumerate(found) if len(one.loading)}
+    else:
+        results = {chosen: _unloading_only(record, found[chosen])}
+    results = {k: replace(one, cycle=k, cycles=len(found)) for k, one in results.items()}
+    result = results.pop(chosen)
+    result = replace(result, others=tuple(results.values()))
     notes = result.notes or sentences(result, len(found[chosen].held))
     return replace(result, notes=(*record.notes, *notes))
 
 
-def _chosen(found: list[Cycle], cycle: int | None) -> int:
+def _chosen(found: list[Cycle], number: int | None) -> int:
     """Return the place of the cycle that was asked for, or of the best one."""
-    if cycle is not None:
-        place = whole("cycle", cycle, -len(found), len(found) - 1)
+    if number is not None:
+        place = whole("cycle", number, -len(found), len(found) - 1)
         if not len(found[place].loading) and not len(found[place].unloading):
-            raise InvalidValue(f"cycle must be one with enough points, got {cycle}")
+            raise InvalidValue(f"cycle must be one with enough points, got {number}")
         return place % len(found)
     # a cycle with both branches is preferred to a loading alone, that to an unloading alone
-    worth = [2 * bool(len(one.loading)) + bool(len(one.unloading)) for one in found]
+    worth = [2 * bool(len(cycle.loading)) + bool(len(cycle.unloading)) for cycle in found]
     if max(worth) > 0:
         return len(worth) - 1 - worth[::-1].index(max(worth))
     raise InvalidValue("a press curve must have a loading or an unloading of 6 points, got none")
 
 
-def _with_compliance(one: Press, moved: Press, unit: Any) -> Press:
-    """Return a result with the error of the machine's compliance added to its errors."""
-    changes: dict[str, Any] = {}
-    for name, value in vars(one).items():
-        other = getattr(moved, name)
-        if hasattr(value, "std_dev") and other is not None:
-            changes[name] = value + (other.nominal_value - value.nominal_value) * unit
-    return replace(one, **changes)
+def _unloading_only(record: Record, cycle: Cycle) -> Press:
+    """Return the peak, the returned work and the exponent n of an unloading without a loading."""
+    # Read backwards it is a loading, whose exponent is n.
+    back = replace(cycle, loading=cycle.unloading[::-1], unloading=cycle.loading, sampled=False)
+    mirror = result_of(record, back)
+    note = "There is no loading curve: only the peak, the energy returned and n can be determined."
+    return Press(
+        secant_stiffness=mirror.secant_stiffness,
+        peak_compression=mirror.peak_compression,
+        peak_force=mirror.peak_force,
+        work_out=mirror.work_in,
+        unloading_exponent=mirror.exponent,
+        contact=mirror.contact,
+        zero=mirror.zero,
+        unloading=mirror.loading,
+        record=mirror.record,
+        notes=(note,),
+    )

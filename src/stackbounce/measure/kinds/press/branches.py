@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 __all__ = ["Cycle", "Record", "cycles", "record_of"]
 
-LEAST = 6  # points of a branch, below which nothing is fitted
-_DEEP = 0.15  # of the range: smaller reversals are part of a branch
-_HELD = 1e-3  # of the range, within which the compression is held
-_TOUCHES = 5.0  # standard errors, which the slope of the force must exceed
+_LEAST_POINTS = 6  # of a branch that is fitted, which has three parameters
+_LEAST_REVERSAL = 0.15  # of the range of compressions: smaller reversals belong to a branch
+_HELD_WITHIN = 1e-3  # of the range of compressions, by which one that is held may change
+_LEAST_SLOPE = 5.0  # standard errors of the force's slope, which noise does not reach
 
 
 @dataclass(frozen=True)
@@ -88,9 +88,10 @@ def record_of(data: "xr.Dataset | Any", compliance: float, sign: int | None) -> 
     if not good.all():
         notes.append(f"{int((~good).sum())} points without a number were left out.")
     compression, force = compression[good], force[good]
-    if len(force) < LEAST:
+    if len(force) < _LEAST_POINTS:
         raise InvalidValue(
-            f"a press curve must have at least {LEAST} points with numbers, got {len(force)}"
+            f"a press curve must have at least {_LEAST_POINTS} points with numbers, "
+            f"got {len(force)}"
         )
     if np.ptp(compression) == 0.0 or np.ptp(force) == 0.0:
         constant = "compression" if np.ptp(compression) == 0.0 else "force"
@@ -114,7 +115,7 @@ def cycles(record: Record) -> list[Cycle]:
 
     path = record.compression
     low, high = float(path.min()), float(path.max())
-    deep = max(_DEEP * (high - low), 8.0 * record.jitter)
+    deep = max(_LEAST_REVERSAL * (high - low), 8.0 * record.jitter)
     padded = np.concatenate([[low - 1.0], path, [low - 1.0]])
     padded[[0, -1]] -= 10.0 * (high - low)  # an end of the record can be a peak
     peaks = find_peaks(padded, prominence=min(deep, 0.9 * (high - low)))[0] - 1
@@ -137,7 +138,7 @@ def _oriented(compression: Array, force: Array, sign: int | None) -> tuple[Array
         force = -force
         notes.append("The sign of the force was reversed, so that compression is positive.")
     line = linregress(compression, force)
-    if abs(line.slope) < _TOUCHES * line.stderr:
+    if abs(line.slope) < _LEAST_SLOPE * line.stderr:
         raise InvalidValue(
             "force must rise with the compression beyond its noise, "
             f"got a slope of ({line.slope:.3g} ± {line.stderr:.2g}) N/m"
@@ -151,13 +152,13 @@ def _oriented(compression: Array, force: Array, sign: int | None) -> tuple[Array
 def _cycle(record: Record, start: int, peak: int, end: int) -> Cycle:
     """Return a cycle around a peak, between the valleys (or ends) before and after it."""
     path = record.compression
-    reach = max(_HELD * float(np.ptp(path)), 4.0 * record.jitter)
+    reach = max(_HELD_WITHIN * float(np.ptp(path)), 4.0 * record.jitter)
     near = np.flatnonzero(path[start : end + 1] >= path[peak] - reach) + start
     first, last = int(near[0]), int(near[-1])
     step = float(np.median(np.abs(np.diff(path[start : end + 1]))))
     # points near the peak of a press that never stands still
     ramp = 2.0 * reach / step + 3.0 if step > 0.0 else 3.0
-    still = last - first + 1 > 2.0 * ramp and last - first + 1 >= LEAST
+    still = last - first + 1 > 2.0 * ramp and last - first + 1 >= _LEAST_POINTS
     if still:
         held = np.arange(first, last + 1)
         level, error = float(np.median(path[held])), record.jitter / np.sqrt(len(held))
@@ -165,7 +166,7 @@ def _cycle(record: Record, start: int, peak: int, end: int) -> Cycle:
         first, last, held = peak, peak + 1, np.empty(0, np.intp)
         level, error = _turn(record, start, peak, end)
     loading, unloading = (
-        places if len(places) >= LEAST else places[:0]
+        places if len(places) >= _LEAST_POINTS else places[:0]
         for places in (np.arange(start, first + 1), np.arange(last, end + 1))
     )
     sampled = not still and level == path[peak]

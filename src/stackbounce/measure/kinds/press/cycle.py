@@ -1,11 +1,12 @@
-"""One cycle of a press record: its fits and works, and the covariance of all numbers."""
+"""One cycle of a press record: its fits and works, with the covariance of all numbers."""
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds.press.branches import Cycle, Record
 from stackbounce.measure.kinds.press.fits import (
     PowerFit,
@@ -14,23 +15,28 @@ from stackbounce.measure.kinds.press.fits import (
     power_law,
     rough_contact,
 )
+from stackbounce.measure.kinds.press.result import Curve, Press
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import quantisation_error, trapezoid
 from stackbounce.measure.statistics.ar_noise import Noise
 
-__all__ = ["Branch", "Found", "analysed"]
+__all__ = ["result_of"]
 
-_MOST = 4000  # points of a branch; longer ones are averaged in groups
-_ALIKE = 1.5  # times, that the residuals of one branch may be larger than the other's
-_EVEN = 0.9  # of the largest noise: above it all points weigh the same
-_MARGIN = 0.03  # of the compression, which no slack point may be nearer to the contact
-_ENOUGH = 5  # slack points that tell the zero of the force
-_TAIL = 0.05  # of the points in contact, whose mean residual corrects the peak force
+# Limits that were set by what recovered the truth in simulated records (benchmarks/coverage/press).
+_MOST_POINTS = 4000  # of a branch; a longer one is averaged in groups
+_SHARED_NOISE = 1.5  # largest ratio of the residuals of two branches that share one noise model
+_EQUAL_WEIGHTS = 0.9  # smallest over largest noise of the points, above which all weigh the same
+_SLACK_MARGIN = 0.03  # of the peak compression: slack points are further from the contact
+_LEAST_SLACK = 5  # points of slack from which the zero of the force is found
+_TAIL = 0.05  # of the points in contact: their mean residual corrects the peak force
+_LARGEST_LOG = 700.0  # of the stiffness's C**p, whose size a float can hold
+_WAVES = 9  # degree of the polynomial that makes up the smooth part of residuals
+_SMALL_MISFIT = 0.01  # of the peak force, below which the smooth part does not matter
+_CLEAR_MISFIT = 5.0  # times what noise adds to the smooth part: up to it, the curve fits
 
 
-@dataclass(frozen=True)
-class Branch:
-    """The points of a branch: compression, force, place in the record; their fit's residuals.
+class _Branch(NamedTuple):
+    """The points of a branch: compression, force, place in the record.
 
     `first` is the place of the first one among all points, those of the loading being before those
     of the unloading.
@@ -40,30 +46,6 @@ class Branch:
     x: Array
     y: Array
     time: Array
-    residual: Array
-
-
-class Found(NamedTuple):
-    """What one cycle gives, in the record's units.
-
-    Parameters
-    ----------
-    values : dict of str to float
-        The numbers, by the names that `Press` has; and `top` and `top_out`, the forces of the two
-        fits at the peak.
-    covariance : ndarray
-        In the order of `values`.
-    level : ndarray
-        (N,) the zero of the force at each point of the record.
-    loading, unloading : Branch
-        The points; the zero of the force is subtracted.
-    """
-
-    values: dict[str, float]
-    covariance: Array
-    level: Array
-    loading: Branch
-    unloading: Branch
 
 
 class _Number(NamedTuple):
@@ -73,8 +55,8 @@ class _Number(NamedTuple):
     row: Array
 
 
-def analysed(record: Record, cycle: Cycle) -> Found:
-    """Return everything that follows from a cycle with a loading.
+def result_of(record: Record, cycle: Cycle) -> Press:
+    """Return what one cycle with a loading gives, without its notes.
 
     Parameters
     ----------
@@ -85,24 +67,23 @@ def analysed(record: Record, cycle: Cycle) -> Found:
 
     Returns
     -------
-    Found
+    Press
     """
     up = _branch(record, cycle.loading, 0)
     down = _branch(record, cycle.unloading, len(up.x))
     contact, exponent = rough_contact(up.x, up.y)
     zero = _zero(up, down, contact, cycle.peak, record)
-    up, down = (replace(one, y=one.y - zero.level(one.time)) for one in (up, down))
+    up, down = (one._replace(y=one.y - zero.level(one.time)) for one in (up, down))
     length = max(cycle.peak - contact, 1e-3 * float(np.ptp(up.x)))
     first = np.array([_top(up.y[::-1]), np.log(exponent), np.log(length)])
     fit, scale = _fit(record, up, cycle.peak, first, 3)
-    numbers, theta = _loading(up, fit, cycle.peak, zero)
+    numbers, theta = _loading(up, fit, zero)
     fits, scales = [fit], [scale]
     if len(down.x):
         first = np.array([_top(down.y), np.log(2.0), fit.values[2]])
         back, _ = _fit(record, down, cycle.peak, first, 2)
-        fits, scales = [fit, back], [scale, _scale(record, down, cycle.peak, back)]
-        numbers |= _unloading(down, back, cycle.peak, zero, theta)
-        down = replace(down, residual=back.residual)
+        fits, scales = [fit, back], [scale, _scale(record, down, back)]
+        numbers |= _unloading(down, back, zero, theta)
     rows = np.array([one.row for one in numbers.values()])
     values = {name: one.value for name, one in numbers.items()}
     covariance = (
@@ -110,19 +91,75 @@ def analysed(record: Record, cycle: Cycle) -> Found:
         + _turning_point_covariance(values, rows[:, len(up.x) - 1], cycle)
         + _quantisation_covariance(rows, record, zero)
     )
-    level = zero.level(np.arange(float(len(record.force))))
-    return Found(values, covariance, level, replace(up, residual=fit.residual), down)
+    contact, peak = values["contact"], values["peak_force"]
+    curves = [_curve(*one, contact, peak) for one in zip((up, down), fits, strict=False)]
+    return Press(
+        **_derived(_correlated(values, covariance)),
+        loading=curves[0],
+        unloading=curves[1] if len(curves) > 1 else None,
+        record=(
+            record.compression - contact,
+            record.force - zero.level(np.arange(float(len(record.force)))),
+        ),
+    )
 
 
-def _branch(record: Record, places: NDArray[np.intp], first: int) -> Branch:
+def _derived(numbers: dict[str, Any]) -> dict[str, Any]:
+    """Return the numbers of a result, from those of the fits and works."""
+    top, top_out = numbers.pop("top"), numbers.pop("top_out", None)
+    p, length = numbers["exponent"], numbers["peak_compression"]
+    numbers |= {
+        "stiffness": top / length**p,
+        "tangent_stiffness": p * top / length,
+        "secant_stiffness": numbers["peak_force"] / length,
+    }
+    work, back = numbers["work_in"], numbers.get("work_out")
+    if back is not None and work.nominal_value > 0.0:
+        kept = back / work
+        numbers |= {"loss": 1.0 - kept, "relaxed": top - top_out}
+        if kept.nominal_value > 0.0:
+            numbers |= {"restitution": kept**0.5, "energy_exponent": (p + 1.0) / kept - 1.0}
+    return numbers
+
+
+def _correlated(values: dict[str, float], covariance: Array) -> dict[str, Any]:
+    """Return numbers with their errors and correlations."""
+    from uncertainties import correlated_values_norm
+
+    scale = np.sqrt(np.clip(np.diag(covariance), 0.0, None))
+    scale = np.where(scale > 0.0, scale, 0.0)
+    both = np.outer(scale, scale)
+    correlations = np.eye(len(scale))
+    np.divide(covariance, both, out=correlations, where=both > 0.0)
+    known = list(zip(values.values(), scale.tolist(), strict=True))
+    return dict(zip(values, correlated_values_norm(known, correlations), strict=True))
+
+
+def _curve(branch: _Branch, fit: PowerFit, contact: float, peak: float) -> Curve:
+    """Return a branch with its fit; its residuals are divided into a smooth part and noise."""
+    residual = fit.residual
+    count = len(residual)
+    waves = min(_WAVES, count // 3)
+    basis = np.polynomial.chebyshev.chebvander(np.linspace(-1.0, 1.0, count), waves)
+    smooth = float(((np.linalg.qr(basis)[0].T @ residual) ** 2).sum())
+    rest = max(float(residual @ residual) - smooth, 0.0) / max(1, count - waves - 1)
+    expected = rest * (waves + 1)
+    misfit = float(np.sqrt(max(smooth - expected, 0.0) / count))
+    share = misfit / peak if peak > 0.0 else float("inf")
+    fits = share < _SMALL_MISFIT or smooth <= _CLEAR_MISFIT * expected
+    noise = float(np.sqrt(rest))
+    return Curve(branch.x - contact, branch.y, branch.y - residual, share, noise, fits)
+
+
+def _branch(record: Record, places: NDArray[np.intp], first: int) -> _Branch:
     """Return the points of a branch, averaged in groups if there are many."""
     x, y, time = record.compression[places], record.force[places], places.astype(float)
-    size = -(-len(places) // _MOST)
+    size = -(-len(places) // _MOST_POINTS)
     if size > 1:
         edges = np.arange(0, len(places), size)
         counts = np.diff(np.append(edges, len(places)))
         x, y, time = (np.add.reduceat(one, edges) / counts for one in (x, y, time))
-    return Branch(first, x, y, time, np.empty(0))
+    return _Branch(first, x, y, time)
 
 
 @dataclass(frozen=True)
@@ -156,14 +193,14 @@ class _Zero:
         """Return the zero at some places in the record."""
         return self.columns(time) @ self.values
 
-    def row(self, weights: Array, branch: Branch) -> Array:
+    def row(self, weights: Array, branch: _Branch) -> Array:
         """Return the derivatives of sums over a branch's forces by the noise of all points.
 
         Parameters
         ----------
         weights : ndarray
             (..., n) weight of each force, less the zero, in the sums.
-        branch : Branch
+        branch : _Branch
             With n points.
         """
         rows = -(weights @ self.columns(branch.time)) @ self.weights
@@ -171,21 +208,20 @@ class _Zero:
         return np.asarray(rows)
 
 
-def _zero(up: Branch, down: Branch, contact: float, peak: float, record: Record) -> _Zero:
+def _zero(up: _Branch, down: _Branch, contact: float, peak: float, record: Record) -> _Zero:
     """Fit the zero of the force: unknown without slack, a line if there is slack on both sides."""
-    edge = contact - max(_MARGIN * (peak - contact), 3.0 * record.jitter)
+    edge = contact - max(_SLACK_MARGIN * (peak - contact), 3.0 * record.jitter)
     before = np.flatnonzero(up.x < edge)
     after = np.flatnonzero(down.x < edge) + len(up.x)
     slack = np.concatenate([before, after])
     time, force = np.append(up.time, down.time), np.append(up.y, down.y)
-    count = 0 if len(before) < _ENOUGH else 1 if len(after) < _ENOUGH else 2
-    empty = _Zero(float(time.mean()), float(np.ptp(time)), np.zeros(count), np.empty(0), 0.0)
-    if count == 0:
-        return replace(empty, weights=np.zeros((0, len(time))))
+    count = 0 if len(before) < _LEAST_SLACK else 1 if len(after) < _LEAST_SLACK else 2
     weights = np.zeros((count, len(time)))
-    weights[:, slack] = np.linalg.pinv(empty.columns(time[slack]))
-    scatter = float(force[slack].std())
-    return replace(empty, values=weights @ force, weights=weights, scatter=scatter)
+    unknown = _Zero(float(time.mean()), float(np.ptp(time)), np.zeros(count), weights, 0.0)
+    if count == 0:
+        return unknown
+    weights[:, slack] = np.linalg.pinv(unknown.columns(time[slack]))
+    return replace(unknown, values=weights @ force, scatter=float(force[slack].std()))
 
 
 def _top(y: Array) -> float:
@@ -194,21 +230,35 @@ def _top(y: Array) -> float:
 
 
 def _fit(
-    record: Record, branch: Branch, peak: float, first: Array, free: int
+    record: Record, branch: _Branch, peak: float, first: Array, free: int
 ) -> tuple[PowerFit, Array]:
     """Return the fit of a branch, and the relative noise by which its points were weighted."""
-    fit = fit_power_law(branch.x, branch.y, peak, first, free)
-    scale = _scale(record, branch, peak, fit)
-    if scale.min() < _EVEN * scale.max():
-        fit = fit_power_law(branch.x, branch.y, peak, first, free, scale)
+    fit = _finite(fit_power_law(branch.x, branch.y, peak, first, free), branch, record)
+    scale = _scale(record, branch, fit)
+    if scale.min() < _EQUAL_WEIGHTS * scale.max():
+        again = fit_power_law(branch.x, branch.y, peak, first, free, scale)
+        fit = _finite(again, branch, record)
     return fit, scale
 
 
-def _scale(record: Record, branch: Branch, peak: float, fit: PowerFit) -> Array:
+def _finite(fit: PowerFit, branch: _Branch, record: Record) -> PowerFit:
+    """Return a fit; refuse a loading of no point in contact, or whose ``C**p`` no float holds."""
+    _, log_p, log_c = fit.values
+    if fit.jacobian.shape[1] < 3 or (
+        abs(log_c) * max(1.0, np.exp(log_p)) < _LARGEST_LOG and (fit.ratio(branch.x) > 0.0).any()
+    ):
+        return fit
+    span = f"{np.ptp(record.compression):.3g} m and {np.ptp(record.force):.3g} N"
+    raise InvalidValue(
+        f"a press curve must follow a power law in numbers of a finite size, got {span}: are "
+        "the columns and their units right?"
+    )
+
+
+def _scale(record: Record, branch: _Branch, fit: PowerFit) -> Array:
     """Return the relative force noise of each point, with compression noise times the slope."""
-    top, p, c = _plain(fit.values)
-    ratio = 1.0 - (peak - branch.x) / c
-    slope = top * p / c * power(ratio, max(p - 1.0, 0.0))
+    top, p, c = fit.plain
+    slope = top * p / c * power(fit.ratio(branch.x), max(p - 1.0, 0.0))
     noise = np.hypot(record.hiss, slope * record.jitter)
     unit = np.hypot(record.hiss, top / c * record.jitter)
     if unit <= 0.0 or not np.isfinite(noise).all():
@@ -216,13 +266,11 @@ def _scale(record: Record, branch: Branch, peak: float, fit: PowerFit) -> Array:
     return np.asarray(np.clip(noise / unit, 1e-3, 1e3))
 
 
-def _loading(
-    up: Branch, fit: PowerFit, peak: float, zero: _Zero
-) -> tuple[dict[str, _Number], Array]:
+def _loading(up: _Branch, fit: PowerFit, zero: _Zero) -> tuple[dict[str, _Number], Array]:
     """Return the loading's numbers, and derivatives (3, N) of P, ln p and ln C by the noise."""
     theta = zero.row(fit.weights, up)
-    top, p, c = _plain(fit.values)
-    inside = np.flatnonzero(1.0 - (peak - up.x) / c > 0.0)
+    top, p, c = fit.plain
+    inside = np.flatnonzero(fit.ratio(up.x) > 0.0)
     tail = np.zeros(len(up.x))
     tail[inside[-max(3, int(_TAIL * len(inside))) :]] = 1.0
     tail /= tail.sum()
@@ -231,46 +279,41 @@ def _loading(
     places = np.arange(begin, len(up.x) - 1)  # the peak itself takes the place of the last one
     # the straight line through the contact
     x = np.zeros(len(up.x))
-    x[inside] = up.x[inside] - (peak - c)
+    x[inside] = up.x[inside] - (fit.peak - c)
     square = float(x @ x)
     slope = float(x @ up.y) / square
     # by ln C, which moves all x: dk = (Σ y - 2 k Σ x) C/Σ x² · dlnC
     by_length = c * (float(up.y[inside].sum()) - 2.0 * slope * float(x.sum())) / square
-    found = {
+    level = zero.values[0] if len(zero.values) else 0.0
+    return {
         "top": _Number(top, theta[0]),
         "exponent": _Number(p, p * theta[1]),
         "peak_compression": _Number(c, c * theta[2]),
-        "contact": _Number(peak - c, -c * theta[2]),
+        "contact": _Number(fit.peak - c, -c * theta[2]),
         "peak_force": _Number(top + float(tail @ fit.residual), theta[0] + lift),
-        "work_in": _work(up, places, fit.values, theta, peak, zero),
+        "work_in": _work(up, places, fit, theta, zero),
         "linear_stiffness": _Number(slope, zero.row(x / square, up) + by_length * theta[2]),
-        "zero": _Number(0.0, np.zeros(theta.shape[1])),
-    }
-    if len(zero.values):
-        found["zero"] = _Number(float(zero.values[0]), zero.weights[0])
-    return found, theta
+        "zero": _Number(float(level), zero.weights[:1].sum(axis=0)),
+    }, theta
 
 
-def _unloading(
-    down: Branch, fit: PowerFit, peak: float, zero: _Zero, theta: Array
-) -> dict[str, _Number]:
+def _unloading(down: _Branch, fit: PowerFit, zero: _Zero, theta: Array) -> dict[str, _Number]:
     """Return the unloading's numbers; the contact and its derivatives `theta` are the loading's."""
-    by_length = power_law(down.x, peak, fit.values)[1][:, 2]
+    by_length = power_law(down.x, fit.peak, fit.values)[1][:, 2]
     own = zero.row(fit.weights, down) - np.outer(fit.weights @ by_length, theta[2])
-    top, n, c = _plain(fit.values)
-    inside = np.flatnonzero((1.0 - (peak - down.x) / c > 0.0) & (down.x < peak))
+    top, n, _ = fit.plain
+    inside = np.flatnonzero((fit.ratio(down.x) > 0.0) & (down.x < fit.peak))
     ends = (inside[0], inside[-1] + 1) if len(inside) else (0, 1)
     places = np.arange(*ends)[::-1]
-    rows = np.vstack([own, theta[2]])
     return {
         "top_out": _Number(top, own[0]),
         "unloading_exponent": _Number(n, n * own[1]),
-        "work_out": _work(down, places, fit.values, rows, peak, zero),
+        "work_out": _work(down, places, fit, np.vstack([own, theta[2]]), zero),
     }
 
 
 def _work(
-    branch: Branch, places: NDArray[np.intp], values: Array, rows: Array, peak: float, zero: _Zero
+    branch: _Branch, places: NDArray[np.intp], fit: PowerFit, rows: Array, zero: _Zero
 ) -> _Number:
     """Return the work between contact and peak, by the trapezoidal rule.
 
@@ -278,24 +321,24 @@ def _work(
 
     Parameters
     ----------
-    branch : Branch
+    branch : _Branch
         The points.
     places : ndarray of int
         Those that are used, from the contact to the peak, at which the force is that of the fit.
-    values, rows : ndarray
-        (3,) P, ln p and ln C of the fit, and (3, N) their derivatives by the noise.
-    peak : float
-        Where the force is P.
+    fit : PowerFit
+        Of the branch.
+    rows : ndarray
+        (3, N) derivatives of P, ln p and ln C of the fit by the noise.
     zero : _Zero
         Of the force.
     """
-    top, p, c = _plain(values)
-    x = np.append(np.maximum(branch.x[places], peak - c), peak)
+    top, p, c = fit.plain
+    x = np.append(np.maximum(branch.x[places], fit.peak - c), fit.peak)
     each = trapezoid(x)
     weights = np.zeros(len(branch.x))
     weights[places] = each[:-1]
     # the integral of the fit from the contact to the first point, by P, ln p and ln C
-    t = max(0.0, 1.0 - (peak - float(x[0])) / c)
+    t = max(0.0, fit.ratio(float(x[0])))
     area, slopes = 0.0, np.zeros(3)
     if t > 0.0:
         area = c / (p + 1.0) * t ** (p + 1.0)
@@ -304,11 +347,6 @@ def _work(
     slopes[0] += each[-1]
     total = float(weights @ branch.y) + top * float(slopes[0])
     return _Number(total, zero.row(weights, branch) + slopes @ rows)
-
-
-def _plain(values: Array) -> tuple[float, float, float]:
-    """Return P, p and C of the values of a fit."""
-    return float(values[0]), float(np.exp(values[1])), float(np.exp(values[2]))
 
 
 def _covariance(rows: Array, fits: list[PowerFit], scales: list[Array]) -> Array:
@@ -323,13 +361,13 @@ def _covariance(rows: Array, fits: list[PowerFit], scales: list[Array]) -> Array
         Noise(fit.residual / scale, fit.jacobian / scale[:, None])
         for fit, scale in zip(fits, scales, strict=True)
     ]
-    sizes = [float(np.sqrt((one.residual**2).mean())) for one in noises]
-    if len(noises) > 1 and max(sizes) <= _ALIKE * min(sizes):
-        residual = np.concatenate([one.residual for one in noises])
-        noises = [Noise(residual, block_diag(*(one.jacobian for one in noises)))]
-    ends = np.cumsum([len(one.residual) for one in noises])[:-1]
+    sizes = [float(np.sqrt((noise.residual**2).mean())) for noise in noises]
+    if len(noises) > 1 and max(sizes) <= _SHARED_NOISE * min(sizes):
+        residual = np.concatenate([noise.residual for noise in noises])
+        noises = [Noise(residual, block_diag(*(noise.jacobian for noise in noises)))]
+    ends = np.cumsum([len(noise.residual) for noise in noises])[:-1]
     parts = np.split(rows * np.concatenate(scales), ends, axis=1)
-    each = [one.covariance(part) for one, part in zip(noises, parts, strict=True)]
+    each = [noise.covariance(part) for noise, part in zip(noises, parts, strict=True)]
     return np.asarray(sum(each))
 
 

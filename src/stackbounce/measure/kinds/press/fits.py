@@ -13,10 +13,10 @@ from stackbounce.measure.quantities import Array
 
 __all__ = ["PowerFit", "fit_power_law", "power", "power_law", "rough_contact"]
 
-_EXPONENTS = (0.7, 1.0, 1.5, 2.0, 3.0)  # tried first
-_PLACES = 48  # of the contact, tried first
-_FEW = 300  # points that are used for that
-_WIDEST = 20.0  # ln of a parameter stays within ±this, so that no power overflows
+_FIRST_EXPONENTS = (0.7, 1.0, 1.5, 2.0, 3.0)  # of the grid on which the fit's start is sought
+_FIRST_CONTACTS = 48  # places of the contact on the same grid
+_GRID_POINTS = 300  # of the curve that are compared on that grid, for speed
+_LARGEST_LOG = 20.0  # of a parameter, so that no power overflows
 
 
 @dataclass(frozen=True)
@@ -25,8 +25,10 @@ class PowerFit:
 
     Parameters
     ----------
+    peak : float
+        The compression at which the force is P.
     values : ndarray
-        P, ln p and ln C, where c0 is the given peak less C.
+        P, ln p and ln C, where c0 is the peak less C.
     weights : ndarray
         (q, N) derivatives of those that were fitted by the noise of each point.
     jacobian : ndarray
@@ -35,10 +37,21 @@ class PowerFit:
         (N,) force less fit.
     """
 
+    peak: float
     values: Array
     weights: Array
     jacobian: Array
     residual: Array
+
+    @property
+    def plain(self) -> tuple[float, float, float]:
+        """P, p and C."""
+        top, log_p, log_c = self.values.tolist()
+        return top, float(np.exp(log_p)), float(np.exp(log_c))
+
+    def ratio(self, x: Any) -> Any:
+        """Return ``(x - c0)/C`` of a compression."""
+        return 1.0 - (self.peak - x) / self.plain[2]
 
 
 def power(ratio: Array, exponent: float) -> Array:
@@ -67,13 +80,13 @@ def rough_contact(x: Array, y: Array) -> tuple[float, float]:
     -------
     tuple of float
     """
-    some = np.linspace(0, len(x) - 1, min(len(x), _FEW)).astype(int)
+    some = np.linspace(0, len(x) - 1, min(len(x), _GRID_POINTS)).astype(int)
     x, y = x[some], y[some]
     low, high = float(x.min()), float(x.max())
-    places = np.linspace(low - 0.5 * (high - low), high - 0.1 * (high - low), _PLACES)
+    places = np.linspace(low - 0.5 * (high - low), high - 0.1 * (high - low), _FIRST_CONTACTS)
     best = (np.inf, low, 1.0)
     dy = y - y.mean()
-    for p in _EXPONENTS:
+    for p in _FIRST_EXPONENTS:
         rise = power((x[None, :] - places[:, None]) / (high - low), p)
         rise -= rise.mean(axis=1, keepdims=True)
         square = (rise**2).sum(axis=1) + 1e-300
@@ -104,7 +117,7 @@ def power_law(x: Array, peak: float, values: Array) -> tuple[Array, Array]:
     jacobian : ndarray
         (N, 3).
     """
-    top, p, c = values[0], *np.exp(np.clip(values[1:], -_WIDEST, _WIDEST))
+    top, p, c = values[0], *np.exp(np.clip(values[1:], -_LARGEST_LOG, _LARGEST_LOG))
     ratio = 1.0 - (peak - x) / c
     unit = power(ratio, p)
     by_exponent = top * p * unit * np.log(np.where(ratio > 0.0, ratio, 1.0))
@@ -153,4 +166,4 @@ def fit_power_law(
     fitted, jacobian = curve(solved.x)
     # weights = (JᵀWJ)⁻¹ JᵀW
     inverse = np.linalg.pinv(jacobian * weight[:, None], rcond=1e-11)
-    return PowerFit(np.append(solved.x, first[free:]), inverse * weight, jacobian, y - fitted)
+    return PowerFit(peak, np.append(solved.x, first[free:]), inverse * weight, jacobian, y - fitted)

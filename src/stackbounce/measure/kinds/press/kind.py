@@ -1,41 +1,14 @@
 """Force against compression as a kind of measurement."""
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import Any
 
-from stackbounce.measure.kind import Kind
+from stackbounce.measure.kinds.press.analysis import press
+from stackbounce.measure.kinds.press.result import Press
+from stackbounce.measure.setup import Setup
 
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from stackbounce.measure.kinds.press.result import Press
-    from stackbounce.measure.reading.roles import Column
-
-__all__ = ["PRESS"]
+__all__ = ["analyse"]
 
 
-def _analyse(data: "xr.Dataset", *, tabulated: bool = False) -> "Press":
-    from stackbounce.measure.kinds.press.analysis import press
-
-    return press(data, tabulated=tabulated)
-
-
-def _recognised(columns: "Sequence[Column]") -> bool:
-    """Return whether the columns have a force and a compression, or one length.
-
-    Beside times, a length that is a position is none: that is a motion detector's.
-    """
-    roles = {one.role for one in columns}
-    positions = ("x", "y") if "time" in roles else ()
-    lengths = [one for one in columns if one.unit == "m" and one.role not in ("force", *positions)]
-    return "force" in roles and ("compression" in roles or len(lengths) == 1)
-
-
-PRESS = Kind(
-    "press curve",
-    "static stiffness, exponent, loss",
-    _analyse,
-    columns=(("force",), ("compression",)),
-    dimension="point",
-    recognised=_recognised,
-)
+def analyse(data: Any, setup: Setup) -> Press:
+    """Return the contact that a press curve tells."""
+    return press(data, tabulated=setup.tabulated)

@@ -11,17 +11,21 @@ from stackbounce.measure.quantities import Array
 
 __all__ = ["aligned"]
 
-_BEFORE, _AFTER = 2e-3, 3e-3  # s of a knock that are compared
-_REACH, _OF_FLIGHT = 3e-3, 0.2  # s, and of a flight, by which a first time may be wrong
-_SAMPLES = 8  # that each of these holds at least, if samples are few
-_QUIET, _LOUD = -0.6, 1.0  # of _BEFORE and _AFTER: what is noise, and how loud the knock is
-_WIDE, _ROUNDS = 3, 7  # rounds that search the whole reach, and all rounds
-_OUTLIER = 3.0  # standard deviations to which a residual counts
-_VARIANCE = 0.6  # added to that of the logarithms: of noise in a narrow band it is 1.6
-_SMOOTH = 0.2e-3, 0.5e-3  # s over which variance and significance are averaged
-_LEAST = 0.05  # of what tells something
-_PRIOR = 4.0  # degrees of freedom of the expected scatter
-_DRAWN = 0.3  # share of the median variance in that of a knock
+# Set by hand on the synthetic recordings of `benchmarks/coverage/sound.py`, so that the error bars
+# hold the truth as often as they claim; `tests/measure/test_coverage_measure.py` guards it.
+_SECONDS_BEFORE, _SECONDS_AFTER = 2e-3, 3e-3  # s of a knock, around its onset, that are compared
+_FEWEST_SAMPLES = 8  # before and after, at a low sampling rate
+_NOISE_SHARE = 0.4  # of the time before the onset, from its beginning: there is noise alone
+_FARTHEST = 3e-3  # s by which a first time may be wrong
+_FARTHEST_OF_FLIGHT = 0.2  # share of the shortest flight by which a first time may be wrong
+_WIDE_ROUNDS, _ROUNDS = 3, 7  # rounds that search as far as that, and all rounds
+_OUTLIER_SIGMAS = 3.0  # standard deviations at which a residual is cut off
+_LEAST_VARIANCE = 0.6  # of ln(power), added to that of the residuals; noise in a band has 1.6
+_VARIANCE_WINDOW = 0.2e-3  # s over which variances are averaged
+_SLOPE_WINDOW = 0.5e-3  # s over which it is averaged whether a slope is chance
+_LEAST_SHARE = 0.05  # of a knock that a template explains: less tells nothing of the template
+_PRIOR_FREEDOM = 4.0  # degrees of freedom with which the expected scatter of bands counts
+_POOLED = 0.3  # weight of the median variance of all knocks in the variance of each
 
 
 class _Window(NamedTuple):
@@ -93,15 +97,16 @@ def aligned(
     >>> bool(np.ptp(times - true) < 5e-6), bool(errors.max() < 1e-5)
     (True, True)
     """
-    few = _SAMPLES / rate
-    before, after = max(_BEFORE, few), max(_AFTER, few)
-    reach = max(min(_REACH, _OF_FLIGHT * float(np.diff(about).min())), 0.5 * few)
+    few = _FEWEST_SAMPLES / rate
+    before, after = max(_SECONDS_BEFORE, few), max(_SECONDS_AFTER, few)
+    shortest = float(np.diff(about).min())
+    reach = max(min(_FARTHEST, _FARTHEST_OF_FLIGHT * shortest), 0.5 * few)
     bands = band_powers(values, rate, about, -before - 2.0 * reach, after + 2.0 * reach, least)
     window = _window(bands, before, after)
     shifts: Array = np.zeros(len(about))
     compared, template = _compared(_shifted(bands, window, shifts), window, bands, None)
     for k in range(_ROUNDS):
-        near = reach if k < _WIDE else reach / 3.0
+        near = reach if k < _WIDE_ROUNDS else reach / 3.0
         found = _best(bands, window, compared, shifts, near)
         # The others move away from a knock as it moves towards them.
         shifts = shifts + (found - shifts) * (len(about) - 1.0) / len(about)
@@ -109,15 +114,15 @@ def aligned(
         compared, template = _compared(_shifted(bands, window, shifts), window, bands, template)
     more, errors = _averaged(*_by_band(compared))
     # Few bands tell the error of one knock: it is drawn to that of all.
-    drawn = np.sqrt((1.0 - _DRAWN) * errors**2 + _DRAWN * np.median(errors) ** 2)
+    drawn = np.sqrt((1.0 - _POOLED) * errors**2 + _POOLED * np.median(errors) ** 2)
     return about + shifts + more, drawn
 
 
 def _window(bands: Bands, before: float, after: float) -> _Window:
     first = round((-before - bands.start) / bands.step)
     since = bands.step * np.arange(round((before + after) / bands.step) + 1) - before
-    loud = (since >= 0.0) & (since < _LOUD * after)
-    return _Window(first, len(since), since < _QUIET * before, loud)
+    loud = (since >= 0.0) & (since < after)
+    return _Window(first, len(since), since < (_NOISE_SHARE - 1.0) * before, loud)
 
 
 def _shifted(bands: Bands, window: _Window, shifts: Array) -> Array:
@@ -143,19 +148,21 @@ def _compared(
         template = np.median(logs, axis=0)
     for _ in range(3):
         share, off, most = _off(logs, template, floor)
-        better = (share * off).sum(axis=0) / ((share**2).sum(axis=0) + _LEAST)
+        better = (share * off).sum(axis=0) / ((share**2).sum(axis=0) + _LEAST_SHARE)
         template = np.maximum(template + np.clip(better, -1.0, 1.0), floor.min(axis=0) - 3.0)
     share, off, most = _off(logs, template, floor)
-    rest = (share**2).sum(axis=0) + _LEAST - share**2
-    without = ((share * off).sum(axis=0) - share * off) / np.maximum(rest, _LEAST)
+    rest = (share**2).sum(axis=0) + _LEAST_SHARE - share**2
+    without = ((share * off).sum(axis=0) - share * off) / np.maximum(rest, _LEAST_SHARE)
     others = np.logaddexp(template + np.clip(without, -2.0, 2.0), floor)
     residuals = np.clip(logs - others, -most, most)
-    variances = _smooth((residuals**2).mean(axis=0), _SMOOTH[0] / bands.step) + _VARIANCE
-    slopes, seen = (np.gradient(one, bands.step, axis=2) for one in (others, logs))
+    variances = (
+        _smooth((residuals**2).mean(axis=0), _VARIANCE_WINDOW / bands.step) + _LEAST_VARIANCE
+    )
+    slopes, seen = (np.gradient(logarithms, bands.step, axis=2) for logarithms in (others, logs))
     # What the slope of the others predicts of a knock's own: chance predicts nothing.
-    wide = _SMOOTH[1] / bands.step
-    told = _smooth((slopes * seen).mean(axis=0), wide)
-    real = np.clip(told / np.maximum(_smooth((slopes**2).mean(axis=0), wide), 1e-30), 0.0, 1.0)
+    wide = _SLOPE_WINDOW / bands.step
+    common = _smooth((slopes * seen).mean(axis=0), wide)
+    real = np.clip(common / np.maximum(_smooth((slopes**2).mean(axis=0), wide), 1e-30), 0.0, 1.0)
     weights = np.broadcast_to(real**2 / variances / bands.correlation[:, None], logs.shape)
     return _Comparison(others + level, residuals, slopes, seen, weights, real**2), template
 
@@ -164,7 +171,7 @@ def _off(logs: Array, template: Array, floor: Array) -> tuple[Array, Array, Arra
     """Return the template's share of each knock, the residuals, and to what they are limited."""
     wanted = np.logaddexp(template, floor)
     off = logs - wanted
-    most = _OUTLIER * (1.4826 * np.median(np.abs(off), axis=0) + 0.1)
+    most = _OUTLIER_SIGMAS * (1.4826 * np.median(np.abs(off), axis=0) + 0.1)
     return np.exp(template - wanted), np.clip(off, -most, most), most
 
 
@@ -188,8 +195,8 @@ def _best(
     logs = np.take_along_axis(bands.logs, steps[:, None], axis=2)
     size = 1 << math.ceil(math.log2(logs.shape[2]))
     weights, wanted = (
-        np.fft.rfft(one, size).conj()
-        for one in (compared.weights, compared.weights * compared.wanted)
+        np.fft.rfft(series, size).conj()
+        for series in (compared.weights, compared.weights * compared.wanted)
     )
     both = np.fft.rfft(logs**2, size) * weights - 2.0 * np.fft.rfft(logs, size) * wanted
     squares = np.fft.irfft(both.sum(axis=1), size)[:, : 2 * most + 1]
@@ -204,8 +211,8 @@ def _by_band(compared: _Comparison) -> tuple[Array, Array]:
     """Return by how much each band would shift each knock, and the variance of that, (K, B)."""
     weights, slopes = compared.weights, compared.slopes
     information = (weights * slopes**2).sum(axis=2)
-    told = (weights * slopes * compared.seen).sum(axis=2).mean(axis=0)
-    real = np.maximum(told / np.maximum(information.mean(axis=0), 1e-30), _LEAST)
+    common = (weights * slopes * compared.seen).sum(axis=2).mean(axis=0)
+    real = np.maximum(common / np.maximum(information.mean(axis=0), 1e-30), _LEAST_SHARE)
     information = np.maximum(information * real, 1e-9)
     shifts = -(weights * slopes * compared.residuals).sum(axis=2) / information
     spread = (weights * slopes**2 * compared.significance).sum(axis=2)
@@ -222,12 +229,14 @@ def _averaged(shifts: Array, variances: Array) -> tuple[Array, Array]:
     for _ in range(10):
         share, mean = _shares(shifts, variances * scale)
         squares = (shifts - mean[:, None]) ** 2 / variances
-        scale = (_PRIOR + squares.sum(axis=0)) / (_PRIOR + (1.0 - share).sum(axis=0))
+        scale = (_PRIOR_FREEDOM + squares.sum(axis=0)) / (
+            _PRIOR_FREEDOM + (1.0 - share).sum(axis=0)
+        )
     share, mean = _shares(shifts, variances * scale)
     squares = (shifts - mean[:, None]) ** 2 / (variances * scale)
     own = (share * squares).sum(axis=1) / np.maximum((share * (1.0 - share)).sum(axis=1), 1e-3)
     freedom = 1.0 / (share**2).sum(axis=1) - 1.0
-    factor = (_PRIOR + freedom * own) / (_PRIOR + freedom)
+    factor = (_PRIOR_FREEDOM + freedom * own) / (_PRIOR_FREEDOM + freedom)
     return mean, np.sqrt(factor / (1.0 / (variances * scale)).sum(axis=1))
 
 

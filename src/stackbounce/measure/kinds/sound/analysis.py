@@ -19,11 +19,11 @@ from stackbounce.measure.samples import runs
 __all__ = ["knocks"]
 
 _LEAST_RATE = 400  # samples per second: with fewer an onset lies between two samples
-_DEAD = 8e-3  # s: two knocks closer than that are one impact
-_AS_LATE = 1.5e-3  # s by which the delay of an echo may differ
-_SECOND_SERIES = 4
-_LASTS = 10e-3  # s of a knock that tell how loud it is
-_INTERVAL = 0.1  # of the interval between amplitudes: the error of a time within it
+_DEAD_SECONDS = 8e-3  # s: two knocks closer than that are one impact
+_SAME_DELAY = 1.5e-3  # s by which the delays of one echo differ at most
+_SECOND_SERIES = 4  # knocks of another series that is worth a note
+_LOUDNESS_SECONDS = 10e-3  # s of a knock that tell how loud it is
+_INTERVAL_SIGMA = 0.1  # of the interval between amplitudes: the error of a time within it
 _CLIPPED = 4  # samples in a row at the largest value
 
 
@@ -93,7 +93,7 @@ def knocks(
 
     if threshold is not None and positive("threshold", threshold) <= 1.0:
         raise InvalidValue(f"threshold must be a factor above 1, got {shown(threshold)}")
-    dead = _DEAD if dead_time is None else positive("dead_time", dead_time, "seconds")
+    dead = _DEAD_SECONDS if dead_time is None else positive("dead_time", dead_time, "seconds")
     samples, rate, origin = _samples(data, rate)
     samples, origin = _part(samples, rate, origin, start, stop)
     notes = _notes_on(samples)
@@ -125,7 +125,7 @@ def knocks(
         tuple(map(ufloat, origin + times, errors)),
         loudness / loudness.max(),
         chain.missed,
-        tuple(Dropped(origin + one.time, one.why) for one in left_out),
+        tuple(Dropped(origin + sound.time, sound.why) for sound in left_out),
         rate,
         tuple(notes),
     )
@@ -139,7 +139,7 @@ def _aligned(
     times = times + np.median(onsets - times)
     errors = errors * misjudgement(times, errors, missed)
     if values.min() >= 0.0:  # each amplitude is of a whole interval
-        errors = np.hypot(errors, _INTERVAL / rate)
+        errors = np.hypot(errors, _INTERVAL_SIGMA / rate)
     return times, errors
 
 
@@ -228,7 +228,7 @@ def _without_echoes(chain: Chain, rises: Rises, notes: list[str]) -> tuple[Chain
     while delay and len(indices) > 3:
         lag = rises.times[indices[-1]] - rises.times[indices[-2]]
         quieter = rises.amplitudes[indices[-1]] < rises.amplitudes[indices[-2]]
-        if not (abs(lag - delay) < _AS_LATE and quieter):
+        if not (abs(lag - delay) < _SAME_DELAY and quieter):
             break
         cut.append(indices.pop())
         missed.pop()
@@ -244,7 +244,7 @@ def _without_echoes(chain: Chain, rises: Rises, notes: list[str]) -> tuple[Chain
             why = "before the series"
         elif k in cut or rises.amplitudes[k] < rises.amplitudes[before[-1]]:
             why = "echo, or a fainter noise"
-            if delay and abs(times[k] - times[before[-1]] - delay) < _AS_LATE:
+            if delay and abs(times[k] - times[before[-1]] - delay) < _SAME_DELAY:
                 why = "echo"
         else:
             why = "louder than the bounce before it"
@@ -261,7 +261,7 @@ def _echo_delay(chain: Chain, rises: Rises) -> float:
     lags = rises.times[others] - rises.times[before]
     if len(lags) < 3:
         return 0.0
-    near = np.abs(np.subtract.outer(lags, lags)) < _AS_LATE
+    near = np.abs(np.subtract.outer(lags, lags)) < _SAME_DELAY
     best = int(np.argmax(near.sum(axis=1)))
     return float(np.median(lags[near[best]])) if near[best].sum() > 2 else 0.0
 
@@ -299,7 +299,7 @@ def _note_series(
 
 def _loudness(white: NDArray[np.float32], rate: float, times: Array) -> Array:
     """Return the root mean square of each knock, of all channels together."""
-    count = max(1, round(_LASTS * rate))
+    count = max(1, round(_LOUDNESS_SECONDS * rate))
     first = np.round(times * rate).astype(np.int64)
     parts = [white[:, at : at + count].astype(np.float64) for at in np.maximum(first, 0)]
     return np.array([np.sqrt((part**2).mean()) for part in parts])

@@ -10,12 +10,13 @@ from stackbounce.measure.quantities import Array
 
 __all__ = ["Bands", "band_powers"]
 
-_LOW = 350.0  # Hz: below are wind, hum and steps
-_TOP = 0.46  # of the sampling rate
-_STEP = 1.0 / 32e3  # s: the coarsest step of the power
+# Set by hand on the synthetic recordings of `benchmarks/coverage/sound.py`, as in `alignment.py`.
+_LOWEST_HERTZ = 350.0  # below are wind, hum and steps
+_HIGHEST_SHARE = 0.46  # of the sampling rate
+_LONGEST_STEP = 1.0 / 32e3  # s between powers
 _AMPLITUDE_STEPS = 8  # to a sample of a record of amplitudes
-_SKIRT = 4.5  # standard deviations of a filter's response in time
-_DYNAMICS = 1e-10  # of the largest power: less is silence
+_SKIRT_SIGMAS = 4.5  # standard deviations of a filter's response in time that are kept
+_SILENCE = 1e-10  # of the largest power
 
 
 class Bands(NamedTuple):
@@ -70,8 +71,10 @@ def band_powers(
     edges = _edges(rate)
     widths = 0.5 * np.diff(edges)  # Hz, standard deviations
     lasts = 1.0 / (2.0 * math.pi * widths)
-    finer = 2 ** max(0, math.ceil(math.log2(1.0 / (rate * _STEP))))
-    before, after = (math.ceil((side + _SKIRT * lasts.max()) * rate) for side in (-start, stop))
+    finer = 2 ** max(0, math.ceil(math.log2(1.0 / (rate * _LONGEST_STEP))))
+    before, after = (
+        math.ceil((side + _SKIRT_SIGMAS * lasts.max()) * rate) for side in (-start, stop)
+    )
     around, late = _windows(values, rate, about, before, after)
     size = 1 << math.ceil(math.log2(around.shape[1]))
     tones = np.fft.rfftfreq(size, 1.0 / rate)
@@ -85,7 +88,7 @@ def band_powers(
         powers.append(np.abs(waves[:, part]) ** 2)
     power = np.stack(powers, axis=1)
     silence = least * 4.0 * math.sqrt(math.pi) * widths / rate + 1e-30
-    floor = np.maximum(silence, _DYNAMICS * power.max(axis=(0, 2)))
+    floor = np.maximum(silence, _SILENCE * power.max(axis=(0, 2)))
     step = 1.0 / (rate * finer)
     correlation = np.maximum(math.sqrt(2.0 * math.pi) * lasts / step, 1.0)
     return Bands(np.log(power + floor[:, None]), first * step, step, correlation)
@@ -93,8 +96,8 @@ def band_powers(
 
 def _edges(rate: float) -> Array:
     """Return the edges of bands of about an octave, in Hz."""
-    top = _TOP * rate
-    low = min(_LOW, rate / 16.0)
+    top = _HIGHEST_SHARE * rate
+    low = min(_LOWEST_HERTZ, rate / 16.0)
     return np.geomspace(low, top, max(2, round(math.log2(top / low))) + 1)
 
 
@@ -119,7 +122,7 @@ def _amplitudes(
     step = 1.0 / (rate * _AMPLITUDE_STEPS)
     first, last = round(start / step), round(stop / step)
     wanted = about[:, None] * rate + np.arange(first, last + 1) / _AMPLITUDE_STEPS
-    floor = math.sqrt(_DYNAMICS) * float(values.max()) + 1e-30
+    floor = math.sqrt(_SILENCE) * float(values.max()) + 1e-30
     logs = 2.0 * np.log(values.astype(np.float64) + floor)
     between = map_coordinates(logs, [wanted], order=1, mode="nearest")
     return Bands(between[:, None], first * step, step, np.array([float(_AMPLITUDE_STEPS)]))

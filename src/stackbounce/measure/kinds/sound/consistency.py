@@ -9,12 +9,13 @@ from stackbounce.measure.statistics.regression import half_width, widening
 
 __all__ = ["misjudgement"]
 
-_USUAL, _SPREAD = 2.2, 1.0  # the factor's prior: its median, and the deviation of its logarithm
-_SCATTERS = (2e-5, 0.1)  # of restitutions from bounce to bounce
-_NONE = 0.8  # prior probability of no scatter
-_GRID = 24
-_ENOUGH = 3  # restitutions for a line and a scatter
-_OUTLIER = 6.0  # standard deviations to which a residual counts
+# The priors: set by hand on the synthetic recordings of `benchmarks/coverage/sound.py`.
+_USUAL_FACTOR, _FACTOR_SPREAD = 2.2, 1.0  # median, and standard deviation of the logarithm
+_SCATTERS = (2e-5, 0.1)  # of restitutions from bounce to bounce, log-uniform
+_NO_SCATTER = 0.8  # probability of none
+_GRID = 24  # factors, and scatters, at which the likelihood is calculated
+_FEWEST = 3  # restitutions for a line and a scatter
+_OUTLIER_SIGMAS = 6.0  # standard deviations at which a residual is cut off
 
 
 def misjudgement(times: Array, errors: Array, missed: Sequence[int]) -> float:
@@ -44,12 +45,12 @@ def misjudgement(times: Array, errors: Array, missed: Sequence[int]) -> float:
     >>> 5.0 < misjudgement(times + noise, np.full(12, 1e-4), [0] * 11) < 20.0
     True
     """
-    factors = _USUAL * np.exp(_SPREAD * np.linspace(-3.0, 4.0, _GRID))
-    logs = -0.5 * (np.log(factors / _USUAL) / _SPREAD) ** 2
+    factors = _USUAL_FACTOR * np.exp(_FACTOR_SPREAD * np.linspace(-3.0, 4.0, _GRID))
+    logs = -0.5 * (np.log(factors / _USUAL_FACTOR) / _FACTOR_SPREAD) ** 2
     flights = np.diff(times)
     few = 1.0
     first = np.array([k for k in range(len(flights) - 1) if not (missed[k] or missed[k + 1])])
-    if len(first) >= _ENOUGH:
+    if len(first) >= _FEWEST:
         kept = flights[first + 1] / flights[first]
         slopes = np.zeros((len(kept), len(times)))
         row = np.arange(len(kept))
@@ -75,14 +76,14 @@ def _limited(design: Array, values: Array) -> Array:
         weights = 1.0 / np.maximum(off, 0.1 * np.median(off) + 1e-12)
     off = values - design @ line
     usual = 1.4826 * np.median(np.abs(off)) * len(values) / (len(values) - 2)  # two are fitted
-    most = _OUTLIER * usual + 1e-12
+    most = _OUTLIER_SIGMAS * usual + 1e-12
     return np.asarray(design @ line + np.clip(off, -most, most))
 
 
 def _evidence(values: Array, design: Array, covariance: Array, factors: Array) -> Array:
     """Return the log-likelihood of each factor, over all lines and all scatters of the values."""
     scatters = np.concatenate([[0.0], np.geomspace(*_SCATTERS, _GRID)])
-    prior = np.log([_NONE, *[(1.0 - _NONE) / _GRID] * _GRID])
+    prior = np.log([_NO_SCATTER, *[(1.0 - _NO_SCATTER) / _GRID] * _GRID])
     own = scatters[:, None, None] ** 2 * np.eye(len(values))
     logs = np.array([_likelihoods(values, design, f**2 * covariance + own) for f in factors])
     logs += prior

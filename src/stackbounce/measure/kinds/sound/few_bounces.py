@@ -87,7 +87,7 @@ def few_bounces(
     gravity = positive("gravity", gravity, "m/s^2")
     pairs = zip(heard.times[:-1], heard.times[1:], heard.missed, strict=True)
     flights = tuple(None if lost else later - first for first, later, lost in pairs)
-    heights = tuple(None if one is None else _apex(one, gravity, drag) for one in flights)
+    heights = tuple(None if flight is None else _apex(flight, gravity, drag) for flight in flights)
     count = len(heard.times)
     between = ", with others missing between them" if any(heard.missed) else ""
     note = (

@@ -11,11 +11,14 @@ from stackbounce.measure.statistics.ar_noise import linear_prediction_residual
 
 __all__ = ["Rises", "find_rises", "rounding", "whitened"]
 
-_HOP = 0.5e-3  # s, step of the search
-_AFTER, _BEFORE, _GUARD = 4, 16, 1  # hops whose loudness is compared, and between them
-_ORDER = 24  # of the linear prediction that removes noise
-_LEAST_RISE = 3.0  # of the energy
-_MOST = 250  # rises that are looked at
+# Set by hand on the recordings of `benchmarks/coverage/sound.py` and `docs/lab`.
+_HOP_SECONDS = 0.5e-3  # s, step of the search
+_HOPS_AFTER, _HOPS_BEFORE, _HOPS_BETWEEN = 4, 16, 1  # whose loudness is compared, and between them
+_ORDER = 24  # of the linear prediction that removes hum and stationary noise
+_FALSE_ALARMS = 0.01  # rises of stationary noise in a recording, on average
+_CHANCE_MARGIN = 1.2  # by which the energy must rise more than noise does by chance
+_LEAST_RISE = 3.0  # of the energy: the amplitude rises by 1.7
+_MOST_RISES = 250  # that are looked at, the clearest
 
 
 class Rises(NamedTuple):
@@ -41,7 +44,7 @@ def rounding(samples: NDArray[np.float32]) -> Array:
     >>> (12 * rounding(coarse[None].astype(np.float32))) ** 0.5
     array([0.125])
     """
-    return np.array([resolution(one) for one in samples]) ** 2 / 12.0
+    return np.array([resolution(channel) for channel in samples]) ** 2 / 12.0
 
 
 def whitened(samples: NDArray[np.float32], rounded: Array) -> NDArray[np.float32]:
@@ -55,7 +58,9 @@ def whitened(samples: NDArray[np.float32], rounded: Array) -> NDArray[np.float32
         (channels,) variance of the quantisation error, as of `rounding`.
     """
     pairs = zip(samples, rounded.tolist(), strict=True)
-    return np.array([linear_prediction_residual(one, _ORDER, least) for one, least in pairs])
+    return np.array(
+        [linear_prediction_residual(channel, _ORDER, least) for channel, least in pairs]
+    )
 
 
 def find_rises(
@@ -80,18 +85,18 @@ def find_rises(
     Rises
         At most the 250 clearest, ascending in time.
     """
-    hop = max(1, round(_HOP * rate))
+    hop = max(1, round(_HOP_SECONDS * rate))
     energy = _energy(white, hop)
-    if len(energy) < _AFTER + _BEFORE:
+    if len(energy) < _HOPS_AFTER + _HOPS_BEFORE:
         return Rises(*(np.zeros(0) for _ in range(4)))
     before, after = _around(energy, rounded)
     ratio = after / before
     least = _least(threshold, hop, len(energy))
-    wide = _AFTER + 1
+    wide = _HOPS_AFTER + 1
     peaks = _maxima(ratio, wide)
-    peaks = peaks[(ratio[peaks] > least) & (peaks < len(energy) - _AFTER)]
-    if len(peaks) > _MOST:
-        peaks = np.sort(peaks[np.argsort(ratio[peaks])[-_MOST:]])
+    peaks = peaks[(ratio[peaks] > least) & (peaks < len(energy) - _HOPS_AFTER)]
+    if len(peaks) > _MOST_RISES:
+        peaks = np.sort(peaks[np.argsort(ratio[peaks])[-_MOST_RISES:]])
     return Rises(
         peaks.astype(np.float64) * (hop / rate),
         np.full(len(peaks), 0.5 * hop / rate),
@@ -114,14 +119,16 @@ def _around(energy: Array, rounded: float) -> tuple[Array, Array]:
     """Return the mean energy before and after the start of each hop."""
     sums = np.concatenate([[0.0], np.cumsum(energy)])
     at = np.arange(len(energy))
-    end = np.minimum(at + _AFTER, len(energy))
+    end = np.minimum(at + _HOPS_AFTER, len(energy))
     after = (sums[end] - sums[at]) / (end - at)
-    stop = np.maximum(at - _GUARD, 0)
-    start = np.maximum(stop - _BEFORE, 0)
+    stop = np.maximum(at - _HOPS_BETWEEN, 0)
+    start = np.maximum(stop - _HOPS_BEFORE, 0)
     filled = stop > start
     before = np.where(filled, (sums[stop] - sums[start]) / np.maximum(stop - start, 1), np.inf)
     # Too few hops precede the first ones; digital silence is given a little noise.
-    before[: _BEFORE + _GUARD] = np.maximum(before[: _BEFORE + _GUARD], np.median(energy))
+    before[: _HOPS_BEFORE + _HOPS_BETWEEN] = np.maximum(
+        before[: _HOPS_BEFORE + _HOPS_BETWEEN], np.median(energy)
+    )
     return np.maximum(before, max(rounded, 1e-9 * float(energy.max()), 1e-30)), after
 
 
@@ -131,8 +138,8 @@ def _least(threshold: float | None, freedom: int, count: int) -> float:
         return threshold**2
     from scipy.stats import f
 
-    chance = f.isf(0.01 / count, _AFTER * freedom, _BEFORE * freedom)
-    return max(_LEAST_RISE, 1.2 * float(chance))
+    chance = f.isf(_FALSE_ALARMS / count, _HOPS_AFTER * freedom, _HOPS_BEFORE * freedom)
+    return max(_LEAST_RISE, _CHANCE_MARGIN * float(chance))
 
 
 def _maxima(values: Array, wide: int) -> NDArray[np.int64]:

@@ -10,14 +10,15 @@ from stackbounce.measure.quantities import Array
 
 __all__ = ["clearest", "onsets"]
 
-_RISES = (0.0, 0.05e-3, 0.1e-3, 0.2e-3, 0.5e-3, 1e-3)  # s in which a knock may rise
-_FAR, _NEAR = 1.5e-3, 0.65e-3  # s on both sides of the presumed onset
-_MOST = 64  # samples on both sides together: at higher rates neighbours are averaged
-_KNOWN = 5.0  # an onset is refined within `_NEAR` if its error is so many times smaller
-_QUIET, _GUARD = 8e-3, 0.5e-3  # s before the knock for the noise, and s between the two
-_LOUD = 2e-3  # s after the onset for the power of the knock
-_COLOR = 4e-3  # s after the onset for the autocorrelation
-_LEAST = 1e-3  # of the noise: the smallest power of a knock
+# Set by hand on the synthetic recordings of `benchmarks/coverage/sound.py`, as in `alignment.py`.
+_RISE_TIMES = (0.0, 0.05e-3, 0.1e-3, 0.2e-3, 0.5e-3, 1e-3)  # s in which a knock may rise
+_FAR, _NEAR = 1.5e-3, 0.65e-3  # s to both sides of the presumed onset: at first, and to refine it
+_MOST_SAMPLES = 64  # on both sides together: at higher rates neighbours are averaged
+_CLEAR_SIGMAS = 5.0  # an onset is refined within `_NEAR` if that is so many of its errors
+_NOISE_SECONDS, _GUARD_SECONDS = 8e-3, 0.5e-3  # s before a knock for the noise, and between the two
+_POWER_SECONDS = 2e-3  # s after the onset for the power of the knock
+_COLOR_SECONDS = 4e-3  # s after the onset for the autocorrelation
+_LEAST_POWER = 1e-3  # of the noise: the smallest power of a knock
 _ONE_SIGMA = (0.15865525, 0.84134475)  # probabilities at one sigma below and above the mean
 
 
@@ -76,12 +77,12 @@ def onsets(
     errors = np.full(len(about), np.inf)
     far = 2.0 * _FAR * rate
     # Power and autocorrelation are measured after the onset, and improve with it.
-    for reach in (_FAR, _FAR, _NEAR) if far > _MOST else (_FAR, _FAR):
-        thin = math.ceil(2.0 * reach * rate / _MOST)
+    for reach in (_FAR, _FAR, _NEAR) if far > _MOST_SAMPLES else (_FAR, _FAR):
+        thin = math.ceil(2.0 * reach * rate / _MOST_SAMPLES)
         knocks = [_knock(white, at, rate, reach, thin, rounded) for at in about]
         times, sure = _improved(knocks, rate / thin)
         times += 0.5 * (thin - 1) / rate  # the middle of the samples that were taken together
-        within = np.full(len(about), reach == _FAR) | (errors < reach / _KNOWN)
+        within = np.full(len(about), reach == _FAR) | (errors < reach / _CLEAR_SIGMAS)
         about, errors = np.where(within, times, about), np.where(within, sure, errors)
     return about, errors
 
@@ -91,7 +92,7 @@ def clearest(white: NDArray[np.float32], rate: float, about: Array, rounded: Arr
     clear = []
     for values, least in zip(white, rounded, strict=True):
         heard = [_knock(values, at, rate, _FAR, 1, least) for at in about]
-        clear.append(sum(math.log(one.loud / one.noise) for one in heard))
+        clear.append(sum(math.log(knock.loud / knock.noise) for knock in heard))
     return int(np.argmax(clear))
 
 
@@ -99,15 +100,19 @@ def _knock(
     values: NDArray[np.float32], time: float, rate: float, reach: float, thin: int, rounded: float
 ) -> _Knock:
     rate /= thin
-    at, half, guard = round(time * rate), round(reach * rate), round(_GUARD * rate)
-    before = _part(values, max(at - guard - round(_QUIET * rate), 0), max(at - guard, 1), thin)
+    at, half, guard = round(time * rate), round(reach * rate), round(_GUARD_SECONDS * rate)
+    before = _part(
+        values, max(at - guard - round(_NOISE_SECONDS * rate), 0), max(at - guard, 1), thin
+    )
     quiet = float((before**2).mean())
-    loud = float((_part(values, at, at + round(_LOUD * rate), thin) ** 2).mean())
+    loud = float((_part(values, at, at + round(_POWER_SECONDS * rate), thin) ** 2).mean())
     noise = max(quiet + _rounding(quiet, rounded / thin), 1e-9 * loud, 1e-30)
-    wave = _part(values, at, at + max(2 * half, round(_COLOR * rate)), thin)
+    wave = _part(values, at, at + max(2 * half, round(_COLOR_SECONDS * rate)), thin)
     color = np.correlate(wave, wave, "full")[len(wave) - 1 :][: 2 * half]
     around = _part(values, at - half, at + half, thin)
-    return _Knock(at - half, around, noise, max(loud, _LEAST * noise), color / max(color[0], 1e-30))
+    return _Knock(
+        at - half, around, noise, max(loud, _LEAST_POWER * noise), color / max(color[0], 1e-30)
+    )
 
 
 def _rounding(noise: float, variance: float) -> float:
@@ -133,8 +138,8 @@ def _part(values: NDArray[np.float32], start: int, stop: int, thin: int) -> Arra
 
 def _improved(knocks: list[_Knock], rate: float) -> tuple[Array, Array]:
     """Return the posterior mean of each onset and its error, in s, with one common rise time."""
-    common = np.mean([one.color for one in knocks], axis=0)
-    logs = np.array([_logs(one, 0.5 * (one.color + common), rate) for one in knocks])
+    common = np.mean([knock.color for knock in knocks], axis=0)
+    logs = np.array([_logs(knock, 0.5 * (knock.color + common), rate) for knock in knocks])
     chances = np.exp(logs - logs.max(axis=(1, 2), keepdims=True))  # (knock, rise, onset)
     evidence = np.maximum(chances.sum(axis=2), 1e-300)
     rise = int(np.argmax(np.log(evidence).sum(axis=0)))
@@ -142,11 +147,11 @@ def _improved(knocks: list[_Knock], rate: float) -> tuple[Array, Array]:
     places = np.arange(each.shape[1] + 1) - 1.0  # an onset lies between a sample and the next
     means = each @ (places[:-1] + 0.5)
     held = np.pad(np.cumsum(each, axis=1), ((0, 0), (1, 0)))
-    low, high = np.array([np.interp(_ONE_SIGMA, one, places) for one in held]).T
+    low, high = np.array([np.interp(_ONE_SIGMA, shares, places) for shares in held]).T
     deviations = np.sqrt(
         (each * (places[:-1] + 0.5 - means[:, None]) ** 2).sum(axis=1) + 1.0 / 12.0
     )
-    first = np.array([one.first for one in knocks])
+    first = np.array([knock.first for knock in knocks])
     return (first + means) / rate, np.minimum(deviations, 0.5 * (high - low)) / rate
 
 
@@ -155,10 +160,14 @@ def _logs(knock: _Knock, color: Array, rate: float) -> Array:
     from scipy.linalg import toeplitz
 
     count = len(color)
-    since = (np.arange(max(count, round(_LOUD * rate))) + 0.5) / rate
-    grown = np.array([-np.expm1(-since / rise) if rise else np.ones(len(since)) for rise in _RISES])
-    power = (knock.loud - knock.noise) / (grown[:, : round(_LOUD * rate)] ** 2).mean(axis=1)
-    power = np.maximum(power, _LEAST * knock.noise)
+    since = (np.arange(max(count, round(_POWER_SECONDS * rate))) + 0.5) / rate
+    grown = np.array(
+        [-np.expm1(-since / rise) if rise else np.ones(len(since)) for rise in _RISE_TIMES]
+    )
+    power = (knock.loud - knock.noise) / (grown[:, : round(_POWER_SECONDS * rate)] ** 2).mean(
+        axis=1
+    )
+    power = np.maximum(power, _LEAST_POWER * knock.noise)
     wave = np.sqrt(power)[:, None] * grown[:, :count]
     covariances = toeplitz(color) * wave[:, :, None] * wave[:, None] + knock.noise * np.eye(count)
     # A leading block of a Cholesky factor factors the leading block: one serves all onsets.

@@ -9,9 +9,11 @@ from stackbounce.measure.quantities import Array
 
 __all__ = ["refuse_other_series"]
 
+# Set by hand on one sound with echoes and on metronomes (`tests/measure/test_sound_alignment.py`).
 _FAINT = 0.1  # of the loudest amplitude: what is fainter is an echo
-_SLIGHT, _FAR = 1.5, 4.0  # thresholds by which an echo rises at most; times clearer is the sound
-_EQUAL = 0.01  # by which intervals shrink on average: no ball keeps 99 % of its speed
+_SLIGHT = 1.5  # times the least amplitude of a rise, which an echo does not reach
+_CLEARER = 4.0  # times clearer than its echoes is the sound
+_SHRINK = 0.01  # by which intervals shrink at least on average: no ball keeps 99 % of its speed
 _UNEVEN = 0.05  # by which neighbouring intervals of a metronome may differ
 
 
@@ -56,7 +58,7 @@ def _refuse_echoes(times: Array, amplitudes: Array, ratios: Array) -> None:
     clearest = int(np.argmax(ratios))
     faint = bool((np.delete(amplitudes, loudest) < _FAINT * amplitudes[loudest]).all())
     others = np.delete(ratios, clearest)
-    slight = bool((others < _SLIGHT).all() and ratios[clearest] > _FAR * others.max())
+    slight = bool((others < _SLIGHT).all() and ratios[clearest] > _CLEARER * others.max())
     if faint or slight:
         one = loudest if faint else clearest
         what = "is fainter than a tenth of it" if faint else "hardly rises above what precedes it"
@@ -68,7 +70,7 @@ def _refuse_echoes(times: Array, amplitudes: Array, ratios: Array) -> None:
 
 def _refuse_equal(intervals: Array) -> None:
     steps = np.diff(np.log(intervals))
-    if steps.mean() > -_EQUAL and np.abs(steps).max() < _UNEVEN:
+    if steps.mean() > -_SHRINK and np.abs(steps).max() < _UNEVEN:
         raise InvalidValue(
             f"sound must hold bounces, whose intervals shrink, got {len(intervals) + 1} sounds at "
             f"equal intervals of {intervals.mean():.3g} s: a metronome or a clock?"

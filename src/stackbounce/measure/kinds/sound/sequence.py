@@ -10,14 +10,16 @@ from stackbounce.measure.quantities import Array
 
 __all__ = ["Chain", "find_chain"]
 
-_LONGEST = 3.0  # s in the air: a bounce of 11 m
-_STEADY = 0.06  # by how much its logarithm may change from bounce to bounce
-_LIMIT = 3.0  # times that much, and no more
-_LOUDNESS = 1.0  # by how much ln(loudness) scatters about that of the speed
-_MISSED = 2.5  # penalty of a missing bounce; a clear knock scores 1 to 3
-_START = 1.0  # penalty of a series
-_RANGES = 8  # of the ratio
-_RANGE = math.log(SHRINKS[1] / SHRINKS[0]) / _RANGES
+# Weights of a series' score, in which a clear knock counts 1 to 3: set by hand on the synthetic
+# recordings of `benchmarks/coverage/sound.py` and those in `docs/lab`.
+_LONGEST_FLIGHT = 3.0  # s: a bounce of 11 m
+_RATIO_SPREAD = 0.06  # by which the logarithm of the ratio of flights changes from bounce to bounce
+_RATIO_LIMIT = 3.0  # times that: no series changes more
+_LOUDNESS_SPREAD = 1.0  # by which ln(loudness) scatters about that of the speed
+_MISSED_PENALTY = 2.5  # of a missing bounce
+_START_PENALTY = 1.0  # of a series
+_RANGES = 8  # of the ratio, for each of which the best series is kept
+_RANGE = math.log(SHRINKS[1] / SHRINKS[0]) / _RANGES  # width of one in the logarithm
 
 
 class Chain(NamedTuple):
@@ -64,13 +66,13 @@ def find_chain(
     if count < 3:
         return Chain(tuple(range(count)), (0,) * max(count - 1, 0))
     pairs = _Pairs(count)
-    first = np.searchsorted(times, times - _LONGEST)
+    first = np.searchsorted(times, times - _LONGEST_FLIGHT)
     last = np.searchsorted(times, times - dead_time, side="right")
     logs = np.log(loudness)
     for k in range(count):
         for j in range(first[k], min(last[k], k)):
             flight = times[k] - times[j]
-            pairs.score[j, k, 0] = worth[j] + worth[k] - _START
+            pairs.score[j, k, 0] = worth[j] + worth[k] - _START_PENALTY
             pairs.flight[j, k, 0] = flight
             step = _Step(flight, 2.0 * max(errors[j], errors[k]) / flight, logs[k] - logs[j])
             _go_on(pairs, j, k, step, worth[k])
@@ -124,11 +126,15 @@ def _go_on(pairs: _Pairs, j: int, k: int, step: _Step, worth: float) -> None:
         # One bounce is missing: the interval holds two flights, r and r**2 times the last one.
         ratio = 0.5 * (np.sqrt(1.0 + 4.0 * whole) - 1.0) if missed else whole
         fresh = np.isnan(previous)
-        change = np.log(ratio / np.where(fresh, ratio, previous)) / math.hypot(_STEADY, step.error)
-        quieter = np.clip((step.louder - (1 + missed) * np.log(ratio)) / _LOUDNESS, -2.0, 2.0)
-        total = scores[at] + worth - 0.5 * change**2 - 0.5 * quieter**2 - missed * _MISSED
+        change = np.log(ratio / np.where(fresh, ratio, previous)) / math.hypot(
+            _RATIO_SPREAD, step.error
+        )
+        quieter = np.clip(
+            (step.louder - (1 + missed) * np.log(ratio)) / _LOUDNESS_SPREAD, -2.0, 2.0
+        )
+        total = scores[at] + worth - 0.5 * change**2 - 0.5 * quieter**2 - missed * _MISSED_PENALTY
         allowed = (ratio > SHRINKS[0]) & (ratio < SHRINKS[1] + step.error)
-        allowed &= np.abs(change) < _LIMIT
+        allowed &= np.abs(change) < _RATIO_LIMIT
         if missed:  # only a steady series tells that one is missing
             allowed &= ~fresh
         slots = 1 + np.clip((np.log(ratio / SHRINKS[0]) / _RANGE).astype(int), 0, _RANGES - 1)

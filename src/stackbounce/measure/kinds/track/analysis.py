@@ -1,15 +1,14 @@
 """A video's track of a ball or two -> drop height, impact and rebound speeds, restitution."""
 
 import math
-from typing import Any, Literal
+from collections.abc import Sequence
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.drag import Drag, with_error_of_drag
-from stackbounce.measure.hints import Hint, Said
-from stackbounce.measure.kinds.track.air import fall_at, meeting, state, straightened
-from stackbounce.measure.kinds.track.flight_numbers import flight_numbers
+from stackbounce.measure.kinds.track import motion
 from stackbounce.measure.kinds.track.free_flight import (
     comparable,
     no_flight,
@@ -28,8 +27,8 @@ from stackbounce.measure.kinds.track.paths import (
 )
 from stackbounce.measure.kinds.track.result import Track, Tracks
 from stackbounce.measure.kinds.track.shape import shape_of
-from stackbounce.measure.kinds.track.time_base import check_time_base
-from stackbounce.measure.kinds.track.units import TrackUnits, uncalibrated, units_of
+from stackbounce.measure.kinds.track.time_base import TrackUnits, check_time_base, units_of
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, nominal
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
@@ -37,8 +36,18 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 __all__ = ["track"]
 
 _TOGETHER = 0.15  # of the time of fall, within which two balls' impacts are one drop's
-_LEAST_TILT = math.radians(0.5)
+_LEAST_TILT = math.radians(0.5)  # that is corrected
 _WANTED = "data must hold a ball that falls and bounces, got "
+
+
+class _Flown(NamedTuple):
+    """A ball, the points of its track, its flights, and after which of them it bounces."""
+
+    name: str
+    times: Array
+    heights: Array
+    fit: Flights
+    bounces: list[int]
 
 
 def track(
@@ -120,46 +129,39 @@ def track(
     up = upward(found, axis, gravity)
     if axis is None and up.sign < 0.0:
         notes.append(f"{up.axis} points down; heights are counted upwards.")
-    up, fitted = _fitted(found, up, gravity, notes)
-    fitted = _bouncing(found, up, fitted, gravity if comparable(data) else None, notes)
+    up, flown = _flown(found, up, gravity, notes)
+    flown = _bouncing(found, up, flown, gravity if comparable(data) else None, notes)
     level = None if floor is None else ruler * finite("floor", floor, "metres")
     units = units_of(data)
-    alone = len(fitted) == 1
     if drag is None:
-        balls = [_track(name, *one, level, units, alone=alone) for name, one in fitted]
+        balls = [_track(ball, level, units, alone=len(flown) == 1) for ball in flown]
     else:
-        balls = [_track_in_air(fitted, level, units, drag, notes)]
+        balls = [_track_in_air(flown, level, units, drag, notes)]
     notes.extend(note for ball in balls for note in ball.notes)
     balls.sort(key=lambda ball: float(ball.levels[0].nominal_value))
     if gains := no_gain(balls[0].restitutions, balls[0].impact_times):
         raise InvalidValue(_WANTED + gains)
     rate = float(1.0 / np.median(np.diff(found.times)))
-    base = check_time_base(_common_gravity(balls), gravity, rate)
-    if not units.known:
-        base = uncalibrated(base, units, gravity)
+    base = check_time_base(_common_gravity(balls), gravity, rate, units)
     notes.extend([base.note] * (not base.agrees))
     ratios = _rebound_ratios(balls, notes)
-    sign = "" if up.sign > 0.0 else "-"
+    upwards = up.axis if up.sign > 0.0 else f"-{up.axis}"
     first = balls[0].impact_times[0]
-    axes = sign + up.axis, up.tilt
-    return Tracks(tuple(balls), ratios, first, base, *axes, tuple(notes), units, drag)
+    return Tracks(tuple(balls), ratios, first, base, upwards, up.tilt, tuple(notes), units, drag)
 
 
-_Found = tuple[Array, Array, Flights, list[int]]
-
-
-def _fitted(
+def _flown(
     found: Columns, up: Upward, gravity: float, notes: list[str]
-) -> tuple[Upward, list[tuple[str, _Found]]]:
+) -> tuple[Upward, list[_Flown]]:
     """Return the vertical, with the tilt that the flights show, and the flights of each ball."""
-    fitted = _flights(found, up, gravity)
+    flown = _flights(found, up, gravity)
     across = "x" if up.axis == "y" else "y"
-    if fitted and across in found.positions[0]:
+    if flown and across in found.positions[0]:
         own = []
-        for name, (times, heights, flown, _) in fitted:
-            position = found.positions[found.names.index(name)]
+        for ball in flown:
+            position = found.positions[found.names.index(ball.name)]
             side = position[across][np.isfinite(up.heights(position))]
-            own.append((times, heights, side, flown.flights))
+            own.append((ball.times, ball.heights, side, ball.fit.flights))
         angle, error = tilt_of(own)
         if abs(angle) > max(_LEAST_TILT, 3.0 * error):
             tilted = up._replace(tilt=angle)
@@ -170,82 +172,72 @@ def _fitted(
                     "vertical, as the flights show; heights are counted along the vertical."
                 )
                 return tilted, again
-    return up, fitted
+    return up, flown
 
 
-def _bouncing(
-    found: Columns,
-    up: Upward,
-    fitted: list[tuple[str, _Found]],
-    gravity: float | None,
-    notes: list[str],
-) -> list[tuple[str, _Found]]:
-    """Return the balls that fly freely and bounce, with notes on the others.
-
-    `gravity` is None where the scale or the clock is not known.
-    """
-    reasons = {name: no_flight(*one, up.axis, gravity) for name, one in fitted}
-    kept = [(name, one) for name, one in fitted if not reasons[name]]
-    if kept:
-        without = [name for name in found.names if name not in dict(kept)]
-        notes.extend(f"{name}: no bounce was found, and it is left out." for name in without)
-        return kept
-    reason = next(iter(reasons.values()), "")
-    shorter = f" (means of {found.many} of its points were taken: cut it to the bounces)"
-    why = reason or _seen(found, up, gravity)
-    raise InvalidValue(Said(_WANTED, why, shorter * (found.many > 1)))
-
-
-def _seen(found: Columns, up: Upward, gravity: float | None) -> str:
-    """Return what the track of the ball that moves most shows."""
-    axis = up.axis if "y" not in found.positions[0] else "y"
-    every = [position[axis] for position in found.positions]
-    ranges = [
-        float(np.ptp(one[np.isfinite(one)])) if np.isfinite(one).any() else 0.0 for one in every
-    ]
-    most = every[int(np.argmax(ranges))] * (up.sign if axis == up.axis else 1.0)
-    good = np.isfinite(most)
-    return what_is_seen(found.times[good], most[good], axis, gravity)
-
-
-def _flights(found: Columns, up: Upward, gravity: float) -> list[tuple[str, _Found]]:
-    fitted: list[tuple[str, _Found]] = []
+def _flights(found: Columns, up: Upward, gravity: float) -> list[_Flown]:
+    """Return the balls that have flights and bounces."""
+    flown = []
     for name, position in zip(found.names, found.positions, strict=True):
         heights = up.heights(position)
         good = np.isfinite(heights)
         if good.sum() < 5 or np.ptp(heights[good]) == 0.0:
             continue
         times, heights = found.times[good], heights[good]
-        flown = flights_of(times, heights, gravity)
-        if flown is not None:
-            fitted.append((name, (times, heights, *flown)))
-    return fitted
+        flights = flights_of(times, heights, gravity)
+        if flights is not None:
+            flown.append(_Flown(name, times, heights, *flights))
+    return flown
+
+
+def _bouncing(
+    found: Columns, up: Upward, flown: list[_Flown], gravity: float | None, notes: list[str]
+) -> list[_Flown]:
+    """Return the balls that fly freely and bounce, with notes on the others.
+
+    `gravity` is None where the scale or the clock is not known.
+    """
+    reasons = {ball.name: no_flight(*ball[1:], up.axis, gravity) for ball in flown}
+    kept = [ball for ball in flown if not reasons[ball.name]]
+    if kept:
+        names = [ball.name for ball in kept]
+        without = [name for name in found.names if name not in names]
+        notes.extend(f"{name}: no bounce was found, and it is left out." for name in without)
+        return kept
+    reason = next(iter(reasons.values()), "") or _seen(found, up, gravity)
+    shorter = f" (means of {found.many} of its points were taken: cut it to the bounces)"
+    raise InvalidValue(Message(_WANTED, reason, shorter * (found.many > 1)))
+
+
+def _seen(found: Columns, up: Upward, gravity: float | None) -> str:
+    """Return what the track of the ball that moves most shows."""
+    axis = up.axis if "y" not in found.positions[0] else "y"
+    every = [position[axis] for position in found.positions]
+    known = [heights[np.isfinite(heights)] for heights in every]
+    most = int(np.argmax([float(np.ptp(one)) if one.size else 0.0 for one in known]))
+    sign = up.sign if axis == up.axis else 1.0
+    return what_is_seen(found.times[np.isfinite(every[most])], known[most] * sign, axis, gravity)
 
 
 def _track_in_air(
-    fitted: list[tuple[str, _Found]],
-    level: float | None,
-    units: TrackUnits,
-    drag: Drag,
-    notes: list[str],
+    flown: list[_Flown], level: float | None, units: TrackUnits, drag: Drag, notes: list[str]
 ) -> Track:
     """Return the bounces of the one ball of a track in air, with the error of the drag."""
-    if len(fitted) > 1:
+    if len(flown) > 1:
         raise InvalidValue(
-            f"drag is for the track of one ball of known mass and diameter, got {len(fitted)}"
+            f"drag is for the track of one ball of known mass and diameter, got {len(flown)}"
         )
     if not units.known:
         raise InvalidValue(
-            Said(
+            Message(
                 f"drag needs lengths in m and times in s, got {units.length} and {units.time}: ",
-                Hint({"frame_rate": None, "scale": None}),
+                OptionHint({"frame_rate": None, "scale": None}),
                 " tell them",
             )
         )
-    ((name, one),) = fitted
 
     def found_with(drag: Drag | None) -> Track:
-        return _track(name, *one, level, units, alone=True, drag=drag)
+        return _track(flown[0], level, units, alone=True, drag=drag)
 
     try:
         found = with_error_of_drag(found_with(drag.exact()), found_with, drag)
@@ -259,11 +251,7 @@ def _track_in_air(
 
 
 def _track(
-    name: str,
-    times: Array,
-    heights: Array,
-    fit: Flights,
-    bounces: list[int],
+    ball: _Flown,
     floor: float | None,
     units: TrackUnits,
     *,
@@ -273,83 +261,75 @@ def _track(
     """Return a ball's bounces from its parabolas; a drag is taken to be exact."""
     from uncertainties import ufloat
 
+    name, times, heights, fit, bounces = ball
     flat = heights
     if drag is not None:
-        flat, fit = straightened(times, heights, fit, drag)
+        flat, fit = motion.straightened(times, heights, fit, drag)
     shape = shape_of(times, flat, fit.flights)
-    numbers = flight_numbers(times, flat, fit, shape)
-    wider = widening(max(fit.freedom, 1)) * shape.widening
-    common = ufloat(fit.values[0], wider * math.sqrt(fit.covariance[0, 0]))
-    rows = []
-    for j in bounces:
-        middle = 0.5 * (times[fit.flights[j].last - 1] + times[fit.flights[j + 1].first])
-        middle += meeting(numbers[j : j + 2], fit.origins[j : j + 2], middle, drag)
-        (low, before), (high, after) = (
-            state(numbers[k], float(middle - fit.origins[k]), drag) for k in (j, j + 1)
-        )
-        falls = fall_at(numbers[j][0], before, drag), fall_at(numbers[j + 1][0], after, drag)
-        since = (low - high) / (after - before)
-        if floor is None:
-            level = low + before * since - 0.5 * falls[0] * since**2
-            rows.append(
-                (middle + since, level, falls[0] * since - before, after - falls[1] * since)
-            )
-        else:
-            speeds = (
-                _at_level(before, low - floor, falls[0]),
-                _at_level(after, high - floor, falls[1]),
-            )
-            rows.append((middle + since, low * 0.0 + floor, *speeds))
-    moments, levels, impacts, rebounds = (tuple(column) for column in zip(*rows, strict=True))
-    fall = common if shape.widening > 1.0 else numbers[0][0]
+    numbers = motion.flight_numbers(times, flat, fit, shape)
+    met = [_bounce(times, fit, numbers, flight, floor, drag) for flight in bounces]
+    moments, levels, impacts, rebounds = (tuple(column) for column in zip(*met, strict=True))
+    gravity = numbers[0][0]
+    if shape.widening > 1.0:
+        wider = widening(max(fit.freedom, 1)) * shape.widening
+        gravity = ufloat(fit.values[0], wider * math.sqrt(fit.covariance[0, 0]))
     scale = ufloat(1.0, shape.scatter) if shape.scatter > 0.0 else 1.0  # after over before
-    height, fallen = _fallen(impacts[0], numbers[bounces[0]][0], drag)
+    height, time = motion.fallen(impacts[0], numbers[bounces[0]][0], drag)
+    fall_time = time or impacts[0] / gravity
+    notes = [
+        *uneven(name, shape),
+        *notes_of(name, times, fit, bounces, moments[0], fall_time, units.time),
+    ]
+    if floor is None and units.known:
+        notes += stays_long(name, times, fit, bounces[0], impacts[0], gravity, alone=alone)
     return Track(
-        name,
-        moments,
-        levels,
-        impacts,
-        rebounds,
-        height,
-        tuple(
-            _risen(speed, numbers[j + 1][0], drag)
-            for j, speed in zip(bounces, rebounds, strict=True)
+        name=name,
+        impact_times=moments,
+        levels=levels,
+        impact_speeds=impacts,
+        rebound_speeds=rebounds,
+        drop_height=height,
+        apex_heights=tuple(
+            motion.risen(speed, numbers[flight + 1][0], drag)
+            for flight, speed in zip(bounces, rebounds, strict=True)
         ),
-        tuple(after / before * scale for before, after in zip(impacts, rebounds, strict=True)),
-        fall,
-        times,
-        heights,
-        fit,
-        tuple(bounces),
-        (
-            *uneven(name, shape),
-            *notes_of(
-                name, times, fit, bounces, moments[0], fallen or impacts[0] / fall, units.time
-            ),
-            *(
-                stays_long(name, times, fit, bounces[0], impacts[0], fall, alone=alone)
-                if floor is None and units.known
-                else ()
-            ),
-        ),
+        restitutions=tuple(out / into * scale for into, out in zip(impacts, rebounds, strict=True)),
+        gravity=gravity,
+        times=times,
+        heights=heights,
+        fit=fit,
+        bounces=tuple(bounces),
+        notes=tuple(notes),
     )
 
 
-def _fallen(speed: Any, fall: Any, drag: Drag | None) -> tuple[Any, Any]:
-    """Return height and time of the fall from rest to a speed; no time without drag."""
-    if drag is None:
-        return speed**2 / (2.0 * fall), None
-    height = drag.fall_height(speed, fall)
-    if height is None:
-        raise OverflowError("faster than the terminal speed")
-    return height, drag.fall_time(height, fall)
-
-
-def _risen(speed: Any, fall: Any, drag: Drag | None) -> Any:
-    """Return the height to which a ball rises at a speed, below 0 for one that moves down."""
-    if drag is None:
-        return math.copysign(0.5, speed.nominal_value) * speed**2 / fall
-    return drag.risen(speed, fall) if speed.nominal_value > 0.0 else -drag.risen(-speed, fall)
+def _bounce(
+    times: Array,
+    fit: Flights,
+    numbers: Sequence[motion.Numbers],
+    flight: int,
+    floor: float | None,
+    drag: Drag | None,
+) -> tuple[Any, Any, Any, Any]:
+    """Return time, level, impact and rebound speed of the bounce after a flight."""
+    both = slice(flight, flight + 2)
+    before, after = fit.flights[both]
+    time = 0.5 * (times[before.last - 1] + times[after.first])
+    time += motion.meeting(numbers[both], fit.origins[both], time, drag)
+    (low, into), (high, out) = (
+        motion.state(one, float(time - origin), drag)
+        for one, origin in zip(numbers[both], fit.origins[both], strict=True)
+    )
+    falls = [
+        motion.fall_at(fall, speed, drag)
+        for (fall, *_), speed in zip(numbers[both], (into, out), strict=True)
+    ]
+    since = (low - high) / (out - into)
+    if floor is not None:
+        speeds = _at_level(into, low - floor, falls[0]), _at_level(out, high - floor, falls[1])
+        return time + since, low * 0.0 + floor, *speeds
+    level = low + into * since - 0.5 * falls[0] * since**2
+    return time + since, level, falls[0] * since - into, out - falls[1] * since
 
 
 def _at_level(speed: Any, above: Any, fall: Any) -> Any:

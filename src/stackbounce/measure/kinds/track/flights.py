@@ -9,14 +9,14 @@ from stackbounce.measure.quantities import Array
 
 __all__ = ["Flight", "find_flights", "unexplained"]
 
-_PRICE = 14.0  # penalty of a piece, in variances
-_SPEED = 9.0  # penalty of a flight's speed, a parameter that a rest does not have
-_STRAY = 9.0  # penalty of a point that belongs to no piece
+_PIECE_PENALTY = 14.0  # variances, of each piece
+_SPEED_PENALTY = 9.0  # variances, of a flight's speed, a parameter that a rest does not have
+_STRAY_PENALTY = 9.0  # variances, of a point that belongs to no piece: 3 standard deviations
 _STRAY_POINT, _FLIGHT, _REST = range(3)  # kinds of pieces
-_LEAST = 3  # points of a flight
-_EVERY = 128  # points up to which a piece can have any number of them
-_RATIO = 1.03  # of the numbers of points that longer pieces can have
-_LONGEST = 1024  # points of a piece; a longer flight is found as several that fit together
+_LEAST_POINTS = 3  # of a flight
+_ANY_LENGTH = 128  # points up to which a piece can have any number of them
+_LENGTH_RATIO = 1.03  # of neighbouring numbers of points that longer pieces can have
+_MOST_POINTS = 1024  # of a piece; a longer flight is found as several that fit together
 _BLOCK = 64  # ends of pieces whose costs are found at once
 
 
@@ -100,11 +100,11 @@ def _cut(
     for begin in range(0, count if len(lengths) else 0, _BLOCK):
         ends = np.arange(begin + 1, min(begin + _BLOCK, count) + 1)
         flight, rest = _costs(times, heights, sigma, accelerations, ends, lengths)
-        costs = np.minimum(flight, rest) + _PRICE
+        costs = np.minimum(flight, rest) + _PIECE_PENALTY
         froms = ends[:, None] - lengths
         usable = np.searchsorted(lengths, ends, side="right")
         for k, end in enumerate(ends.tolist()):
-            best[:, end] = best[:, end - 1] + _STRAY
+            best[:, end] = best[:, end - 1] + _STRAY_PENALTY
             if not (some := int(usable[k])):
                 continue
             total = best[:, froms[k, :some]] + costs[:, k, :some]
@@ -118,10 +118,10 @@ def _cut(
 
 def _lengths(count: int) -> NDArray[np.intp]:
     """Return the numbers of points that a piece can have, ascending."""
-    longest = min(count, _LONGEST)
-    steps = int(np.log(_LONGEST / _EVERY) / np.log(_RATIO)) + 1
-    long = np.round(np.geomspace(_EVERY, _LONGEST, steps)).astype(np.intp)
-    every = np.concatenate([np.arange(_LEAST, _EVERY, dtype=np.intp), long])
+    longest = min(count, _MOST_POINTS)
+    steps = int(np.log(_MOST_POINTS / _ANY_LENGTH) / np.log(_LENGTH_RATIO)) + 1
+    long = np.round(np.geomspace(_ANY_LENGTH, _MOST_POINTS, steps)).astype(np.intp)
+    every = np.concatenate([np.arange(_LEAST_POINTS, _ANY_LENGTH, dtype=np.intp), long])
     return every[every <= longest]
 
 
@@ -153,7 +153,7 @@ def _costs(
     xf -= mean * f
     ff -= f * f / n
     ff -= xf * xf / np.maximum(sxx - mean * sx, 1e-300)
-    flight = np.maximum(ff, 0.0) + _SPEED
+    flight = np.maximum(ff, 0.0) + _SPEED_PENALTY
     rest = np.maximum(syy - sy * sy / n, 0.0)
     return np.ascontiguousarray(np.swapaxes(flight, 1, 2)), np.ascontiguousarray(rest.T)
 

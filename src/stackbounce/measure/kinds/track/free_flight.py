@@ -11,34 +11,36 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.track.flights import Flight
 from stackbounce.measure.kinds.track.parabolas import Flights, fit_flights
 from stackbounce.measure.kinds.track.shape import curvatures, shape_of
 from stackbounce.measure.kinds.track.time_base import is_usual
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import resolution
 
 __all__ = ["comparable", "no_flight", "no_gain", "what_is_seen"]
 
-_RATIO = (0.6, 1.6)  # of the flights' acceleration to gravity, by a wrong scale or frame rate
-_KNOWN = 0.05  # relative error of an acceleration that tells a slow motion
-_TOLD = 0.25  # relative error of an acceleration that is one at all
-_CHANGE, _ERRORS = 0.4, 4.0  # of the acceleration within a flight; its errors that matter
-_SCATTER = 0.3  # of the flights' own accelerations, over their mean
-_LASTS = 0.12  # s: a contact; longer ones are legs or hands
-_SHARE, _FRAMES = 0.5, 4  # of the flights beside it, and frames, that a contact does not reach
-_MANY = 100  # bounces of a ball
-_CLOSE = 3  # frames between two pieces of one flight
-_GAIN = 0.02  # above 1, and 3 errors, that a restitution does not reach
-_LINE = 0.03  # of the range: a track that is one parabola is no further from it
+_GRAVITY_RATIO = (0.6, 1.6)  # of the flights' acceleration to gravity, by a wrong scale or clock
+_UNSCALED = 30.0  # the same ratio, from which on only another unit of length explains it
+_KNOWN_WITHIN = 0.05  # relative error of an acceleration that tells a slow motion
+_SEEN_WITHIN = 0.25  # relative error of an acceleration that is one at all
+_LARGEST_CHANGE = 0.4  # of the acceleration within a flight, relative
+_CLEAR_CHANGE = 4.0  # standard errors of that change
+_LARGEST_SCATTER = 0.3  # of the flights' own accelerations, over their mean
+_LONGEST_CONTACT = 0.12  # s; longer ones are those of legs or hands
+_LONGEST_SHARE = 0.5  # of the flights beside it, that a contact may last, where no clock is known
+_LONGEST_FRAMES = 4  # that a contact may last, where no clock is known
+_MOST_BOUNCES = 100  # of a ball
+_CLOSE = 3  # frames between two pieces of one flight, at most
+_LARGEST_GAIN = 0.02  # of a restitution above 1, or 3 standard errors
+_ONE_PARABOLA = 0.03  # of the range: a track is one parabola if it is nearer to it
 _STILL = 8.0  # errors of a point, within which nothing moves
 _WINDOWS = (5, 7, 11, 17, 25, 51, 101, 201, 401)  # points that tell an acceleration
-_TRIED = 400  # windows
-_UNSCALED = 30.0  # ratio of an acceleration to gravity that only another unit of length makes
-_INSTEAD = Said(
+_MOST_WINDOWS = 400  # that are looked at
+_INSTEAD = Message(
     "if it does fall, but on an incline or with a wrong scale, ",
-    Hint({"gravity": None}),
+    OptionHint({"gravity": None}),
     " tells how fast",
 )
 
@@ -79,22 +81,23 @@ def no_flight(
     gravity : float or None
         In m/s², to compare with; None where the scale or the clock is not known.
     """
-    if len(bounces) > _MANY:
-        return f"{len(bounces)} bounces, more than a ball has ({_MANY}): an oscillation, or noise?"
+    if len(bounces) > _MOST_BOUNCES:
+        more = f"more than a ball has ({_MOST_BOUNCES}): an oscillation, or noise?"
+        return f"{len(bounces)} bounces, {more}"
     fall, error = float(fit.values[0]), math.sqrt(max(float(fit.covariance[0, 0]), 0.0))
-    if error > _TOLD * fall:
+    if error > _SEEN_WITHIN * fall:
         return "no free flight: the pieces have no common acceleration"
     rate = 1.0 / max(float(np.median(np.diff(times))), 1e-300)
     if gravity is not None and not _falls(fall, error, gravity, rate):
         return _other(fall, gravity, axis)
     shape = shape_of(times, heights, _arcs(fit.flights, bounces))
-    if abs(shape.change) > max(_CHANGE, _ERRORS * shape.change_error):
+    if abs(shape.change) > max(_LARGEST_CHANGE, _CLEAR_CHANGE * shape.change_error):
         return (
             f"no free flight: within a flight the acceleration changes by {shape.change:+.0%} from "
             "the middle to the ends, where that of a fall stays; a ball that swings, or an "
             "oscillation?"
         )
-    if shape.scatter > _SCATTER:
+    if shape.scatter > _LARGEST_SCATTER:
         return (
             f"no free flight: the accelerations of the flights differ by {shape.scatter:.0%}; a "
             "ball that rolls, or is held?"
@@ -106,7 +109,7 @@ def no_gain(restitutions: Sequence[Any], moments: Sequence[Any]) -> str:
     """Return why restitutions are none: above 1, or not above 0; nothing where they are."""
     for k, (kept, moment) in enumerate(zip(restitutions, moments, strict=True)):
         value, error = kept.nominal_value, kept.std_dev
-        if value <= 0.0 or value > 1.0 + max(_GAIN, 3.0 * error):
+        if value <= 0.0 or value > 1.0 + max(_LARGEST_GAIN, 3.0 * error):
             return (
                 f"a restitution of {kept:.1uS} at {moment.nominal_value:.3g} (bounce {k}): a ball "
                 "alone rebounds with 0 to 1 of its speed; it is hit or thrown there, or bounces on "
@@ -123,15 +126,15 @@ def what_is_seen(times: Array, heights: Array, axis: str, gravity: float | None)
         return f"nothing that moves along {axis} by more than the errors of its points"
     whole = fit_flights(times, heights, [Flight(0, len(times))])
     fall, left = float(whole.values[0]), float(np.nanstd(whole.residuals))
-    flies = gravity is None or _RATIO[0] < fall / gravity < _RATIO[1]
-    if left < _LINE * extent and fall > 0.0 and flies:
+    flies = gravity is None or _GRAVITY_RATIO[0] < fall / gravity < _GRAVITY_RATIO[1]
+    if left < _ONE_PARABOLA * extent and fall > 0.0 and flies:
         clock, unit = (" s", " m/s^2") if gravity is not None else ("", "")
         return (
             f"one flight of {times[-1] - times[0]:.2g}{clock} with an acceleration of "
             f"{fall:.3g}{unit} and no bounce: a throw, or a fall that ends before the floor?"
         )
     usual = _usual_acceleration(times, heights)
-    if gravity is not None and not _RATIO[0] < usual / gravity < _RATIO[1]:
+    if gravity is not None and not _GRAVITY_RATIO[0] < usual / gravity < _GRAVITY_RATIO[1]:
         return _other(usual, gravity, axis)
     return (
         "no free flights that meet at a floor: is the axis right, and the frame rate high enough?"
@@ -141,9 +144,9 @@ def what_is_seen(times: Array, heights: Array, axis: str, gravity: float | None)
 def _falls(fall: float, error: float, gravity: float, rate: float) -> bool:
     """Return whether an acceleration is that of a fall, perhaps in slow motion or in pixels."""
     ratio = fall / gravity
-    if _RATIO[0] < ratio < _RATIO[1]:
+    if _GRAVITY_RATIO[0] < ratio < _GRAVITY_RATIO[1]:
         return True
-    return error < _KNOWN * fall and (ratio > _UNSCALED or is_usual(ratio, rate))
+    return error < _KNOWN_WITHIN * fall and (ratio > _UNSCALED or is_usual(ratio, rate))
 
 
 def _other(fall: float, gravity: float, axis: str) -> str:
@@ -152,10 +155,10 @@ def _other(fall: float, gravity: float, axis: str) -> str:
         f"no free flight: accelerations along {axis} are {fall:.2g} m/s^2 where a fall has "
         f"{gravity:.3g}; "
     )
-    if fall > _RATIO[1] * gravity:
-        unit = Hint({"units": {axis: "cm"}})
-        return Said(f"{seen}are its lengths in another unit (", unit, "), or in pixels?")
-    return Said(f"{seen}a ball that rolls, swings or is held? (", _INSTEAD, ")")
+    if fall > _GRAVITY_RATIO[1] * gravity:
+        unit = OptionHint({"units": {axis: "cm"}})
+        return Message(f"{seen}are its lengths in another unit (", unit, "), or in pixels?")
+    return Message(f"{seen}a ball that rolls, swings or is held? (", _INSTEAD, ")")
 
 
 def _arcs(flights: Sequence[Flight], bounces: Sequence[int]) -> list[Flight]:
@@ -181,9 +184,9 @@ def _lasting(
         shares.append(gap / max(beside, step))
     last = float(np.median(lasts))
     if ratio is None:
-        if last > _FRAMES * step and float(np.median(shares)) > _SHARE:
+        if last > _LONGEST_FRAMES * step and float(np.median(shares)) > _LONGEST_SHARE:
             return "no bounce: the contacts last for more than half of the flights beside them"
-    elif last * math.sqrt(ratio) > _LASTS:
+    elif last * math.sqrt(ratio) > _LONGEST_CONTACT:
         return (
             f"no bounce: between the flights it is on the floor for {last * math.sqrt(ratio):.2g} s"
             "; legs or a trampoline? A ball's contact takes some hundredths of a second"
@@ -201,7 +204,7 @@ def _usual_acceleration(times: Array, heights: Array) -> float:
         if wide > len(heights):
             break
         windows = np.lib.stride_tricks.sliding_window_view
-        some = slice(None, None, max(1, len(heights) // _TRIED))
+        some = slice(None, None, max(1, len(heights) // _MOST_WINDOWS))
         t, u = (windows(one, wide)[some] for one in (times, heights))
         found = float(np.median(np.abs(curvatures(t, u))))
         if noise * math.sqrt(720.0 / wide**5) / step**2 < 0.03 * found:

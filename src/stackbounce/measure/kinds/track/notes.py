@@ -4,17 +4,17 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.track.parabolas import Flights
 from stackbounce.measure.kinds.track.shape import Shape
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 
 __all__ = ["notes_of", "stays_long", "uneven"]
 
-_CORRELATED = 0.2
+_CORRELATED = 0.2  # correlation of neighbouring points' errors that is mentioned
 _BENT = 0.05  # of the acceleration within a flight: a smaller change is not mentioned
 _OFF = 0.07  # of that change: by so much a restitution is off, in simulated distortions
-_NOTICED = 1.0  # error of a speed, beyond which it is said to be off
+_NOTICED = 1.0  # standard errors of a speed, from which on its bias is mentioned
 
 
 def notes_of(
@@ -74,8 +74,10 @@ def stays_long(
     if not alone:
         return (f"{biased}; what is fitted to them is off by as much",)
     return (
-        Said(
-            f"{biased}; ", Hint({"floor": None}), " tells the floor's level, for those at the touch"
+        Message(
+            f"{biased}; ",
+            OptionHint({"floor": None}),
+            " tells the floor's level, for those at the touch",
         ),
     )
 

@@ -14,8 +14,8 @@ from stackbounce.measure.quantities import Array
 
 __all__ = ["Flights", "Parabolas", "fit_flights"]
 
-_TELLING = 8  # degrees of freedom, above which residuals tell a correlation
-_CORRELATIONS = np.linspace(-0.7, 0.98, 57)  # below 0: interlaced frames
+_LEAST_FREEDOM = 8  # degrees of freedom, above which residuals tell a correlation
+_CORRELATIONS = np.linspace(-0.7, 0.98, 57)  # on the grid; below 0: interlaced frames
 _COLUMNS, _ROWS = (part.tolist() for part in np.tril_indices(4))  # pairs of columns
 _FAR = 100  # steps, beyond which errors are taken as independent
 _ALMOST_NONE = 1e-9  # degrees of freedom of as many points as parameters
@@ -119,7 +119,7 @@ class Parabolas:
     @cached_property
     def tried(self) -> Array:
         """The correlations on the grid, (K,)."""
-        return _CORRELATIONS if self.freedom > _TELLING else np.zeros(1)
+        return _CORRELATIONS if self.freedom > _LEAST_FREEDOM else np.zeros(1)
 
     @cached_property
     def rough(self) -> _Fits:

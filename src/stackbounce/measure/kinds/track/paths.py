@@ -16,17 +16,18 @@ from stackbounce.measure.samples import columns, resolution
 
 __all__ = ["Columns", "Upward", "flights_of", "positions_of", "tilt_of", "upward"]
 
-_MOVES = 0.03  # of the range of a track, within a window
-_JUMP = 5.0  # errors that make a velocity's jump a bounce
+_LEAST_MOTION = 0.03  # of the range of a track, within a window that tells an acceleration
+_CLEAR_JUMP = 5.0  # standard errors of a velocity's jump that may be a bounce
 _LEAST_JUMP = 0.1  # of the largest jump; smaller ones are caused by a hand
-_ROUNDS = 4
-_MOST = 20_000  # points of a track; of more, means of neighbours are taken
-_STRETCH, _STRETCHES = 256, 8  # points of a stretch; stretches that tell the acceleration
+_ROUNDS = 4  # of cutting the track, each with the acceleration and error of the one before
+_MOST_POINTS = 20_000  # of a track; of more, means of neighbours are taken
+_STRETCH = 256  # points of a stretch of a long track
+_STRETCHES = 8  # that tell the acceleration: those in which the ball moves most
 _AT_ONCE = 4  # one in so many of the weakest jumps is taken out before the next fit
 _WIDTHS = (3, 5, 7, 11, 17, 25)  # points of a window
-_UNSEEN = 4.0  # errors by which a ball must have fallen for its fall to be significant
-_SURE = 5  # points that a fall keeps
-_ALIKE = 0.05
+_SEEN_FALL = 4.0  # errors of a point by which a ball has fallen where its flight begins
+_LEAST_FALL = 5  # points that a fall keeps
+_ALIKE = 0.05  # relative difference of two accelerations that are one guess
 _DIFFER = 1.5  # scatter around one acceleration, over that around each flight's own
 _BESIDE = 3  # points between two pieces of one flight, at most
 _AXES = {"x": ("x", 1.0), "y": ("y", 1.0), "-x": ("x", -1.0), "-y": ("y", -1.0)}
@@ -83,7 +84,7 @@ def positions_of(data: Any, clock: float, ruler: float) -> Columns:
 
 def _thinned(found: Columns) -> Columns:
     """Return a very long track with means of neighbours; those of a parabola lie on one."""
-    many = -(-len(found.times) // _MOST)
+    many = -(-len(found.times) // _MOST_POINTS)
     if many < 2:
         return found
     count = len(found.times) // many
@@ -159,7 +160,7 @@ def _accelerations(times: Array, heights: Array, wide: int) -> Array:
     if len(heights) < wide:
         return np.zeros(0)
     t, u = (np.lib.stride_tricks.sliding_window_view(one, wide) for one in (times, heights))
-    moves = np.ptp(u, axis=1) > _MOVES * np.ptp(heights)
+    moves = np.ptp(u, axis=1) > _LEAST_MOTION * np.ptp(heights)
     t, u = t[moves], u[moves]
     return curvatures(t, u)
 
@@ -223,9 +224,9 @@ def _released(times: Array, fitted: Flights, bounces: list[int]) -> list[Flight]
         if j - 1 in bounces or first == 0:
             continue
         apex = fitted.origins[j] + fitted.values[2 + 2 * j] / fall
-        after = apex + math.sqrt(2.0 * _UNSEEN * fitted.sigma / fall)
+        after = apex + math.sqrt(2.0 * _SEEN_FALL * fitted.sigma / fall)
         start = max(first, int(np.searchsorted(times, after)))
-        if last - start >= _SURE:
+        if last - start >= _LEAST_FALL:
             flights[j] = Flight(start, last)
     return flights
 
@@ -254,7 +255,7 @@ def _joined(
         if fitted.freedom < 1 or fitted.fall <= 0.0:
             return None, []
         jumps, errors, before = fitted.jumps()
-        weak = np.flatnonzero(np.abs(jumps) < _JUMP * errors)
+        weak = np.flatnonzero(np.abs(jumps) < _CLEAR_JUMP * errors)
         if weak.size:
             flights = _united(flights, weak[np.argsort(np.abs(jumps[weak]))])
             continue
@@ -282,7 +283,7 @@ def _small(fitted: Parabolas, jumps: Array) -> NDArray[np.intp]:
     first, last = fitted.firsts, fitted.lasts
     size = np.abs(jumps)
     count = last - first
-    beside = (first[1:] - last[:-1] <= _BESIDE) & (np.minimum(count[:-1], count[1:]) > _SURE)
+    beside = (first[1:] - last[:-1] <= _BESIDE) & (np.minimum(count[:-1], count[1:]) > _LEAST_FALL)
     small = np.flatnonzero(beside & (size < _LEAST_JUMP * jumps.max(initial=0.0)))
     return small[np.argsort(size[small])]
 

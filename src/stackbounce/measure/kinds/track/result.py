@@ -5,10 +5,9 @@ from typing import Any, ClassVar
 
 from stackbounce.measure.drag import Drag
 from stackbounce.measure.finding import Curve, Finding, as_ratios, rigid_contact
-from stackbounce.measure.kinds.track.air import curve
+from stackbounce.measure.kinds.track.motion import curve
 from stackbounce.measure.kinds.track.parabolas import Flights
-from stackbounce.measure.kinds.track.time_base import TimeBase
-from stackbounce.measure.kinds.track.units import SI, TrackUnits
+from stackbounce.measure.kinds.track.time_base import SI, TimeBase, TrackUnits
 from stackbounce.measure.quantities import Array, Number, Row, nominal
 
 __all__ = ["Track", "Tracks"]
@@ -135,7 +134,7 @@ class Tracks(Finding):
         speed = {"impact_speed": nominal(lowest.impact_speeds[0])} if self.units.known else {}
         return {**speed, **contact}
 
-    def told(self) -> dict[str, Any]:
+    def law_arguments(self) -> dict[str, Any]:
         """Return the first impact speed and, of a single ball, the restitution of that bounce."""
         ball = self.balls[0]
         told = {"impact_speed": ball.impact_speeds[0]} if self.units.known else {}

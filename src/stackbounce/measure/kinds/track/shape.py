@@ -14,7 +14,7 @@ __all__ = ["OWN", "Shape", "curvatures", "own_noise", "shape_of"]
 
 OWN = 5  # points of a flight that tell its own acceleration
 _BENT = 8  # points of a flight that tell how its acceleration changes
-_RARE = 5e-4  # p-value of accelerations that differ
+_DIFFERENT_BELOW = 5e-4  # p-value of accelerations that differ
 
 
 class Shape(NamedTuple):
@@ -86,7 +86,7 @@ def _scatter(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[f
     square = float((weights * (falls - mean) ** 2).sum())
     freedom = len(rows) - 1
     points = sum(last - first - 3 for first, last in flights if last - first >= OWN)
-    if mean == 0.0 or f.sf(square / freedom, freedom, max(points, 1)) > _RARE:
+    if mean == 0.0 or f.sf(square / freedom, freedom, max(points, 1)) > _DIFFERENT_BELOW:
         return 0.0, 1.0
     # R. DerSimonian and N. Laird, Controlled Clinical Trials 7, 177 (1986), eq 9
     variance = (square - freedom) / float(weights.sum() - (weights**2).sum() / weights.sum())

@@ -1,1 +1,16 @@
 """Force waveforms: contact intervals, times, peaks and impulses."""
+
+from stackbounce.measure.kind import Kind
+
+__all__ = ["WAVEFORM"]
+
+WAVEFORM = Kind(
+    "waveform",
+    "contacts, contact times, peaks, impulse, stiffness, gaps",
+    f"{__name__}.kind",
+    options=(
+        *("mass", "contact_time", "restitution", "law", "exponent", "height", "measured_to"),
+        *("diameter", "speed", "alone", "time_constant", "gravity"),
+    ),
+    columns=(("time",), ("force", "voltage")),
+)

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stackbounce.errors import InvalidValue, positive, shown
-from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.waveform.baseline import first_guess, quiet_parts
 from stackbounce.measure.kinds.waveform.contact import Seen, measure_contact
 from stackbounce.measure.kinds.waveform.droop import undrooped
@@ -22,6 +21,7 @@ from stackbounce.measure.kinds.waveform.intervals import (
 from stackbounce.measure.kinds.waveform.record import Record, read_record
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.sensor import sensitivity_of
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, known_to, measured_if_given
 from stackbounce.model.laws import ContactLaw
 
@@ -31,11 +31,12 @@ if TYPE_CHECKING:
 __all__ = ["waveform"]
 
 _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
-_ROUNDS = 4
-_MANY = 120  # contacts of a record of bounces
-_FEW = 6  # samples of a contact, below which a note says so
-_UNDERSHOOT = 5.0  # standard errors of the step of the baseline
-_STEEP, _SURELY = 0.85, 3.0  # an exponent too small for any spring; standard errors below 1
+_ROUNDS = 4  # of finding baseline and contacts by each other; later ones change nothing
+_MOST_CONTACTS = 120  # of a record of bounces
+_FEW_SAMPLES = 6  # of a contact, below which a note says so
+_CLEAR_DROP = 5.0  # standard errors by which the baseline is lower after a contact
+_STEEP = 0.85  # exponent of a touch that is too small for any spring
+_CLEARLY_STEEP = 3.0  # standard errors by which it is below 1
 
 
 def waveform(
@@ -128,9 +129,9 @@ def waveform(
     if time_constant is not None:
         record = _undrooped(record, seen, time_constant)
         seen = _see(record, raw, threshold, sign)
-    if len(seen.stretches) > _MANY:
+    if len(seen.stretches) > _MOST_CONTACTS:
         raise InvalidValue(
-            f"data must hold the contacts of a bounce or of a few, up to {_MANY}, got "
+            f"data must hold the contacts of a bounce or of a few, up to {_MOST_CONTACTS}, got "
             f"{len(seen.stretches)} stretches above the noise: an oscillation, or a record that "
             "is to be cut to the bounces?"
         )
@@ -229,8 +230,8 @@ def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> l
         notes.append("the record begins within a contact: its touch is unknown")
     if contacts and contacts[-1].end is None:
         notes.append("the record stops within a contact: its release is unknown")
-    few = min((one.samples for one in contacts), default=_FEW)
-    if few < _FEW:
+    few = min((one.samples for one in contacts), default=_FEW_SAMPLES)
+    if few < _FEW_SAMPLES:
         notes.append(f"only {few} samples in a contact: times and peaks are coarse, sample faster")
     if seen.zero.hum:
         hum = f"{seen.zero.hum:.3g}{of}"
@@ -247,12 +248,12 @@ def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> l
 def _steep(contacts: tuple[Contact, ...]) -> list[str]:
     """Return a note if the force begins more steeply than as a power, as damped contacts do."""
     power = contacts[0].exponents[0] if contacts else None
-    if power is None or power.nominal_value > min(_STEEP, 1.0 - _SURELY * power.std_dev):
+    if power is None or power.nominal_value > min(_STEEP, 1.0 - _CLEARLY_STEEP * power.std_dev):
         return []
-    note = Said(
+    note = Message(
         "the force begins more steeply than that of any spring, as if with a jump: the touch found "
         "may be too early; if the contact is damped, tell its law, ",
-        Hint({"law": "dashpot"}),
+        OptionHint({"law": "dashpot"}),
         " or viscoelastic",
     )
     return [note]
@@ -274,13 +275,13 @@ def _droops(seen: Seen, step: float) -> list[str]:
     low, scatter = float(weights[0]), float(np.std(seen.raw[part] - columns @ weights))
     error = scatter * np.sqrt(np.linalg.pinv(columns.T @ columns)[0, 0])
     top = float(smoothed(seen.signal, 3)[one.first : one.last + 1].max())
-    if low > -max(_UNDERSHOOT * error, 0.005 * top):
+    if low > -max(_CLEAR_DROP * error, 0.005 * top):
         return []
     area = float(np.sum(seen.signal[one.first : one.last + 1])) * step
-    note = Said(
+    note = Message(
         f"after the contact the signal lies {-low / top:.1%} of its peak too low, as by the droop "
         "of a piezo sensor: give ",
-        Hint({"time_constant": None}),
+        OptionHint({"time_constant": None}),
         f" (about {area / -low:.2g} s)",
     )
     return [note]

@@ -13,17 +13,19 @@ from stackbounce.measure.statistics.ar_noise import correlation_factor, differen
 
 __all__ = ["Quiet", "first_guess", "fit_quiet", "quiet_parts", "scatter"]
 
-_SHARE = 0.25  # of a record, at least, is quiet
+_LEAST_QUIET = 0.25  # of a record that is quiet
 _FAR = 0.2  # of a record's range: a clipped level that differs more from the ends is no baseline
-_FIFTH = (0.2, 0.2533)  # this share of normal deviates is within so many standard deviations
+_FIFTH = 0.2  # of normal deviates that are within `_WITHIN_FIFTH`
+_WITHIN_FIFTH = 0.2533  # standard deviations
+_WITHIN_ONE = 0.683  # share of normal deviates within one standard deviation
 _MAINS = (50.0, 60.0)  # Hz
 _BLOCK = 1e-3  # s, over which a hum hardly changes
-_WORTH = 40.0  # decrease of chi squared that a hum must give
-_PERIODS = 2.0  # of a hum, in a record that is long enough to tell it from a drift
-_LEVERAGE = 5.0  # of a sample over that of a typical quiet one
-_ONE = 0.683  # share of normal deviates within one standard deviation
-_CLIPS, _CLIP = 4, 4.0  # rounds of sigma clipping; standard deviations
-_ENOUGH = 24  # quiet samples for a fit with hum
+_LEAST_GAIN = 40.0  # decrease of chi squared that a hum must give
+_LEAST_PERIODS = 2.0  # of a hum, in a record that is long enough to tell it from a drift
+_LEAST_SAMPLES = 24  # quiet ones, for a fit with hum
+_LARGEST_LEVERAGE = 5.0  # of a sample over that of a typical quiet one
+_CLIPPED_BEYOND = 4.0  # standard deviations, in sigma clipping
+_CLIPPING_ROUNDS = 4  # of sigma clipping
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,14 +70,14 @@ def first_guess(record: Record) -> tuple[float, float]:
     if at_limit and not limits.all() and abs(np.median(ends) - level) > _FAR * np.ptp(values):
         level = _densest(values[~limits])  # clipped samples are as constant as a baseline
     fast = difference_noise(values, 1)
-    slow = float(np.quantile(np.abs(values - level), _FIFTH[0])) / _FIFTH[1]
+    slow = float(np.quantile(np.abs(values - level), _FIFTH)) / _WITHIN_FIFTH
     return level, max(fast, slow, _floor(record))
 
 
 def _densest(values: Array) -> float:
     """Return the middle of the shortest range that holds a quarter of the values."""
     ordered = np.sort(values)
-    count = min(max(3, int(_SHARE * len(ordered))), len(ordered))
+    count = min(max(3, int(_LEAST_QUIET * len(ordered))), len(ordered))
     widths = ordered[count - 1 :] - ordered[: len(ordered) - count + 1]
     at = int(np.argmin(widths))
     return float(np.median(ordered[at : at + count]))
@@ -107,7 +109,7 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet
         line = line[:, :1]
     best, base = line, fit_quiet(line, record.values, quiet)
     height = mains = 0.0
-    if hum and quiet.sum() >= _ENOUGH:
+    if hum and quiet.sum() >= _LEAST_SAMPLES:
         tone = _tone(times, record, quiet)
         waves = np.concatenate([line, _waves(times, tone)], axis=1)
         if tone and _holds(waves, quiet):
@@ -144,7 +146,7 @@ def scatter(rest: Array, fitted: int, quantum: float) -> tuple[float, float]:
 
 def _tones(span: float, step: float) -> list[float]:
     """Return the mains frequencies in Hz to try, in steps that the record resolves."""
-    if span < _PERIODS / _MAINS[0] or step > 0.2 / _MAINS[1]:
+    if span < _LEAST_PERIODS / _MAINS[0] or step > 0.2 / _MAINS[1]:
         return []
     if span < 0.1:
         return list(_MAINS)
@@ -160,10 +162,10 @@ def _tone(times: Array, record: Record, quiet: NDArray[np.bool_]) -> float:
     t, y = (one[:count].reshape(-1, width).mean(axis=1)[calm] for one in (times, record.values))
     every = np.ones(len(t), dtype=bool)
     line = np.stack([np.ones_like(t), t], axis=1)
-    if len(t) < _ENOUGH:
+    if len(t) < _LEAST_SAMPLES:
         return 0.0
     found, least = 0.0, float(np.sum((y - fit_quiet(line, y, every)) ** 2))
-    least /= 1.0 + _WORTH / len(t)
+    least /= 1.0 + _LEAST_GAIN / len(t)
     for tone in _tones(float(times[-1]), record.step):
         columns = np.concatenate([line, _waves(t, tone)], axis=1)
         left = float(np.sum((y - fit_quiet(columns, y, every)) ** 2))
@@ -177,7 +179,7 @@ def _holds(columns: Array, quiet: NDArray[np.bool_]) -> bool:
     normal = columns[quiet].T @ columns[quiet] / quiet.sum()
     some = columns[:: max(1, len(columns) // 500)]
     errors = np.sum(some * (some @ np.linalg.pinv(normal, hermitian=True)), axis=1)
-    return bool(errors.max() < _LEVERAGE * columns.shape[1])
+    return bool(errors.max() < _LARGEST_LEVERAGE * columns.shape[1])
 
 
 def _waves(times: Array, tone: float) -> Array:
@@ -193,9 +195,9 @@ def fit_quiet(columns: Array, values: Array, quiet: NDArray[np.bool_]) -> Array:
 
 def _robust(rest: Array, quantum: float) -> float:
     """Return the standard deviation after sigma clipping."""
-    scale = float(np.quantile(np.abs(rest), _ONE)) + 0.5 * quantum
-    for _ in range(_CLIPS):
-        inside = rest[np.abs(rest) <= _CLIP * scale]
+    scale = float(np.quantile(np.abs(rest), _WITHIN_ONE)) + 0.5 * quantum
+    for _ in range(_CLIPPING_ROUNDS):
+        inside = rest[np.abs(rest) <= _CLIPPED_BEYOND * scale]
         if not len(inside) or not inside.any():
             break
         scale = float(np.sqrt(np.mean(inside**2)))

@@ -19,10 +19,10 @@ from stackbounce.measure.samples import quantisation_error
 
 __all__ = ["Seen", "measure_contact"]
 
-_BESIDE = 2  # times the contact's length: baseline on each side
-_SOME = 4  # quiet samples, at least, for a level
-_MANY = 60  # quiet samples, at least, for the noise
-_LEAST = 40  # samples of baseline looked at on each side
+_BESIDE = 2  # times the contact's length: baseline that is looked at on each side
+_LEAST_BESIDE = 40  # samples of baseline that are looked at on each side
+_LEVEL_SAMPLES = 4  # quiet ones, at least, that tell a level
+_NOISE_SAMPLES = 60  # quiet ones, at least, that tell the noise
 _AVERAGES = 80  # moving averages over a contact, by which its flanks are found
 _TAIL = 0.25  # of a contact's length that its end may still reach
 
@@ -132,7 +132,7 @@ def measure_contact(
 
 def _part(seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | None) -> _Part:
     """Return a contact with the quiet samples around it, less a baseline fitted to these."""
-    reach = max(_BESIDE * len(one), _LEAST)
+    reach = max(_BESIDE * len(one), _LEAST_BESIDE)
     low, high = max(0, one.first - reach), min(len(seen.times) - 1, one.last + reach)
     if before is not None:
         tail = min(int(_TAIL * len(before)) + 2, (one.first - before.last) // 2)
@@ -144,12 +144,12 @@ def _part(seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | Non
     quiet = seen.quiet[low : high + 1]
     sides = quiet[: one.first - low].sum(), quiet[one.last - low :].sum()
     offset, noise, density = seen.zero.error, seen.zero.noise, seen.zero.density
-    if sum(sides) >= _SOME:
+    if sum(sides) >= _LEVEL_SAMPLES:
         middle = 0.5 * (times[0] + times[-1])
         columns = np.stack([np.ones_like(times), times - middle], axis=1)
-        columns = columns if min(sides) >= _SOME else columns[:, :1]
+        columns = columns if min(sides) >= _LEVEL_SAMPLES else columns[:, :1]
         values = values - fit_quiet(columns, values, quiet)
-        if sum(sides) >= _MANY:
+        if sum(sides) >= _NOISE_SAMPLES:
             noise, density = scatter(values[quiet], columns.shape[1], seen.quantum)
             density = max(density, 1e-6 * float(np.ptp(values)))
         offset = float(

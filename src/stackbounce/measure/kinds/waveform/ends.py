@@ -8,8 +8,9 @@ from stackbounce.model.laws import LAWS, ContactLaw, law_named
 
 __all__ = ["UNTOLD", "Ends", "ends_of"]
 
-_OTHERS, _SLOWING = 0.03, 0.04  # prior spreads of the corrections where the law is exact
-_STEEPEST = 100.0  # the largest exponent of a flank that can be fitted
+_OTHERS = 0.03  # of the flank's height: prior spread of other forces where the law is exact
+_SLOWING = 0.04  # of the flank's height: that of the ball's slowing down, which is known better
+_LARGEST_EXPONENT = 100.0  # of a flank that can be fitted
 
 
 class Ends(NamedTuple):
@@ -79,7 +80,7 @@ def _exponent(law: Any, kind: Any, exponent: float | None) -> float | None:
     told = own if exponent is None else exponent
     if told is None:
         return None
-    told = between("exponent", told, 1.0, _STEEPEST)
+    told = between("exponent", told, 1.0, _LARGEST_EXPONENT)
     if exponent is not None and (law is None or "exponent" not in kind.quantities()):
         raise InvalidValue(f"exponent goes with a law that has one to choose, got law {shown(law)}")
     if own not in (None, told):

@@ -17,15 +17,17 @@ from stackbounce.measure.quantities import Array
 
 __all__ = ["Flank", "fit_flank"]
 
-_STARTS = 21
-_ZOOMS, _SETTLED = 7, 3
-_MOST = 36  # points; more are averaged
-_AROUND = 4.5  # standard deviations on the fine grid
-_LEVELS = (0.7, 0.5, 0.35, 0.25, 0.15, 0.1)
-_FEW = 8  # points on a flank, below which it is not cut shorter
-_CLEAR, _FEWEST = 3.0, 3  # noise levels of the lowest level; samples
-_ONE = (0.1587, 0.8413)  # of the probability: below minus one error, and below plus one
-_SLACK = 3.0  # standard deviations of chi squared
+_STARTS = 21  # of the force, on the grid
+_ZOOMS = 7  # of the grid
+_SETTLED = 3  # of these zooms, after which each unknown has its best start
+_REACH = 4.5  # standard deviations, from the middle of a finer grid to its ends
+_MOST_POINTS = 36  # that are fitted; more are averaged
+_LEVELS = (0.7, 0.5, 0.35, 0.25, 0.15, 0.1)  # of the peak: how far up a flank is fitted, in turn
+_FEW_POINTS = 8  # on a flank, below which it is not cut shorter
+_LOWEST_LEVEL = 3.0  # noise levels
+_LEAST_SAMPLES = 3  # of a flank
+_WITHIN_ONE = (0.1587, 0.8413)  # probability below minus and below plus one standard error
+_FITS_WITHIN = 3.0  # standard deviations of chi squared above its mean, for a curve that fits
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +130,7 @@ def fit_flank(
     calm = sigma / np.sqrt(width)
     for level in _LEVELS:
         start, foot, stop = _cut(times, even, calm, level * peak)
-        if stop == 0 or (found is not None and (stop - foot) // width < _FEW):
+        if stop == 0 or (found is not None and (stop - foot) // width < _FEW_POINTS):
             break
         samples = _averages(times[start:stop], values[start:stop], sigma)
         found = _fit(_Points(*samples, level * peak, level, offset, length), shape)
@@ -144,7 +146,7 @@ def _cut(times: Array, even: Array, calm: float, level: float) -> tuple[int, int
     """
     over = even >= level
     above = np.flatnonzero(over[:-1] & over[1:])  # one may be noise
-    if level < _CLEAR * calm or len(even) < _FEWEST or (len(above) and above[0] == 0):
+    if level < _LOWEST_LEVEL * calm or len(even) < _LEAST_SAMPLES or (len(above) and above[0] == 0):
         return 0, 0, 0
     last = int(above[0]) if len(above) else len(even) - 1
     low = np.flatnonzero(even[: last + 1] < max(0.1 * level, 2.0 * calm))
@@ -158,7 +160,7 @@ def _averages(
     t: Array, y: Array, sigma: float
 ) -> tuple[Array, Array | None, Array, float, float, float]:
     """Return the first fields of `_Points`: samples, averaged over blocks where they are many."""
-    width = max(1, len(t) // _MOST)
+    width = max(1, len(t) // _MOST_POINTS)
     if width == 1:
         return t, None, y, sigma, float(t[-1] - t[0]), 0.0
     t, y = t[len(t) % width :], y[len(y) % width :]
@@ -190,7 +192,7 @@ def _fit(points: _Points, shape: Shape) -> Flank:
         e = max(float(np.hypot(e, points.step / np.sqrt(12.0))), _half(starts, weight))
     p, r = shape.begins(*_moments(logs, weight.sum(axis=1)))
     freedom = max(1, len(times) - 5)
-    fits = chi < freedom + _SLACK * np.sqrt(2.0 * freedom)
+    fits = chi < freedom + _FITS_WITHIN * np.sqrt(2.0 * freedom)
     misfit = 1.0 if fits else float(np.sqrt(chi / freedom))
     return Flank(t, e * misfit, p, r * misfit, *_curve(points, shape, *best), misfit)
 
@@ -210,11 +212,11 @@ def _closer(
     own /= own.sum(axis=1)[:, None]
     middles = np.sum(starts * own, axis=1)
     spreads = np.sqrt(np.sum((starts - middles[:, None]) ** 2 * own, axis=1))
-    wide = _AROUND * np.maximum(spreads, 0.5 * (starts[:, 1] - starts[:, 0]))
+    wide = _REACH * np.maximum(spreads, 0.5 * (starts[:, 1] - starts[:, 0]))
     powers = logs
     if finer:
         mean, spread = _moments(logs, rows)
-        reach = _AROUND * max(spread, 0.5 * (logs[1] - logs[0]))
+        reach = _REACH * max(spread, 0.5 * (logs[1] - logs[0]))
         powers = np.linspace(mean - reach, mean + reach, len(logs))
     middle, half = (np.interp(powers, logs, one) for one in (middles, wide))
     top = np.minimum(middle + half, end - 1e-9 * half)
@@ -233,7 +235,7 @@ def _half(grid: Array, weight: Array) -> float:
     """
     order = np.argsort(grid, axis=None)
     share, places = weight.ravel()[order], grid.ravel()[order]
-    low, high = np.interp(_ONE, np.cumsum(share) - 0.5 * share, places)
+    low, high = np.interp(_WITHIN_ONE, np.cumsum(share) - 0.5 * share, places)
     return 0.5 * float(high - low)
 
 

@@ -9,12 +9,12 @@ from stackbounce.measure.samples import runs
 
 __all__ = ["Stretch", "find_stretches", "smoothed", "which_sign"]
 
-_OUT = 6.0  # noise levels, which noise does not reach in a million samples
-_LOW = 3.0  # noise levels to which a contact is followed down
-_SMALL = 0.01  # of the highest peak: smaller things are ringing
-_SMOOTH = 25  # moving averages over a contact
-_WIDE = 3  # samples of the shortest contact
-_WIDEST = 20_001
+_ABOVE_NOISE = 6.0  # noise levels, which noise does not reach in a million samples
+_FOLLOWED_TO = 3.0  # noise levels to which a contact is followed down
+_RINGING = 0.01  # of the highest peak, below which things are ringing
+_AVERAGES = 25  # moving averages over a contact
+_LEAST_SAMPLES = 3  # of the shortest contact
+_MOST_SAMPLES = 20_001  # of a contact, as far as they set the width of the averages
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ def smoothed(values: Array, width: int) -> Array:
 
 def which_sign(signal: Array, noise: float) -> int:
     """Return +1 if the larger part of the signal above the noise is upward, else -1."""
-    out = np.where(np.abs(signal) > _OUT * noise, signal, 0.0)
+    out = np.where(np.abs(signal) > _ABOVE_NOISE * noise, signal, 0.0)
     up, down = np.sum(out[out > 0.0] ** 2), np.sum(out[out < 0.0] ** 2)
     return -1 if down > up else 1
 
@@ -74,25 +74,26 @@ def find_stretches(
     int
         How many peaks of one or two samples were left out.
     """
-    high = max(_OUT * noise, _SMALL * float(signal.max())) if threshold is None else threshold
-    rough = _runs(signal, high, min(_LOW * noise, 0.5 * high), 2)
-    wide = np.sort([len(one) for one in rough if len(one) >= _WIDE])
+    clear, least = 0.0, threshold
+    if least is None:
+        clear, least = _ABOVE_NOISE, _RINGING * float(signal.max())
+    rough = _runs(signal, noise, max(clear * noise, least), 2)
+    wide = np.sort([len(one) for one in rough if len(one) >= _LEAST_SAMPLES])
     if not len(wide):
         return [], len(rough)
     # the median length by samples, as noise breaks the flanks of long contacts into short pieces
     usual = int(wide[np.searchsorted(np.cumsum(wide), 0.5 * wide.sum())])
-    width = 2 * (min(usual, _WIDEST) // _SMOOTH // 2) + 1
+    width = 2 * (min(usual, _MOST_SAMPLES) // _AVERAGES // 2) + 1
     if width == 1:
-        return [one for one in rough if len(one) >= _WIDE], len(rough) - len(wide)
+        return [one for one in rough if len(one) >= _LEAST_SAMPLES], len(rough) - len(wide)
     calm = density / np.sqrt(width)
-    level = max(_OUT * calm, _SMALL * float(signal.max())) if threshold is None else threshold
-    found = _runs(smoothed(signal, width), level, min(_LOW * calm, 0.5 * level), width)
-    return [one for one in found if len(one) >= _WIDE + width], len(rough) - len(wide)
+    found = _runs(smoothed(signal, width), calm, max(clear * calm, least), width)
+    return [one for one in found if len(one) >= _LEAST_SAMPLES + width], len(rough) - len(wide)
 
 
-def _runs(signal: Array, high: float, low: float, join: int) -> list[Stretch]:
-    """Return runs above `low` that reach `high`; those less than `join` samples apart are one."""
-    starts, ends = runs(signal > low)
+def _runs(signal: Array, noise: float, high: float, join: int) -> list[Stretch]:
+    """Return runs above the noise that reach `high`; those up to `join` samples apart are one."""
+    starts, ends = runs(signal > min(_FOLLOWED_TO * noise, 0.5 * high))
     if not len(starts):
         return []
     tops = np.maximum.reduceat(signal, np.stack([starts, ends + 1], 1).ravel()[:-1])[::2]

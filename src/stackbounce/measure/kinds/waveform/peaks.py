@@ -12,13 +12,13 @@ from stackbounce.measure.samples import runs, trapezoid
 
 __all__ = ["Peak", "find_peaks", "flat_top", "impulse_of"]
 
-_AVERAGES = 60  # over a contact, at least
-_STAND_OUT = 7.0  # noise levels between a peak and the dip beside it
-_SHARE = 0.02  # of the highest peak, likewise
+_AVERAGES = 60  # moving averages over a contact, at least
+_CLEAR_DIP = 7.0  # noise levels between a peak and the dip beside it
+_LEAST_DIP = 0.02  # of the highest peak, between a peak and the dip beside it
 _CAP = 0.82  # of a peak's height, above which its cap is fitted
-_DEGREE = 4
-_RUN = 3  # equal samples that make a flat top
-_NEXT = 0.15  # of the number of top samples, one step below them, at most, if it is clipped
+_DEGREE = 4  # of the polynomial through a cap
+_FLAT = 3  # equal samples that make a flat top
+_JUST_BELOW = 0.15  # of the number of samples of a clipped top, at most, are one step below it
 
 
 class Peak(NamedTuple):
@@ -59,7 +59,7 @@ def find_peaks(times: Array, values: Array, noise: float, density: float) -> lis
     even = np.maximum(smoothed(values, width), 0.0)  # noise below zero is no dip
     calm = density / np.sqrt(width)
     padded = np.concatenate([[0.0], even, [0.0]])
-    stand_out = max(_STAND_OUT * max(calm, noise / width), _SHARE * float(even.max()))
+    stand_out = max(_CLEAR_DIP * max(calm, noise / width), _LEAST_DIP * float(even.max()))
     tops = maxima(padded, prominence=stand_out)[0] - 1
     if not len(tops):
         tops = np.array([int(np.argmax(even))])
@@ -167,7 +167,7 @@ def flat_top(values: Array, quantum: float) -> bool:
     step = quantum or 1e-9 * abs(top)
     at = values >= top - 0.5 * step  # the top itself, however small the step is
     first, last = runs(at)
-    if (last - first + 1).max() < _RUN:
+    if (last - first + 1).max() < _FLAT:
         return False
     below = (values > top - 1.5 * step) & ~at
-    return bool(below.sum() <= _NEXT * at.sum())
+    return bool(below.sum() <= _JUST_BELOW * at.sum())

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Record", "read_record"]
 
-_FEWEST = 8  # samples of a record
-_UNEVEN = 0.01  # of a step
-_SPIKE = 12.0  # noise levels of a second difference
+_LEAST_SAMPLES = 8  # of a record
+_UNEVEN = 0.01  # of a step, by which one may differ before a note says so
+_SPIKE = 12.0  # noise levels of the second difference at a spike
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,9 +77,10 @@ def read_record(data: "xr.Dataset | Sequence[ArrayLike]") -> Record:
     times, values, unit, others = _channel(data)
     notes = [f"only {others[0]} was analysed, not {', '.join(others[1:])}"] if others[1:] else []
     known = np.isfinite(times) & np.isfinite(values)
-    if known.sum() < _FEWEST:
+    if known.sum() < _LEAST_SAMPLES:
         raise InvalidValue(
-            f"data must hold at least {_FEWEST} samples of a waveform, got {int(known.sum())}"
+            f"data must hold at least {_LEAST_SAMPLES} samples of a waveform, "
+            f"got {int(known.sum())}"
         )
     if not known.all():
         notes.append(f"{int((~known).sum())} of {known.size} samples are blank and were left out")
@@ -88,8 +89,8 @@ def read_record(data: "xr.Dataset | Sequence[ArrayLike]") -> Record:
         times, first = np.unique(times, return_index=True)
         values = values[first]
         notes.append("the times do not ascend: samples were sorted, repeated times left out")
-        if len(times) < _FEWEST:
-            raise InvalidValue(f"data must hold at least {_FEWEST} times, got {len(times)}")
+        if len(times) < _LEAST_SAMPLES:
+            raise InvalidValue(f"data must hold at least {_LEAST_SAMPLES} times, got {len(times)}")
     steps = np.diff(times)
     step = float(np.median(steps))
     if np.abs(steps - step).max() > max(_UNEVEN * step, 1e-6 * step * len(times)) and known.all():

@@ -169,7 +169,7 @@ class Waveform(Finding):
             found["impact_speed"] = nominal(self.impact_speed)
         return found
 
-    def told(self) -> dict[str, Any]:
+    def law_arguments(self) -> dict[str, Any]:
         """Return the contact time of the first whole contact, and the impact speed as given."""
         return {"contact_time": self._first_time, "impact_speed": self.impact_speed}
 

@@ -8,7 +8,7 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 
 __all__ = ["restitution_of", "sensitivity_of"]
 
-_APART = 3.0  # contact times: the shortest flight between two bounces
+_SHORTEST_FLIGHT = 3.0  # contact times, between two bounces
 
 
 def restitution_of(contacts: tuple[Contact, ...], speed: Number) -> Number | None:
@@ -20,7 +20,7 @@ def restitution_of(contacts: tuple[Contact, ...], speed: Number) -> Number | Non
         return None
     flight = contacts[1].start - contacts[0].end
     e = STANDARD_GRAVITY * flight / (2.0 * speed)
-    long = flight.nominal_value > _APART * contacts[0].time.nominal_value
+    long = flight.nominal_value > _SHORTEST_FLIGHT * contacts[0].time.nominal_value
     return e if long and e.nominal_value <= 1.0 + 3.0 * e.std_dev else None
 
 

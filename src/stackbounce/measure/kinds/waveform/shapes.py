@@ -24,14 +24,16 @@ from stackbounce.measure.quantities import Array
 
 __all__ = ["Shape"]
 
-_EDGES = (0.1, 0.25)
-"""Of the unknown's logarithm: spreads of the normals that follow below its range and above."""
-
+_BELOW = 0.1  # spread of the normal that is the prior below the range of the unknown's logarithm
+_ABOVE = 0.25  # that above the range
 _GRID = 13  # values of the unknown
 _BULK = {"jump": 1.0, "root": 1.5, "fade": 1.25}  # power of the force where it is large
-_FORWARD = {"jump": 0.5, "root": 0.7, "fade": -0.3}  # a fit to simulations
-_HIGH, _FASTER = 0.7, 1.6  # of the same fit: level, and the power of the level
-_BEGINS = {"jump": 0.0, "root": 0.5, "fade": 1.0}
+# The part of the slowing that shows in b is, in a fit to simulations, so much at the level
+# `_FITTED_LEVEL` of the peak, and goes with the power `_LEVEL_POWER` of the level.
+_FORWARD = {"jump": 0.5, "root": 0.7, "fade": -0.3}
+_FITTED_LEVEL = 0.7
+_LEVEL_POWER = 1.6
+_BEGINS = {"jump": 0.0, "root": 0.5, "fade": 1.0}  # power of time with which the force begins
 _CORRECTIONS = {"jump": (2.0, 3.0), "root": (3.0, 4.0), "fade": (2.0, 3.5)}  # q and r
 
 
@@ -70,14 +72,11 @@ class Shape:
         """Return logarithms of the unknown that cover its prior."""
         if self.known:
             return np.array([log(self.least)])
-        below, above = _EDGES
-        return np.linspace(log(self.least) - 3.0 * below, log(self.most) + 3.0 * above, _GRID)
+        return np.linspace(log(self.least) - 3.0 * _BELOW, log(self.most) + 3.0 * _ABOVE, _GRID)
 
     def prior(self, logs: Array) -> Array:
         """Return the log-prior of logarithms of the unknown."""
-        beyond = np.maximum(
-            (log(self.least) - logs) / _EDGES[0], (logs - log(self.most)) / _EDGES[1]
-        )
+        beyond = np.maximum((log(self.least) - logs) / _BELOW, (logs - log(self.most)) / _ABOVE)
         return np.asarray(-0.5 * np.maximum(beyond, 0.0) ** 2)
 
     def unknown(self, logs: Array, length: float) -> Array:
@@ -97,7 +96,7 @@ class Shape:
         """
         if self.kind == "power":
             return np.zeros_like(logs), _slowing(np.exp(logs), level)
-        forward = _FORWARD[self.kind] * np.exp(0.5 * logs) * (level / _HIGH) ** _FASTER
+        forward = _FORWARD[self.kind] * np.exp(0.5 * logs) * (level / _FITTED_LEVEL) ** _LEVEL_POWER
         bulk = np.full_like(logs, _BULK[self.kind])
         return -forward, _slowing(bulk, level) + forward
 

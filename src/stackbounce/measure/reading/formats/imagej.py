@@ -3,7 +3,7 @@
 import re
 
 from stackbounce.measure.reading.headings import heading
-from stackbounce.measure.reading.layouts import Layout, first_row, first_with, layout
+from stackbounce.measure.reading.layouts import Layout, first_row, layout
 from stackbounce.measure.reading.roles import POINT, column
 from stackbounce.measure.reading.text import Text, number
 
@@ -55,6 +55,6 @@ def results(text: Text) -> Layout | None:
     found = [column(names.index(name), heading(name[0].upper()), name[0]) for name in pair]
     others = [column(k, heading(cell)) for k, cell in enumerate(text.head[0]) if cell]
     others = [one for one in others if one.role in ("frame", "track_id")]
-    first = first_with(text, [one.index for one in found], 1)
+    first = first_row(text, 1, [one.index for one in found])
     why = f"{', '.join(filter(None, text.head[0][:8]))} are columns of ImageJ's results"
     return Layout("ImageJ", why, (*others, *found), first)

@@ -1,7 +1,7 @@
 """Oscilloscopes of Siglent."""
 
 from stackbounce.measure.reading.headings import heading
-from stackbounce.measure.reading.layouts import Layout, first_with, layout
+from stackbounce.measure.reading.layouts import Layout, first_row, layout
 from stackbounce.measure.reading.roles import column
 from stackbounce.measure.reading.text import Text
 
@@ -23,4 +23,4 @@ def siglent(text: Text) -> Layout | None:
     ]
     columns = (column(at, heading("Second", "s"), "time"), *channels)
     why = f"'Source,{above[at + 1]}' over 'Second,{row[at + 1]}' is how a Siglent writes"
-    return Layout("Siglent oscilloscope", why, columns, first_with(text, [at, at + 1], k + 1))
+    return Layout("Siglent oscilloscope", why, columns, first_row(text, k + 1, [at, at + 1]))

@@ -1,7 +1,7 @@
 """TrackMate: spots in the frames of a video, with the tracks that they belong to."""
 
 from stackbounce.measure.reading.headings import heading
-from stackbounce.measure.reading.layouts import Layout, first_with, layout
+from stackbounce.measure.reading.layouts import Layout, first_row, layout
 from stackbounce.measure.reading.roles import column
 from stackbounce.measure.reading.text import Text
 
@@ -17,7 +17,7 @@ def trackmate(text: Text) -> Layout | None:
     names = text.head[0]
     if not {"FRAME", "POSITION_X", "POSITION_Y"} <= set(names):
         return None
-    first = first_with(text, [names.index("POSITION_X"), names.index("POSITION_Y")], 1)
+    first = first_row(text, 1, [names.index("POSITION_X"), names.index("POSITION_Y")])
     units = text.head[first - 1] if first > 1 else []
     columns = []
     for k, name in enumerate(names):

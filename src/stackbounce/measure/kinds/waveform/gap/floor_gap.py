@@ -15,11 +15,11 @@ from stackbounce.measure.statistics.change_point import Kink, find_kink
 
 __all__ = ["floor_gap"]
 
-_UNKNOWN = (0.75, 0.144)  # prior of the restitution: uniform from 0.5 to 1
-_SAME = 0.04  # relative, by which two drops from one height may differ
+_RESTITUTION = (0.75, 0.144)  # mean and deviation of the prior: uniform from 0.5 to 1
+_REPEATED_WITHIN = 0.04  # relative, by which two drops from one height may differ
 _EARLY = 0.33  # of the contact time alone: earlier change points do not exclude a gap of 0
 _LATE = 0.6  # of the contact time alone: later a second ball may be invisible
-_NEXT = 8.0  # contact times within which a second contact belongs to the same impact
+_SAME_IMPACT = 8.0  # contact times within which a second contact belongs to the same impact
 
 
 def floor_gap(
@@ -163,7 +163,7 @@ def _scale(alone: Waveform, contact: Contact, mass: Any, speed: Any, restitution
     v = measured("impact_speed", speed, "m/s")
     e = measured_if_given("restitution", restitution, check=fraction)
     if e is None:
-        e = restitution_of(alone.contacts, v) or known_to(*_UNKNOWN)
+        e = restitution_of(alone.contacts, v) or known_to(*_RESTITUTION)
     return v * (1.0 + e) / contact.impulse
 
 
@@ -198,12 +198,12 @@ def _thrown_back(both: Waveform, lasting: float) -> float | None:
     """Return when the lower ball hit the floor again in the same impact, or None."""
     starts = [one.start.nominal_value for one in both.contacts[:2] if one.start is not None]
     back = float(np.ptp(starts))
-    return back if 0.0 < back < _NEXT * lasting else None
+    return back if 0.0 < back < _SAME_IMPACT * lasting else None
 
 
 def _notes(kink: Kink, lasting: float) -> list[str]:
     notes = []
-    if abs(kink.gain - 1.0) > _SAME:
+    if abs(kink.gain - 1.0) > _REPEATED_WITHIN:
         notes.append(
             f"before the second ball came the force was {kink.gain:.2f} times that of the lower "
             "ball alone: were both drops from the same height?"

@@ -1,24 +1,71 @@
-"""A track in air: its flights as parabolas, and back."""
+"""The motion in a flight: its numbers with errors, and height and speed at a time, in air too."""
 
+import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from stackbounce.measure.drag import Drag
-from stackbounce.measure.kinds.track.flight_numbers import Numbers
 from stackbounce.measure.kinds.track.flights import Flight
 from stackbounce.measure.kinds.track.parabolas import Flights, fit_flights
+from stackbounce.measure.kinds.track.shape import OWN, Shape, own_noise
 from stackbounce.measure.quantities import Array, Number, nominal
+from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drag import flown
 
-__all__ = ["curve", "fall_at", "meeting", "state", "straightened"]
+__all__ = [
+    "curve",
+    "fall_at",
+    "fallen",
+    "flight_numbers",
+    "meeting",
+    "risen",
+    "state",
+    "straightened",
+]
 
-_ROUNDS = 30  # at most; each leaves a tenth of the change or less
-_STRANGE = 7.0  # times the median residual: 4.7 standard deviations
-_LEAST = 5  # points of a flight that tell what is strange
-_NEWTON = 3  # rounds from the middle between two flights to where they meet
-_SAME = 1e-10  # relative change of all numbers of the flights
+_MOST_ROUNDS = 30  # of taking the drag away; each leaves a tenth of the change or less
+_SETTLED = 1e-10  # relative change of all numbers of the flights in the last of these rounds
+_STRANGE = 7.0  # times the median residual, 4.7 standard deviations: a point of another flight
+_LEAST_POINTS = 5  # of a flight whose ends are cut off where they are strange
+_NEWTON_ROUNDS = 3  # from the middle between two flights to where they meet
+
+Numbers: TypeAlias = tuple[Any, Any, Any]
+"""Acceleration, level and speed of a flight at its middle: numbers with errors."""
+
+
+def flight_numbers(times: Array, heights: Array, fit: Flights, shape: Shape) -> Sequence[Numbers]:
+    """Return the numbers of each flight.
+
+    All flights have one acceleration, unless their own differ by more than chance makes them, as
+    where a lens, or the distance to the camera, changes the scale from one place to another. Speeds
+    at the floor are then right only with the curvature that each flight has: its acceleration is
+    its own, drawn to the mean by as much as the accelerations are seen to scatter.
+    """
+    from uncertainties import correlated_values
+
+    wider = widening(max(fit.freedom, 1)) ** 2
+    if shape.widening <= 1.0:
+        numbers = correlated_values(fit.values, wider * fit.covariance)
+        return [(numbers[0], *numbers[1 + 2 * k : 3 + 2 * k]) for k in range(len(fit.flights))]
+    noise = own_noise(times, heights, fit.flights)
+    mean, scatter = float(fit.values[0]), shape.scatter * float(fit.values[0])
+    found: list[Numbers] = []
+    for k, flight in enumerate(fit.flights):
+        if flight.last - flight.first < OWN:
+            some = [0, 1 + 2 * k, 2 + 2 * k]
+            values = fit.values[some]
+            covariance = shape.widening**2 * fit.covariance[np.ix_(some, some)]
+        else:
+            alone = fit_flights(times, heights, [flight])
+            values = alone.values
+            covariance = (noise / max(alone.sigma, 1e-300)) ** 2 * alone.covariance
+            share = covariance[0] / (covariance[0, 0] + scatter**2)
+            values = values + share * (mean - values[0])
+            covariance = covariance - np.outer(share, covariance[0])
+        found.append(tuple(correlated_values(values, wider * covariance)))
+    return found
 
 
 def straightened(times: Array, heights: Array, fit: Flights, drag: Drag) -> tuple[Array, Flights]:
@@ -40,14 +87,14 @@ def straightened(times: Array, heights: Array, fit: Flights, drag: Drag) -> tupl
     [1.033092, 1.0]
     """
     flat = heights
-    for _ in range(_ROUNDS):
+    for _ in range(_MOST_ROUNDS):
         before = fit.values
         flat = heights.copy()
         for j, (first, last) in enumerate(fit.flights):
             at = times[first:last]
             flat[first:last] -= curve(fit, j, at, drag) - curve(fit, j, at, None)
         fit = fit_flights(times, flat, fit.flights)
-        if np.abs(fit.values - before).max() > _SAME * np.abs(before).max():
+        if np.abs(fit.values - before).max() > _SETTLED * np.abs(before).max():
             continue
         flights = [_without_strange_ends(one, fit.residuals) for one in fit.flights]
         if flights == fit.flights:
@@ -61,7 +108,7 @@ def _without_strange_ends(flight: Flight, residuals: Array) -> Flight:
     first, last = flight
     off = np.abs(residuals[first:last])
     fits = np.flatnonzero(off < _STRANGE * np.median(off))
-    if len(fits) < _LEAST:
+    if len(fits) < _LEAST_POINTS:
         return flight
     return Flight(first + int(fits[0]), first + int(fits[-1]) + 1)
 
@@ -107,7 +154,7 @@ def meeting(flights: Sequence[Numbers], middles: Array, near: float, drag: Drag 
     0.0
     """
     later = 0.0
-    for _ in range(0 if drag is None else _NEWTON):
+    for _ in range(0 if drag is None else _NEWTON_ROUNDS):
         (low, before), (high, after) = (
             state(one, float(near - middle) + later, drag)
             for one, middle in zip(flights, middles, strict=True)
@@ -125,3 +172,20 @@ def fall_at(fall: Number, speed: Any, drag: Drag | None) -> Any:
     10.0
     """
     return fall if drag is None else fall + nominal(drag.rate) * speed * abs(nominal(speed))
+
+
+def fallen(speed: Any, fall: Any, drag: Drag | None) -> tuple[Any, Any]:
+    """Return height and time of the fall from rest to a speed; no time without drag."""
+    if drag is None:
+        return speed**2 / (2.0 * fall), None
+    height = drag.fall_height(speed, fall)
+    if height is None:
+        raise OverflowError("faster than the terminal speed")
+    return height, drag.fall_time(height, fall)
+
+
+def risen(speed: Any, fall: Any, drag: Drag | None) -> Any:
+    """Return the height to which a ball rises at a speed, below 0 for one that moves down."""
+    if drag is None:
+        return math.copysign(0.5, speed.nominal_value) * speed**2 / fall
+    return drag.risen(speed, fall) if speed.nominal_value > 0.0 else -drag.risen(-speed, fall)

@@ -1,0 +1,155 @@
+"""What is known of a measurement besides its file: the ball, its drop, the place."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.measure.drag import Drag, drag_of, speed_after_fall
+from stackbounce.measure.quantities import Number, nominal
+from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.model.laws import ContactLaw
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["Place", "Setup", "above_bottom", "lowest_point", "places"]
+
+Place: TypeAlias = Literal["bottom", "centre", "top"]
+"""The point of the ball that a height was read at."""
+
+_DIAMETERS_UP = {"bottom": 0.0, "centre": 0.5, "top": 1.0}  # above the lowest point
+
+
+@dataclass(frozen=True, kw_only=True)
+class Setup:
+    """The options of a measurement, as `analyse` takes them, and what follows from them.
+
+    What follows is calculated where a kind asks for it: a kind that has no use for an option does
+    not refuse it either.
+
+    Examples
+    --------
+    >>> Setup(height=1.0, measured_to="top", diameter=0.065).drop_height
+    0.935
+    """
+
+    mass: Number | float | None = None
+    diameter: Number | float | None = None
+    contact_time: Number | float | None = None
+    restitution: Number | float | None = None
+    law: type[ContactLaw] | ContactLaw | str | None = None
+    exponent: float | None = None
+    height: Number | float | None = None
+    speed: Number | float | None = None
+    heights: Sequence[Number | float] = ()
+    height_error: float | None = None
+    repeated: bool = False
+    measured_to: Place | tuple[Place, Place] = "bottom"
+    floor: float | None = None
+    alone: "xr.Dataset | None" = None
+    tabulated: bool = False
+    time_constant: float | None = None
+    gravity: float = STANDARD_GRAVITY
+    drag_coefficient: Number | float | None = None
+    air_density: Number | float | None = None
+
+    @classmethod
+    def of(cls, names: Iterable[str], options: Mapping[str, Any]) -> "Setup":
+        """Return the setup that the named options make, as far as they are given."""
+        return cls(**{name: options[name] for name in names if options.get(name) is not None})
+
+    @property
+    def drop_height(self) -> Number | float | None:
+        """The height in m from which the ball's lowest point fell; None where it is not known."""
+        if self.height is None:
+            return None
+        point, _ = places(self.measured_to)
+        return lowest_point("height", self.height, point, self.diameter)
+
+    @property
+    def drag(self) -> Drag | None:
+        """The drag of the air on the ball; None where the options tell no air."""
+        return drag_of(self.mass, self.diameter, self.drag_coefficient, self.air_density)
+
+    @property
+    def impact_speed(self) -> Number | float | None:
+        """The impact speed in m/s, as given or of the drop height; None where neither is known."""
+        if self.speed is not None or self.drop_height is None:
+            return self.speed
+        return speed_after_fall(self.drop_height, self.gravity, self.drag)
+
+
+def places(measured_to: object) -> tuple[Place, Place]:
+    """Return the points that the drop's height and the bounces' were measured to.
+
+    Raises
+    ------
+    InvalidType, InvalidValue
+        If it is neither one of the three nor a pair of them.
+
+    Examples
+    --------
+    >>> places("centre"), places(("bottom", "top"))
+    (('centre', 'centre'), ('bottom', 'top'))
+    """
+    pair: Any = (measured_to, measured_to) if isinstance(measured_to, str) else measured_to
+    if not (isinstance(pair, tuple | list) and len(pair) == 2):
+        raise InvalidType(
+            f"measured_to must be bottom, centre or top, or a pair, got {shown(measured_to)}"
+        )
+    for point in pair:
+        if point not in _DIAMETERS_UP:
+            raise InvalidValue(f"measured_to must be bottom, centre or top, got {shown(point)}")
+    return pair[0], pair[1]
+
+
+def above_bottom(point: Place, diameter: Number | float | None = None) -> Number | float:
+    """Return how far in m the bottom, centre or top of a ball lies above its lowest point.
+
+    Raises
+    ------
+    InvalidValue
+        If the diameter is needed and missing, or not above 0.
+
+    Examples
+    --------
+    >>> above_bottom("centre", 0.066)
+    0.033
+    """
+    if diameter is not None:
+        return _DIAMETERS_UP[point] * _length("diameter", diameter)
+    if point != "bottom":
+        raise InvalidValue(
+            f"diameter must be given where a height was measured to the {point}, got None"
+        )
+    return 0.0
+
+
+def lowest_point(
+    name: str, height: Number | float, point: Place, diameter: Number | float | None
+) -> Number | float:
+    """Return the height in m of a ball's lowest point from that of its bottom, centre or top.
+
+    Raises
+    ------
+    InvalidValue
+        If the lowest point is not above the floor, or the diameter is needed and missing.
+    """
+    up = above_bottom(point, diameter)
+    height = _length(name, height)
+    if nominal(height) <= nominal(up):
+        raise InvalidValue(
+            f"{name} must be more than the height of the ball's {point} on the floor "
+            f"({nominal(up):g} m), got {nominal(height):g} m"
+        )
+    return height - up
+
+
+def _length(name: str, value: Number | float) -> Number | float:
+    from uncertainties import UFloat
+
+    if isinstance(value, UFloat):
+        positive(name, value.nominal_value, "metres")
+        return value
+    return positive(name, value, "metres")

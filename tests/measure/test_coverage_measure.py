@@ -1,0 +1,112 @@
+"""Error bars of all analyses hold the truth as often as they claim."""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import pytest
+from benchmarks.coverage import (
+    accelerometer,
+    floor_gap,
+    heights,
+    press,
+    sound,
+    stiffness,
+    track,
+    waveform,
+)
+from benchmarks.coverage.shares import Trial, covered, shares
+from scipy.stats import binom
+
+from coverage_cases import chosen
+
+TOLD = {name: trial for name, trial in waveform.CASES.items() if name in waveform.TOLD}
+UNTOLD = {name: trial for name, trial in waveform.CASES.items() if name not in TOLD}
+UGLY = [name for name in sound.CASES if name.startswith("ugly")]
+POOLED = ("knock times", "flights", "restitutions")
+
+
+class Analysis(NamedTuple):
+    """Cases, those that each run of the tests counts, how often, and how many of them are fast."""
+
+    cases: Mapping[str, Trial]
+    few: tuple[str, ...]
+    seeds: int
+    fast: int = 0
+
+
+ANALYSES = (
+    Analysis(accelerometer.CASES, tuple(accelerometer.CASES), 300, fast=1),
+    Analysis(stiffness.CASES, tuple(stiffness.CASES), 200, fast=1),
+    Analysis(press.CASES, ("noise that remembers", "coarse digits"), 200),
+    Analysis(track.CASES, ("track, 60 frames per second",), 400),  # of 200 one in fifty is outside
+    Analysis(UNTOLD, ("any law, 30 samples", "hysteretic of restitution 0.9"), 220),
+    Analysis(TOLD, ("told: dashpot", "told: viscoelastic", "told: exponent 2, 10 bits"), 100),
+)
+
+
+def cases_of(analysis):
+    for k, name in enumerate(chosen(analysis.cases, *analysis.few)):
+        marks = [] if k < analysis.fast else [pytest.mark.slow]
+        yield pytest.param(analysis.cases[name], analysis.seeds, marks=marks, id=name)
+
+
+@pytest.mark.parametrize(
+    ("trial", "seeds"), [case for analysis in ANALYSES for case in cases_of(analysis)]
+)
+def test_the_truth_lies_within_one_sigma_in_two_of_three(trial, seeds):
+    for quantity, share in shares(trial, range(seeds)).items():
+        assert 0.60 <= share.within_one <= 0.76, quantity
+        assert share.within_two >= 0.90, quantity
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "case", chosen(floor_gap.CASES, "floor's force alone, gap of 1 mm, 0.3 % noise")
+)
+def test_gaps_by_the_force_on_the_floor(case):
+    found = [floor_gap.CASES[case](seed) for seed in range(210)]
+    assert sum(map(bool, found)) > 0.7 * len(found)  # a gap near 0.8 mm may look like none
+    test_the_truth_lies_within_one_sigma_in_two_of_three(found.__getitem__, len(found))
+
+
+@pytest.mark.parametrize("case", heights.CASES)
+def test_heights_together(case):
+    assert 0.60 <= covered(heights.CASES[case], range(1000)) <= 0.76
+
+
+def possible(share, count):
+    """Return whether a share can come from a true one of 60 to 76 %, by chance of one in a hundred.
+
+    `count` is of independent trials.
+    """
+    hits = round(share * count)
+    return binom.cdf(hits, count, 0.60) > 0.005 and binom.sf(hits - 1, count, 0.76) > 0.005
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "case", chosen(sound.CASES, "sound, noise and hum", "ugly sound, all of it, 44.1 kHz")
+)
+def test_sound(case):
+    seeds = range(100 if case in UGLY else 400)
+    for quantity, share in shares(sound.CASES[case], seeds).items():
+        if case in UGLY and quantity not in POOLED:  # one a record
+            assert possible(share.within_one, len(seeds)), quantity
+        else:
+            assert 0.60 <= share.within_one <= 0.76, quantity
+        assert share.within_two >= 0.87, quantity
+
+
+@pytest.mark.parametrize("case", UGLY[::3])
+def test_ugly_sound_in_a_few_recordings(case):
+    # The nine knocks of a recording have about five independent errors.
+    for quantity, share in shares(sound.CASES[case], range(4)).items():
+        if quantity in POOLED:
+            assert possible(share.within_one, 5 * 4), quantity
+
+
+def test_a_share_far_from_its_claim_is_seen():
+    assert possible(0.68, 20)
+    assert not possible(0.25, 20)
+    assert not possible(0.55, 1000)
+    assert not possible(0.80, 1000)
