@@ -4,7 +4,6 @@
 parts       all files that are made, by their names in the page
 data        laws, balls, cases, lessons, units and bounds, as JSON
 catalogue   balls, laws, examples and limits
-examples    what to drop with the balls that a class owns, and what to see
 lessons     the lessons, with links that the page can follow
 units       all units that the package reads, with their factors
 laws        the formulas of the contact laws, as JavaScript
