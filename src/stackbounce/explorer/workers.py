@@ -101,7 +101,7 @@ class Workers:
 
     def stop(self) -> None:
         """End the processes, also in the middle of a job."""
-        self._pool.stop()
+        self._pool.stop()  # type: ignore[no-untyped-call]
         self._pool.join()
 
     @contextlib.asynccontextmanager

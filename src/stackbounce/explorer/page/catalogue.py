@@ -4,8 +4,8 @@ import dataclasses
 from typing import Any
 
 from stackbounce.cross2007.cases import list_cases
-from stackbounce.explorer.limits import LIMITS
 from stackbounce.explorer.examples import list_examples
+from stackbounce.explorer.limits import LIMITS
 from stackbounce.model import LAWS, ContactLaw, Hysteretic
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS
 from stackbounce.version import __version__
