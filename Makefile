@@ -12,7 +12,7 @@ DROPS ?= 1000000
 FILES ?= 5000
 FOLDER ?=
 SEED ?= 1
-ATTACKS ?= signals kills pairs stores disks measurements requests
+ATTACKS ?= signals kills pairs stores disks
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal
 # Not the tests of the project's own rules, of the engine (kernels), of pages, benchmarks and kept answers, and none of libraries' warnings of what comes.
 OF_LOWEST := bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal -m 'not slow' \

@@ -1,9 +1,8 @@
 """A class on one machine: fifty users of the explorer at once, each with a page of their own.
 
-Run `python -m benchmarks.classroom [--users 50] [--moves 20]`. It starts a server as `stackbounce
-app` does on two cores. Each user loads the page, drags a slider (a drop computed for each place),
-looks at a map and saves a table; all begin at the same moment, and nobody waits between two
-requests, as people do.
+Run `python -m benchmarks.classroom [--users 50] [--moves 5]`. It starts a server as `stackbounce
+app` does on two cores. Each user loads the page, measures a record and carries errors forward;
+all begin at the same moment, and nobody waits between two requests, as people do.
 """
 
 import argparse
@@ -12,6 +11,7 @@ import re
 import subprocess
 import sys
 from collections import defaultdict
+from importlib.resources import files
 from time import perf_counter
 from typing import Any
 
@@ -26,6 +26,7 @@ Seen = dict[str, list[tuple[float, int]]]
 """What was asked for, and of each answer the time in s and the status."""
 
 _PATIENCE = 300.0  # s
+RECORD = files("stackbounce.explorer") / "static" / "examples" / "floor-force.csv"
 
 
 def drop(mass: float) -> dict[str, Any]:
@@ -52,16 +53,11 @@ async def user(client: httpx.AsyncClient, number: int, moves: int, seen: Seen) -
     page = await ask("page", "GET", "/")
     for file in re.findall(r'(?:src|href)="([\w./]+\.(?:js|css))"', page.text):
         await ask("its files", "GET", file)
-    await ask("catalogue", "GET", "/api/catalogue")
+    record = {"file": ("force.csv", RECORD.read_bytes())}
+    await ask("a record", "POST", "/api/measure", files=record)
     for move in range(moves):
-        mass = 0.1 + 0.005 * move + 1e-4 * number
-        await ask("a drop", "POST", "/api/simulate", json={"drop": drop(mass)})
-    sides = {
-        "x": {"path": "mass_ratio", "low": 0.2, "high": 20, "count": 60, "log": True},
-        "y": {"path": "gaps.0", "low": 0, "high": 5e-3, "count": 45},
-    }
-    await ask("a map of 60 × 45", "POST", "/api/map", json={"drop": drop(0.15), **sides})
-    await ask("a table", "POST", "/api/export/csv", json={"drop": drop(0.15)})
+        asked = {"drop": drop(0.1 + 0.005 * move + 1e-4 * number), "errors": {"height": "1 cm"}}
+        await ask("errors", "POST", "/api/predict", json=asked)
 
 
 async def run(address: str, users: int, moves: int) -> tuple[Seen, float]:
@@ -90,7 +86,7 @@ def main() -> None:
     """Serve, measure and print."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.classroom", description=__doc__)
     parser.add_argument("--users", type=int, default=50)
-    parser.add_argument("--moves", type=int, default=20, help="drops that each user asks for")
+    parser.add_argument("--moves", type=int, default=5, help="predictions that each user asks for")
     told = parser.parse_args()
     command = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--port", "0"]
     with subprocess.Popen(

@@ -20,7 +20,11 @@ EXTRAS = {
     "sheets": ("openpyxl",),
     "fit": _FIT,
     "paper": _PAPER,
-    "web": (*_PAPER, "fastapi", "psutil", "pydantic", "python_multipart", "segno", "uvicorn"),
+    "web": (
+        *_PAPER,
+        *("fastapi", "pebble", "psutil", "pydantic", "python_multipart", "segno", "starlette"),
+        "uvicorn",
+    ),
 }
 """The modules that each extra brings; ``all`` has them all, and a plain install none."""
 

@@ -9,7 +9,7 @@ import pytest
 
 from stackbounce.explorer import LIMITS
 from stackbounce.explorer.answers.records import measure_record
-from stackbounce.explorer.worker_pool import Workers
+from stackbounce.explorer.workers import Workers
 
 LAB = Path(__file__).parents[2] / "docs" / "lab"
 

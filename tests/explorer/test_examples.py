@@ -7,7 +7,7 @@ import pytest
 import stackbounce as sb
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.explorer import LIMITS
-from stackbounce.explorer.answers.examples import list_examples
+from stackbounce.explorer.examples import list_examples
 
 EXAMPLES = list(list_examples())
 

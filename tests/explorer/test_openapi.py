@@ -20,18 +20,10 @@ CHECKS = [
     response_schema_conformance,
 ]
 OPERATIONS = [
-    ("GET", "/api/status"),
     ("GET", "/api/places"),
-    ("GET", "/api/catalogue"),
-    ("POST", "/api/stack"),
-    ("POST", "/api/law"),
-    ("POST", "/api/like"),
+    ("GET", "/api/measure/options"),
     ("POST", "/api/simulate"),
     ("POST", "/api/predict"),
-    ("POST", "/api/map"),
-    ("POST", "/api/map/paths"),
-    ("POST", "/api/export/{kind}"),
-    ("GET", "/api/measure/options"),
     ("POST", "/api/measure"),
     ("POST", "/api/fit"),
 ]

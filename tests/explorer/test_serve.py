@@ -16,10 +16,13 @@ from pathlib import Path
 import httpx
 import pytest
 
-from adversary.requests_server import LONG_MAP, serving
+from adversary.server import LONG_RUN, serving
+from explorer.conftest import DROP
 from stackbounce.cli import main
+from stackbounce.errors import FileError
 from stackbounce.explorer import LIMITS, paper_pages
 from stackbounce.explorer.serve import PORT
+from stackbounce.explorer.workers import Workers
 
 APP = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--workers", "1"]
 
@@ -76,7 +79,7 @@ def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
         told = json.loads("".join(lines))
         address = told["address"]
         assert told["others"] == []
-        answer = httpx.post(f"{address}api/stack", json={"balls": ["B1"]}, timeout=60.0)
+        answer = httpx.post(f"{address}api/simulate", json={"drop": DROP}, timeout=60.0)
         assert answer.status_code == 200
         workers = children(process)
         assert workers
@@ -101,8 +104,8 @@ def left_of(pids):
 @pytest.mark.slow
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGKILL])
 def test_open_requests_do_not_keep_it_from_ending(how):
-    large = json.dumps(LONG_MAP).encode()
-    head = b"POST /api/map HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+    large = json.dumps(LONG_RUN).encode()
+    head = b"POST /api/simulate HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
     begun = [
         b"",
         b"GET / HTT",
@@ -111,7 +114,7 @@ def test_open_requests_do_not_keep_it_from_ending(how):
         b"GET /paper/ HTTP/1.1\r\nHost: localhost\r\n\r\n",
     ]
     with serving(stderr=subprocess.PIPE) as server, contextlib.ExitStack() as stack:
-        httpx.post(f"{server.address}api/stack", json={"balls": ["B1"]}, timeout=60.0)
+        httpx.post(f"{server.address}api/simulate", json={"drop": DROP}, timeout=60.0)
         for request in begun * 3:
             connection = stack.enter_context(socket.create_connection(server.place))
             connection.sendall(request)
@@ -165,15 +168,13 @@ def test_a_class_is_told_addresses_that_it_can_type():
     assert len(places[0]["code"]) == len(places[0]["code"][0])
 
 
-class Stub:
+class Stub(Workers):
     """Workers that write a page at once, or fail."""
 
-    def __init__(self, error=None):
-        self.error = error
+    error = None
 
     async def run(self, job, folder, seconds):
-        assert job is paper_pages.paper.write_paper
-        assert seconds == LIMITS.paper_seconds
+        assert (job, seconds) == (paper_pages._write, LIMITS.paper_seconds)
         if self.error:
             raise self.error
         Path(folder, "index.html").write_text("<h1>The paper</h1><script>let a = 1;</script>")
@@ -181,12 +182,13 @@ class Stub:
 
 def pages(stub, folder, names):
     made = paper_pages.Papers(stub, folder, LIMITS.paper_seconds)
+    scope = {"type": "http", "method": "GET", "headers": []}
 
     async def ask():
         answers = []
         for name in names:
             try:
-                answers.append(await made.page(name))
+                answers.append(await made.page(name, scope))
             except Exception as error:
                 answers.append(error)
             await asyncio.sleep(0.01)
@@ -196,28 +198,26 @@ def pages(stub, folder, names):
 
 
 def test_pages_of_the_paper(tmp_path):
-    secret = tmp_path / "secret"
-    secret.write_text("secret")
+    (tmp_path / "secret").write_text("secret")
     folder = tmp_path / "pages"
     folder.mkdir()
     names = ["", "", "index.html", "none.html", "../secret", "../pages/../secret", "figures"]
-    names += ["\0", "index.html\0", "a" * 5000, "/etc/passwd", "index.html/", "."]
-    waiting, lead, page, *others = pages(Stub(), folder, names)
-    assert b"is being recomputed" in waiting.body
+    names += ["\0", "a" * 5000, "/etc/passwd", "."]
+    waiting, lead, page, *others = pages(Stub(LIMITS), folder, names)
+    assert b"is being recomputed" in Path(waiting.path).read_bytes()
     assert waiting.headers["refresh"] == "2"
     assert lead.headers["location"] == "/paper/index.html"
-    assert b"The paper" in page.body
+    assert b"The paper" in Path(page.path).read_bytes()
     digest = base64.b64encode(hashlib.sha256(b"let a = 1;").digest()).decode()
     policy = page.headers["content-security-policy"]
     assert policy.endswith(f"; script-src 'sha256-{digest}'")  # its own script, and no other
-    assert [other.status_code for other in others] == [404] * 10
+    assert "frame-ancestors 'none'" in policy
+    assert [other.status_code for other in others] == [404] * 8
 
 
 def test_a_paper_that_failed_says_so_and_is_tried_again(tmp_path):
-    first, second, third = pages(
-        Stub(paper_pages.StackbounceError("no room <left>")), tmp_path, [""] * 3
-    )
-    assert b"is being recomputed" in first.body
-    assert b"It failed: no room &lt;left&gt;" in second.body
-    assert second.status_code == 503
-    assert b"is being recomputed" in third.body
+    stub = Stub(LIMITS)
+    stub.error = FileError("no room left")
+    first, second, third = pages(stub, tmp_path, [""] * 3)
+    assert str(second) == "no room left"
+    assert first.headers["refresh"] == third.headers["refresh"] == "2"

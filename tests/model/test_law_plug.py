@@ -11,8 +11,7 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.cli import descriptions, main
-from stackbounce.explorer.answers.catalogue import list_choices
-from stackbounce.explorer.limits import LIMITS
+from stackbounce.explorer.page.catalogue import list_choices
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.model import LAWS
 from stackbounce.model.laws import law_named
@@ -41,14 +40,12 @@ def added():
     """Register laws for one test."""
 
     def add(law):
-        list_choices.cache_clear()
         return register(law)
 
     known = list(LAWS)
     yield add
     for name in set(LAWS) - set(known):
         del LAWS[name]
-    list_choices.cache_clear()
 
 
 def measured(kind):
@@ -96,7 +93,7 @@ def goes_through_every_face(kind, tmp_path, capfd):
     table = capfd.readouterr().out
     assert descriptions.law_text(law) in " ".join(table.split())
 
-    (page,) = [one for one in json.loads(list_choices(LIMITS))["laws"] if one["law"] == name]
+    (page,) = [one for one in list_choices()["laws"] if one["law"] == name]
     assert (page["formula"], page["source"], page["says"]) == (kind.formula, kind.source, kind.says)
     assert [one["name"] for one in page["fields"]] == list(kind.quantities())
     assert page["loss_fields"] == list(kind.loss_fields())

@@ -40,8 +40,7 @@ def run(
         int | None,
         typer.Option(
             metavar="COUNT",
-            help="Processes for short requests, and as many for long ones; by default half as many "
-            "as cores, 2 to 4.",
+            help="Processes that measure and fit; by default half as many as cores, 2 to 4.",
             show_default=False,
         ),
     ] = None,
@@ -69,7 +68,7 @@ def run(
     """Open the explorer in the browser: the bounce in slow motion."""
     from stackbounce.explorer.framing import read_origin
 
-    framed_by = [read_origin(one) for one in embed or ()]
+    framed_by = [read_origin(origin) for origin in embed or ()]
     if export is not None:
         _export(export, framed_by, overwrite, as_json)
         return
@@ -93,7 +92,7 @@ def _tell(address: str, others: "list[Place]", for_others: bool, as_json: bool) 
     if as_json:
         from stackbounce.version import __version__
 
-        known = {"address": address, "others": [one.address for one in others]}
+        known = {"address": address, "others": [place.address for place in others]}
         typer.echo(json_text({"stackbounce": __version__, **known}))
         return
     typer.echo(f"The explorer: {address} (Ctrl+C ends it)")
@@ -110,7 +109,7 @@ def _tell_others(others: "list[Place]") -> None:
     if not others:
         typer.echo("This machine is in no network: others cannot open the page.")
         return
-    typer.echo(f"For others on the same network: {' or '.join(one.address for one in others)}")
+    typer.echo(f"For others on the same network: {' or '.join(place.address for place in others)}")
     lines = code_text(others[0].code).splitlines()
     try:
         lines[0].encode(sys.stdout.encoding or "ascii")

@@ -5,12 +5,11 @@ serve       finds a port, runs the server, opens the browser
 addresses   the addresses that others can type, with their QR codes
 app         the server's addresses: request, answer function, schema
 guard       admission of requests, and the headers of every answer
-connections limits of connections
-shares      what a client may have at once
+framing     which sites may show the page in a frame
 limits      limits of a request, of a client, and of all together
-turns       which of the waiting jobs is computed next
-worker_pool worker processes, with limits of time and memory for each job
+workers     worker processes, with limits of time and memory for each job
 schema      the schema of requests and answers, in pydantic
+examples    what to drop with the balls that a class owns, and what to see
 paper_pages the paper's pages, computed at the first request
 answers/    the functions that compute answers in the worker processes
 lessons/    the lessons, for the page and the documentation

@@ -1,45 +1,28 @@
 """The paper's pages: computed at the first request, kept while the server runs."""
 
 import asyncio
-import base64
-import hashlib
-import html
 import re
-from collections.abc import Iterator
+from collections.abc import MutableMapping
 from pathlib import Path
+from typing import Any
 
-from fastapi.responses import FileResponse, HTMLResponse, RedirectResponse, Response
-from starlette.exceptions import HTTPException
+from starlette.responses import FileResponse, RedirectResponse, Response
+from starlette.staticfiles import StaticFiles
 
-from stackbounce.errors import StackbounceError
-from stackbounce.explorer.answers import paper
-from stackbounce.explorer.guard import PAPER
-from stackbounce.explorer.worker_pool import Workers
+from stackbounce import cross2007
+from stackbounce.explorer.page.assembly import digest
+from stackbounce.explorer.workers import Workers
 
 __all__ = ["Papers"]
 
+_STATIC = Path(__file__).parent / "static"
 _SCRIPT = re.compile(rb"<script>(.*?)</script>", re.DOTALL)
 _AGAIN = "2"  # s, after which the waiting page reloads itself
-_WAIT = """<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>The paper recomputed</title>
-<link rel="icon" href="/icon.svg" type="image/svg+xml">
-<link rel="stylesheet" href="/style.css">
-</head>
-<body>
-<main class="waiting" role="status"><h1>The paper is being recomputed</h1>
-<p>{words}</p>
-<p><a href="/">Back to the explorer</a></p></main>
-</body>
-</html>
-"""
-_COMPUTING = (
-    "Its figures, its tables and the audit of every number in it: half a minute or so. "
-    "This page shows them when they are there."
+_POLICY = (
+    "default-src 'none'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'; script-src {scripts}"
 )
+"""The content security policy of the pages, which hold their styles and pictures inline."""
 
 
 class Papers:
@@ -48,7 +31,7 @@ class Papers:
     Parameters
     ----------
     workers : Workers
-        The pool that runs the job.
+        The processes that run the job.
     folder : Path
         An empty folder for the pages.
     seconds : float
@@ -64,46 +47,41 @@ class Papers:
 
     def __init__(self, workers: Workers, folder: Path, seconds: float) -> None:
         self._workers, self._folder, self._seconds = workers, folder, seconds
-        self._job: asyncio.Task[None] | None = None
+        self._job: asyncio.Task[str] | None = None
 
-    async def page(self, name: str) -> Response:
+    async def page(self, name: str, scope: MutableMapping[str, Any]) -> Response:
         """Return a page or file of the paper, or a waiting page while they are being computed.
 
         Raises
         ------
         HTTPException
             If there is no file of this name.
+        StackbounceError
+            If the pages could not be computed; the next request computes them again.
         """
         if self._job is None:
-            job = self._workers.run(paper.write_paper, str(self._folder), seconds=self._seconds)
-            self._job = asyncio.create_task(job)
+            self._job = asyncio.create_task(self._write())
         if not self._job.done():
-            return HTMLResponse(_WAIT.format(words=_COMPUTING), headers={"refresh": _AGAIN})
-        error = self._job.exception()
-        if error is not None:
+            return FileResponse(_STATIC / "waiting.html", headers={"refresh": _AGAIN})
+        job = self._job
+        if job.exception():
             self._job = None
-            words = str(error) if isinstance(error, StackbounceError) else type(error).__name__
-            return HTMLResponse(_WAIT.format(words=html.escape(f"It failed: {words}")), 503)
+        policy = job.result()
         if not name:
             return RedirectResponse("/paper/index.html")
-        return self._send_file(name)
+        found = await StaticFiles(directory=self._folder).get_response(name, scope)
+        found.headers["content-security-policy"] = policy
+        return found
 
-    def _send_file(self, name: str) -> Response:
-        files = {path.relative_to(self._folder).as_posix(): path for path in self._files()}
-        if name not in files:
-            raise HTTPException(404, "the paper has no such page")
-        path = files[name]
-        if path.suffix != ".html":
-            return FileResponse(path)
-        content = path.read_bytes()
-        return HTMLResponse(content, headers={"content-security-policy": _allow_scripts(content)})
-
-    def _files(self) -> Iterator[Path]:
-        return (path for path in self._folder.rglob("*") if path.is_file())
+    async def _write(self) -> str:
+        """Write the pages; return their content security policy: their own scripts may run."""
+        async with self._workers.turn("the paper"):
+            await self._workers.run(_write, self._folder, seconds=self._seconds)
+        scripts = _SCRIPT.findall((self._folder / "index.html").read_bytes())
+        allowed = " ".join(f"'{digest(script)}'" for script in scripts)
+        return _POLICY.format(scripts=allowed or "'none'")
 
 
-def _allow_scripts(page: bytes) -> str:
-    """Return the content security policy of a page: only its own inline scripts may run."""
-    digests = [hashlib.sha256(script).digest() for script in _SCRIPT.findall(page)]
-    allowed = " ".join(f"'sha256-{base64.b64encode(digest).decode()}'" for digest in digests)
-    return f"{PAPER}; script-src {allowed}" if allowed else PAPER
+def _write(folder: Path) -> None:
+    """Write the paper's pages; the audit itself is not sent back."""
+    cross2007.write(folder, explorer="../")

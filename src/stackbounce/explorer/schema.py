@@ -6,15 +6,15 @@ pydantic adds the OpenAPI description and the limits of a request.
 
 from collections.abc import Callable
 from dataclasses import MISSING, fields
-from typing import Annotated, Any, Literal, get_type_hints
+from typing import Annotated, Any, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.explorer.limits import LIMITS
-from stackbounce.model import LAWS, Ball, ContactLaw, Drop
-from stackbounce.model.schema import NO_FLOOR, read_law
+from stackbounce.model import LAWS, Ball, Drop
+from stackbounce.model.schema import NO_FLOOR
 from stackbounce.units import unit_of
 
 _Json = dict[str, Any]
@@ -71,10 +71,9 @@ def _describe(kind: type, law: str | None = None) -> _Json:
     """Return the JSON schema of a dataclass; its numbers may be texts with a unit."""
     properties: _Json = {} if law is None else {"law": {"const": law}}
     hints = get_type_hints(kind, include_extras=True)
-    for one in fields(kind):
-        if one.init and not one.name.startswith("_"):
-            properties[one.name] = _describe_field(hints[one.name])
-    missing = [one.name for one in fields(kind) if one.init and one.default is MISSING]
+    given = [entry for entry in fields(kind) if entry.init and not entry.name.startswith("_")]
+    properties |= {entry.name: _describe_field(hints[entry.name]) for entry in given}
+    missing = [entry.name for entry in given if entry.default is MISSING]
     return _describe_object(properties, ([] if law is None else ["law"]) + missing)
 
 
@@ -82,8 +81,8 @@ def _describe_field(hint: Any) -> _Json:
     unit = unit_of(hint)
     if unit is None:
         return {"type": "string"}
-    said = f"in {unit.symbol}, or a text with a unit" if unit.symbol else "a pure number"
-    number: _Json = {"anyOf": [{"type": "number"}, {"type": "string"}], "description": said}
+    meaning = f"in {unit.symbol}, or a text with a unit" if unit.symbol else "a pure number"
+    number: _Json = {"anyOf": [{"type": "number"}, {"type": "string"}], "description": meaning}
     return _describe_list(number, 0) if "Sequence" in str(hint) else number
 
 
@@ -103,24 +102,14 @@ def _describe_object(properties: _Json, required: list[str]) -> _Json:
 Scenario = Annotated[Drop, _Reader(read_drop, _describe_drop)]
 """A drop, with the keys and units of a scenario file."""
 
-Contact = Annotated[
-    ContactLaw | None,
-    _Reader(
-        lambda value: read_law(value, "contact"),
-        lambda: {"anyOf": [_describe(law, name) for name, law in LAWS.items()]},
-    ),
-]
-"""A contact law, as in a scenario file."""
-
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
-_Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 _Name = Annotated[str, Field(max_length=100)]
-_Law = Annotated[
-    str, Field(max_length=40, json_schema_extra=lambda schema: schema.update(enum=list(LAWS)))
-]
 
-ExportKind = Literal["csv", "toml", "python", "svg", "png"]
-"""Kinds of file that a drop can be exported to."""
+Varied = Annotated[list[_Name], Field(min_length=1, max_length=LIMITS.varied)]
+"""Paths of the numbers that a fit varies."""
+
+Texts = Annotated[dict[_Name, str], Field(min_length=1)]
+"""What was measured, with errors: ``{"rebound_ratios.1": "1.64 ± 0.02"}``."""
 
 
 def describe_error(error: Any) -> str:
@@ -133,7 +122,7 @@ def describe_error(error: Any) -> str:
     """
     if error["type"] == "value_error":  # raised by this package; its message begins with the path
         return str(error["ctx"]["error"])
-    if error["type"] == "json_invalid" or error["loc"] == ("body",):
+    if not any(isinstance(part, str) for part in error["loc"][1:]):  # of no field
         return "the request must be an object in JSON, with content-type application/json"
     where = ".".join(str(part) for part in error["loc"] if part != "body")
     where = where if where.isprintable() and len(where) <= 60 else shown(where)
@@ -152,7 +141,7 @@ class _Run(Request):
     """A drop, and the end of its run."""
 
     drop: Scenario
-    until: Annotated[_Positive, Field(le=LIMITS.duration)] | None = None
+    until: Annotated[float, Field(gt=0.0, le=LIMITS.duration)] | None = None
 
 
 class Play(_Run):
@@ -161,110 +150,16 @@ class Play(_Run):
     frames: Annotated[int, Field(ge=2, le=LIMITS.frames)] = 1200
 
 
-_Errors = Annotated[dict[_Name, _Finite | _Name], Field(max_length=LIMITS.varied)]
-
-
-class Export(_Run):
-    """A drop to export, and the errors of some of its numbers as `Uncertain` has them."""
-
-    errors: _Errors = {}
-
-
 class Uncertain(_Run):
     """A drop, and the errors of some of its numbers by path: SI numbers, or texts with a unit."""
 
-    errors: Annotated[_Errors, Field(min_length=1)]
-
-
-class StackRequest(Request):
-    """Balls of the catalogue, the lowest first."""
-
-    balls: Annotated[list[_Name], Field(min_length=1, max_length=LIMITS.balls)]
-    height: _Positive = 1.0
-
-
-class MeasuredLaw(Request):
-    """A measured contact, and the law to calibrate."""
-
-    law: _Law
-    mass: _Positive
-    restitution: _Positive | None = None
-    contact_time: _Positive | None = None
-    impact_speed: _Positive | None = None
-    exponent: _Positive | None = None
-
-
-class LikeLaw(Request):
-    """A contact, and the law to replace its own, with the same restitution and contact time."""
-
-    contact: Contact
-    to: _Law
-    mass: _Positive
-    impact_speed: _Positive
-    restitution: _Positive | None = None
-    contact_time: _Positive | None = None
-
-
-class Axis(Request):
-    """A number that varies over one side of a map."""
-
-    path: _Name
-    low: _Finite
-    high: _Finite
-    count: Annotated[int, Field(ge=2, le=1000)] = 80
-    log: bool = False
-
-
-class MapRequest(Request):
-    """A map of a drop over two of its numbers."""
-
-    drop: Scenario
-    x: Axis
-    y: Axis
-    show: _Name = "rebound_ratio.1"
-
-
-class MapPaths(Request):
-    """A drop whose numbers and outcomes are to be listed."""
-
-    drop: Scenario
+    errors: Annotated[dict[_Name, _Finite | _Name], Field(min_length=1, max_length=LIMITS.varied)]
 
 
 class Problem(BaseModel):
     """What was wrong, in one line."""
 
     detail: str
-
-
-class State(BaseModel):
-    """The version of the server."""
-
-    stackbounce: str
-
-
-class Catalogue(BaseModel):
-    """Balls, laws, the law of a measured loss, the paper's cases, and the bounds of a request."""
-
-    stackbounce: str
-    balls: list[_Json]
-    laws: list[_Json]
-    lossy_law: str
-    presets: list[_Json]
-    limits: _Json
-
-
-class CatalogueStack(BaseModel):
-    """Balls of the catalogue on top of each other, and the sources of their numbers."""
-
-    drop: _Json
-    contact_sources: list[str]
-    gap_sources: list[str]
-
-
-class OneContact(BaseModel):
-    """A contact law, as in a scenario file."""
-
-    contact: _Json
 
 
 class Simulation(BaseModel):
@@ -300,36 +195,6 @@ class Predicted(BaseModel):
     numbers: dict[str, _Json]
     values: dict[str, _Json]
     band: _Json
-
-
-class Side(BaseModel):
-    """One side of a map."""
-
-    path: str
-    label: str
-    unit: str
-    values: list[float]
-
-
-class Map(BaseModel):
-    """A number of the outcome over two numbers of the drop: ``values[y][x]``."""
-
-    stackbounce: str
-    drop: _Json
-    x: Side
-    y: Side
-    show: str
-    label: str
-    unit: str
-    values: list[list[float | None]]
-    unfinished: int
-
-
-class Paths(BaseModel):
-    """The numbers that a map can vary, and the outcomes that it can show."""
-
-    paths: list[_Json]
-    shows: list[_Json]
 
 
 class Curve(BaseModel):

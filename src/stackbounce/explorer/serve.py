@@ -2,12 +2,10 @@
 
 import contextlib
 import errno
-import functools
 import logging
 import signal
 import socket
 import threading
-import time
 import webbrowser
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -51,8 +49,8 @@ def serve(
     browser : bool
         Whether to open the page.
     tell : callable
-        Called with the address of the page on this machine, and with those for others, once the
-        server has started.
+        Called with the address of the page on this machine, and with those for others, before the
+        server starts; who comes early waits for it.
     framed_by : sequence of str
         The origins of the sites that may show the page in a frame.
 
@@ -66,7 +64,7 @@ def serve(
     import uvicorn
 
     from stackbounce.explorer.app import create_app
-    from stackbounce.explorer.connections import make_protocol
+    from stackbounce.explorer.guard import HEADERS
 
     if not host:
         raise InvalidValue(
@@ -80,14 +78,16 @@ def serve(
         address, others = url(_own_host(host), port), list_places(host, port)
         config = uvicorn.Config(
             create_app(limits, others, framed_by),
-            http=make_protocol(limits),
+            http="h11",
             ws="none",
             log_level="error",  # what clients do wrong, they are told
             backlog=_BACKLOG,
+            headers=list(HEADERS.items()),
+            limit_concurrency=limits.connections,
             proxy_headers=False,  # a client could say that it is another one
-            timeout_keep_alive=30,
-            timeout_graceful_shutdown=2,
             server_header=False,
+            timeout_graceful_shutdown=1,
+            timeout_keep_alive=30,
         )
 
         class Server(uvicorn.Server):
@@ -99,16 +99,13 @@ def serve(
                     task.cancel()
                 await super().shutdown(sockets)
 
-        server = Server(config)
-        begun = functools.partial(tell, address, others)
-        waiting = threading.Thread(
-            target=_announce, args=(server, address, browser, begun), daemon=True
-        )
-        waiting.start()
         before = signal.signal(signal.SIGTERM, _exit)  # uvicorn raises it again at its end
         try:
             with contextlib.suppress(KeyboardInterrupt):
-                server.run(sockets=[listening])
+                tell(address, others)
+                if browser:  # in a thread: a browser for a terminal ends with its last page
+                    threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+                Server(config).run(sockets=[listening])
         finally:
             signal.signal(signal.SIGTERM, before)
 
@@ -128,6 +125,7 @@ def _open_socket(host: str, port: int | None) -> socket.socket:
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             listening.bind((host, number))
+            listening.listen(_BACKLOG)
         except OSError as error:
             listening.close()
             if isinstance(error, socket.gaierror) or error.errno == errno.EADDRNOTAVAIL:
@@ -144,19 +142,3 @@ def _open_socket(host: str, port: int | None) -> socket.socket:
 def _own_host(host: str) -> str:
     """Return the host by which this machine itself reaches the server."""
     return {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
-
-
-def _announce(
-    server: Any,
-    address: str,
-    browser: bool,
-    tell: Callable[[], None],
-) -> None:
-    """Report the addresses, and open the page in a browser, once the server has started."""
-    while not server.started:
-        if server.should_exit:
-            return
-        time.sleep(0.02)
-    tell()
-    if browser:
-        webbrowser.open(address)

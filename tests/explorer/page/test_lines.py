@@ -1,18 +1,16 @@
 """Lines of the page: their numbers are the library's, their points lie where the curves bend."""
 
 import dataclasses
-import json
 import random
 
 import numpy as np
 import pytest
 
 import stackbounce as sb
+from explorer.page.library import at, outcome, varying
 from explorer.page.scenarios import drawn
 from stackbounce.cross2007.lines import list_lines
 from stackbounce.errors import StackbounceError
-from stackbounce.explorer.answers import maps
-from stackbounce.run.paths import drop_at, number_at
 
 SEED = 7
 EVENTS = 300  # of random drops
@@ -28,10 +26,10 @@ def random_lines(seed, count):
     while count:
         batch += 1
         mapping, _ = next(drawn(seed, batch, 1))
-        one = chance.choice(json.loads(maps.list_paths(sb.Drop.from_mapping(mapping)))["paths"])
-        low, high = sorted((0.5 * one["value"], 1.5 * one["value"] or 1.0))
+        path, value = chance.choice(list(varying(sb.Drop.from_mapping(mapping)).items()))
+        low, high = sorted((0.5 * value, 1.5 * value or 1.0))
         log = low > 0.0 and chance.random() < 0.4
-        x = {"path": one["path"], "low": low, "high": high, "log": log}
+        x = {"path": path, "low": low, "high": high, "log": log}
         try:
             [at(mapping, x["path"], end) for end in (low, high)]
         except StackbounceError:
@@ -40,42 +38,9 @@ def random_lines(seed, count):
         yield {"drop": mapping, "x": x, "show": chance.choice(SHOWS)}
 
 
-def at(mapping, path, value):
-    """Return a drop with another value of a number, or of a ratio."""
-    drop = sb.Drop.from_mapping(mapping)
-    if path in maps.RATIOS:
-        path, other, _ = maps.RATIOS[path]
-        value *= number_in(drop, other)
-    return drop_at(drop, {number_at(drop, path): value})
-
-
-def number_in(drop, path):
-    part, index, field = path.split(".")
-    return getattr(getattr(drop, part)[int(index)], field)
-
-
-def outcome(drop, show, index):
-    """Return what the library finds of a drop; None where it does not come to its end."""
-    result = sb.simulate(drop, rtol=maps.RTOL, event_limit=EVENTS)
-    if result.status > sb.Status.COLLAPSED:
-        return None
-    if show == "energy_retained":
-        return finite(result.energy_retained)
-    if show == "collisions":
-        return int(result.collisions[index])
-    if show == "rebound_ratio":
-        return finite(result.rebound_ratios[index])
-    speed = result.rebound_speeds[index]
-    return finite(speed * abs(speed) / (2.0 * sb.model.STANDARD_GRAVITY))
-
-
-def finite(value):
-    return float(value) if np.isfinite(value) else None
-
-
 def textbook(drop, show, index):
     try:
-        return outcome(sb.separate(drop), show, index)
+        return outcome(sb.separate(drop), show, index, EVENTS)
     except StackbounceError:
         return None
 
@@ -95,7 +60,7 @@ def compare_lines(asked, seed, count):
             drop = at(line["drop"], line["x"]["path"], values[i])
             for curve in answer["curves"]:
                 given = (line["show"], curve["index"])
-                assert alike(curve["values"][i], outcome(drop, *given)), (line, values[i])
+                assert alike(curve["values"][i], outcome(drop, *given, EVENTS)), (line, values[i])
                 compared["own"] += 1
                 if curve["textbook"]:
                     theirs = curve["textbook"]["values"][i]
@@ -173,7 +138,7 @@ def test_a_jump_lies_where_the_count_changes(asked):
     for low, high in ends:
         assert high - low == pytest.approx(closest)
         counts = [
-            outcome(at(line.drop.to_mapping(), "mass_ratio", v), "collisions", 0)
+            outcome(at(line.drop.to_mapping(), "mass_ratio", v), "collisions", 0, EVENTS)
             for v in (low, high)
         ]
         assert counts[0] != counts[1]

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.cross2007.playable import explorer_address
-from stackbounce.explorer.answers.examples import list_examples
+from stackbounce.explorer.examples import list_examples
 from stackbounce.model import Drop
 from stackbounce.model.catalogue import stack
 from stackbounce.units import quantity

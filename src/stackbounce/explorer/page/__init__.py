@@ -3,6 +3,7 @@
 =========== ================================================================
 parts       all files that are made, by their names in the page
 data        laws, balls, cases, lessons, units and bounds, as JSON
+catalogue   balls, laws, examples and limits
 lessons     the lessons, with links that the page can follow
 units       all units that the package reads, with their factors
 bounds      the numbers that a check lets through

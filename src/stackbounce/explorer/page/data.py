@@ -3,13 +3,12 @@
 import dataclasses
 import functools
 import itertools
-import json
 from typing import Any
 
 from stackbounce.cross2007.lines import list_lines
-from stackbounce.explorer.answers import catalogue, maps, play
-from stackbounce.explorer.limits import LIMITS
+from stackbounce.explorer.answers import play
 from stackbounce.explorer.page.bounds import limits_of
+from stackbounce.explorer.page.catalogue import list_choices
 from stackbounce.explorer.page.lessons import list_lessons
 from stackbounce.explorer.page.units import list_units
 from stackbounce.json_values import as_json
@@ -18,7 +17,36 @@ from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stack
 from stackbounce.run.result import Cause, Status
 from stackbounce.units import examples
 
-__all__ = ["model_json"]
+__all__ = ["MAP_RTOL", "OUTCOMES", "RATIOS", "model_json"]
+
+MAP_RTOL = 1e-8
+"""The tolerance of nonlinear contacts in maps and lines, far finer than their colours."""
+
+RATIOS = {
+    "mass_ratio": {
+        "sets": "balls.0.mass",
+        "refers": "balls.1.mass",
+        "label": "mass ratio m₁/m₂, lower over upper",
+    },
+    "stiffness_ratio": {
+        "sets": "contacts.0.stiffness",
+        "refers": "contacts.1.stiffness",
+        "label": "stiffness ratio k₁/k₂, floor over ball-ball",
+    },
+}
+"""Ratios of the lowest two that a map can vary: the number that is set, and its reference."""
+
+OUTCOMES = {
+    "rebound_ratio": ("rebound speed of {ball} over v₀", ""),
+    "rebound_height": ("rebound height of {ball}", "m"),
+    "collisions": ("collisions of {contact}", ""),
+}
+"""Labels and units of what a map can show of a ball or a contact, by name."""
+
+_ENERGY = ("kinetic energy retained", "")
+_USUAL = {"contact_time": 5e-3, "exponent": 1.5, "restitution": 0.8}
+"""What a law takes over from one that has none of it: in s a tennis ball's, of a solid ball, of a
+floor where there was none."""
 
 
 @functools.cache
@@ -27,36 +55,29 @@ def model_json() -> str:
 
     Examples
     --------
+    >>> import json
     >>> sorted(json.loads(model_json()))[:4]
     ['advice', 'balls', 'contacts', 'energy']
     """
-    known = json.loads(catalogue.list_choices(LIMITS))
     return as_json(
-        known
+        list_choices()
         | {
-            "advice": {one.name: one.advice for one in (*Status, *Cause)},
+            "advice": {ending.name: ending.advice for ending in (*Status, *Cause)},
             "contacts": _list_contacts(),
-            "energy": maps.ENERGY,
+            "energy": _ENERGY,
             "gravity": STANDARD_GRAVITY,
             "kinds": examples(),
             "lessons": list_lessons(),
             "lines": _list_lines(),
-            "map_rtol": maps.RTOL,
+            "map_rtol": MAP_RTOL,
             "models": _list_models(),
-            "outcomes": maps.OUTCOMES,
-            "ratios": {
-                name: {"sets": sets, "refers": refers, "label": label}
-                for name, (sets, refers, label) in maps.RATIOS.items()
-            },
+            "outcomes": OUTCOMES,
+            "ratios": RATIOS,
             "rtol": play.RTOL,
             "stacks": _list_stacks(),
             "steepest": STEEPEST,
             "units": list_units(),
-            "usual": {
-                "contact_time": catalogue.DEFAULT_CONTACT_TIME,
-                "exponent": catalogue.DEFAULT_EXPONENT,
-                "restitution": catalogue.DEFAULT_CONTACT.restitution,
-            },
+            "usual": _USUAL,
         }
     )
 

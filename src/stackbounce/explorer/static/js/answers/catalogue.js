@@ -1,4 +1,4 @@
-/** Stacks of the catalogue's balls, and laws that were measured: as stackbounce/explorer/answers/catalogue.py. */
+/** Stacks of the catalogue's balls, and laws that were measured. */
 
 import { calibrate, contactTime, restitution } from "../model/calibration.js";
 import { Drop } from "../model/drop.js";

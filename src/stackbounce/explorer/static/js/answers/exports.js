@@ -1,4 +1,4 @@
-/** A drop as texts: its data, its scenario, and lines of Python: as stackbounce/explorer/answers/exports.py. */
+/** A drop as texts: its data, its scenario, and lines of Python. */
 
 import { lawCode } from "../model/calibration.js";
 import { InvalidValue, general, nearest, repr, writeFloat } from "../model/errors.js";

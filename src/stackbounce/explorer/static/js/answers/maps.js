@@ -1,4 +1,4 @@
-/** A number of the outcome over two numbers of the drop: as stackbounce/explorer/answers/maps.py, in slices. */
+/** A number of the outcome over two numbers of the drop, in slices. */
 
 import { InvalidValue, nearest, shown } from "../model/errors.js";
 import { known } from "../model/known.js";

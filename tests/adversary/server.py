@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
-__all__ = ["LONG_MAP", "Server", "make_drop", "make_map", "serving"]
+__all__ = ["LONG_RUN", "Server", "make_drop", "serving"]
 
 
 def make_drop(balls: int, contact: dict[str, Any], **more: float) -> dict[str, Any]:
@@ -18,19 +18,9 @@ def make_drop(balls: int, contact: dict[str, Any], **more: float) -> dict[str, A
     return {"balls": masses, "contacts": [contact] * balls, "impact_speed": 3.0, **more}
 
 
-def make_map(balls: int, contact: dict[str, Any], count: int) -> dict[str, Any]:
-    """Return a request for a map over two masses, of `count` times `count` points."""
-    sides = {
-        name: {"path": f"balls.{i}.mass", "low": 0.01, "high": 10.0, "count": count}
-        for i, name in enumerate("xy")
-    }
-    return {"drop": make_drop(balls, contact), **sides}
-
-
-LONG_MAP = make_map(
-    6, {"law": "Hysteretic", "stiffness": 1e5, "exponent": 1.5, "restitution": 0.999}, 200
-)
-"""A request for a map that takes ten seconds or more."""
+_POWER = {"law": "PowerLaw", "stiffness": 1e5, "exponent": 1.37}
+LONG_RUN = {"drop": make_drop(6, _POWER, gravity=1000.0), "until": 60.0, "frames": 3000}
+"""A request for a drop of 20 000 events."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -50,22 +40,6 @@ class Server:
         """Return the ids of its processes."""
         tasks = Path(f"/proc/{self.process.pid}/task").glob("*/children")
         return [int(child) for task in tasks for child in task.read_text().split()]
-
-    def own_memory(self) -> float:
-        """Return the greatest memory in MiB that the server itself had."""
-        return _peak(self.process.pid)
-
-    def memory(self) -> float:
-        """Return the greatest memory in MiB that it had, and its processes that live have."""
-        return self.own_memory() + sum(_peak(pid) for pid in self.children())
-
-
-def _peak(pid: int) -> float:
-    with contextlib.suppress(OSError):
-        for line in Path(f"/proc/{pid}/status").read_text().splitlines():
-            if line.startswith("VmHWM:"):
-                return int(line.split()[1]) / 1024
-    return 0.0
 
 
 @contextlib.contextmanager

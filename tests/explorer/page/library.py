@@ -1,0 +1,135 @@
+"""What the library answers to the page's questions, by its public functions."""
+
+import numpy as np
+
+import stackbounce as sb
+from stackbounce.errors import InvalidValue
+from stackbounce.explorer.answers.play import run_drop
+from stackbounce.explorer.page.data import MAP_RTOL, OUTCOMES, RATIOS
+from stackbounce.model import law_named
+from stackbounce.plots.impact_window import choose_window, sample_with_approach
+from stackbounce.run.paths import drop_at, number_at, numbers_of
+
+FLOOR = sb.Rigid(0.8)  # in place of none
+CONTACT_TIME = 5e-3  # s, in place of a rigid contact's
+EXPONENT = 1.5  # in place of that of a law without one
+SAMPLES = 1001  # of a table
+UNMAPPED = ("diameter", "young_modulus", "poisson_ratio")
+
+
+def calibrated(law, **measured):
+    """Return a law with the constants that follow from what was measured."""
+    given = {name: value for name, value in measured.items() if value is not None}
+    return {"contact": sb.calibrate(law_named(law), **given).to_mapping()}
+
+
+def converted(contact, to, mass, impact_speed, restitution, contact_time):
+    """Return another law with the restitution and the contact time of a contact."""
+    contact = contact or FLOOR
+    law, at = law_named(to), (mass, impact_speed)
+    given = {"contact_time": contact_time, "impact_speed": impact_speed, "mass": mass}
+    given["contact_time"] = contact_time or sb.contact_time(contact, *at) or CONTACT_TIME
+    if law.loss:
+        given["restitution"] = restitution or sb.restitution(contact, *at)
+    if law.default_exponent() is None and not law.rigid:
+        given["exponent"] = getattr(contact, "exponent", EXPONENT)
+    return calibrated(to, **given)
+
+
+def stacked(balls, height):
+    """Return balls of the catalogue on each other, and the sources of their numbers."""
+    chosen = sb.model.catalogue.stack(balls)
+    drop = sb.Drop(chosen.balls, chosen.contacts, chosen.gaps, height=height)
+    sources = {"contact_sources": chosen.contact_sources, "gap_sources": chosen.gap_sources}
+    return {"drop": drop.to_mapping()} | sources
+
+
+def table(drop):
+    """Return the columns of a drop's table by their headings."""
+    result = run_drop(drop, None)
+    times = np.linspace(*choose_window(result), SAMPLES)
+    sample = sample_with_approach(result, times)
+    columns = {"time (s)": times}
+    for name, unit in (("position", "m"), ("velocity", "m/s"), ("force", "N")):
+        rows = enumerate(sample[name].values)
+        columns |= {f"{name} {i} ({unit})": values for i, values in rows}
+    return columns | {"energy (J)": sample.energy.values}
+
+
+def varying(drop):
+    """Return the numbers of a drop that a map can vary, ratios first, by their paths."""
+    numbers = numbers_of(drop)
+    units = {path: number.unit for path, number in numbers.items()}
+    found = {}
+    for name, ratio in RATIOS.items():
+        pair = ratio["sets"], ratio["refers"]
+        if set(pair) <= set(numbers) and units[pair[0]] == units[pair[1]]:
+            found[name] = number_in(drop, pair[0]) / number_in(drop, pair[1])
+    for path, number in numbers.items():
+        value = number_in(drop, path)
+        if value is not None and number.field not in UNMAPPED:
+            found[path] = value
+    return found
+
+
+def number_in(drop, path):
+    """Return a number of a drop."""
+    number = number_at(drop, path)
+    part = getattr(drop, number.part)[number.index] if number.part else drop
+    return getattr(part, number.field) if number.field else part
+
+
+def at(mapping, path, value):
+    """Return a drop with another value of a number, or of a ratio."""
+    drop = sb.Drop.from_mapping(mapping)
+    if path in RATIOS:
+        path, other = RATIOS[path]["sets"], RATIOS[path]["refers"]
+        value *= number_in(drop, other)
+    return drop_at(drop, {number_at(drop, path): value})
+
+
+def outcome(drop, show, index, event_limit):
+    """Return what the library finds of a drop; None where it does not come to its end."""
+    result = sb.simulate(drop, rtol=MAP_RTOL, event_limit=event_limit)
+    if result.status > sb.Status.COLLAPSED:
+        return None
+    if show == "energy_retained":
+        return finite(result.energy_retained)
+    if show == "collisions":
+        return int(result.collisions[index])
+    if show == "rebound_ratio":
+        return finite(result.rebound_ratios[index])
+    speed = result.rebound_speeds[index]
+    return finite(speed * abs(speed) / (2.0 * sb.model.STANDARD_GRAVITY))
+
+
+def finite(value):
+    """Return a number, or None for one that JSON does not have."""
+    return float(value) if np.isfinite(value) else None
+
+
+def mapped(mapping, x, y, show, event_limit):
+    """Return the values of a map, each of a drop of its own."""
+    name, _, index = show.partition(".")
+    sides = sorted((x, y), key=lambda side: side["path"] in RATIOS)
+    last = RATIOS.get(sides[1]["path"], {})
+    if x["path"] == y["path"] or last.get("sets") == sides[0]["path"]:
+        raise InvalidValue("x and y must be independent")
+    if name != "energy_retained" and not (name in OUTCOMES and int(index) < len(mapping["balls"])):
+        raise InvalidValue(f"{show} is no outcome")
+
+    def value(x_value, y_value):
+        pair = {x["path"]: x_value, y["path"]: y_value}
+        first = at(mapping, sides[0]["path"], pair[sides[0]["path"]])
+        drop = at(first.to_mapping(), sides[1]["path"], pair[sides[1]["path"]])
+        return outcome(drop, name, int(index or 0), event_limit)
+
+    return [[value(x_value, y_value) for x_value in spread(x)] for y_value in spread(y)]
+
+
+def spread(side):
+    """Return the values along a side of a map."""
+    low, high = side["low"], side["high"]
+    if low == high or (side["log"] and min(low, high) <= 0.0):
+        raise InvalidValue("low and high must differ, and be above 0 on a logarithmic scale")
+    return (np.geomspace if side["log"] else np.linspace)(low, high, side["count"]).tolist()
