@@ -10,6 +10,11 @@ export function h(tag, attributes = {}, ...children) {
   return fill(document.createElement(tag), attributes, children);
 }
 
+/** Return a button that does something when it is pressed. */
+export function button(text, onclick, attributes = {}) {
+  return h("button", { type: "button", text, onclick, ...attributes });
+}
+
 /** As `h`, for SVG. */
 export function s(tag, attributes = {}, ...children) {
   return fill(document.createElementNS(SVG, tag), attributes, children);

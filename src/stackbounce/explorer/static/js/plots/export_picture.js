@@ -2,7 +2,7 @@
 
 import { panels } from "./curves.js";
 import { t } from "../words/language.js";
-import { ticks } from "../views/map/axes.js";
+import { ticks } from "../views/drawing/axes.js";
 import { colorOf, paperPalette } from "./palette.js";
 import { format } from "../words/units.js";
 import { ballName, setUp } from "../words/words.js";

@@ -29,8 +29,7 @@ export function mountGuess(root, store, clock) {
   function letGo() {
     flies = true;
     show();
-    clock.seek(clock.begin);
-    clock.play();
+    clock.replay();
   }
   /** Take the guess for good as soon as the film has shown the answer. */
   const watch = () => {

@@ -91,11 +91,6 @@ function actions(store, clock) {
     clock.step(forward);
     keep(store, clock);
   };
-  const replay = () => {
-    clock.pause();
-    clock.seek(clock.begin);
-    clock.play();
-  };
   const slider = h("input", {
     type: "range",
     class: "speed",
@@ -117,7 +112,7 @@ function actions(store, clock) {
   return h(
     "div",
     { class: "actions" },
-    button(t("Replay"), replay),
+    button(t("Replay"), () => clock.replay()),
     button(t("Previous event"), step(false)),
     button(t("Next event"), step(true)),
     h("label", { class: "check" }, loop, t("Loop")),

@@ -3,8 +3,7 @@
 import { ds, s } from "../../dom.js";
 import { t, translated } from "../../words/language.js";
 import { nameOf } from "./in_words.js";
-import { sideOf, ticks } from "../map/axes.js";
-import { fitting, marks } from "../map/draw.js";
+import { fitting, marks, sideOf, ticks } from "../drawing/axes.js";
 import { colorOf, LETTERS, SMALL } from "../../plots/palette.js";
 import { clean, format, pretty } from "../../words/units.js";
 

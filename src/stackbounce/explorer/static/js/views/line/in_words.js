@@ -1,8 +1,8 @@
 /** A line in words: what it shows, its values at a place, and as a whole. */
 
 import { t, translated } from "../../words/language.js";
-import { sideOf } from "../map/axes.js";
-import { brief, quantity } from "../map/in_words.js";
+import { sideOf } from "../drawing/axes.js";
+import { brief, quantity } from "../drawing/numbers.js";
 import { format } from "../../words/units.js";
 import { ballName, capital, contactName, count, height, percent } from "../../words/words.js";
 

@@ -1,11 +1,11 @@
 /** The choice of a number that varies, between which ends: for the sides of a map, and for a line. */
 
-import { h, write } from "../dom.js";
-import { choice } from "../set_up/fields.js";
-import { t, translated } from "../words/language.js";
-import { firstSide, isSide } from "./map/axes.js";
-import { clean, format, pretty, read, shownUnit } from "../words/units.js";
-import { capital } from "../words/words.js";
+import { h, write } from "../../dom.js";
+import { choice } from "../../set_up/fields.js";
+import { t, translated } from "../../words/language.js";
+import { firstSide, isSide } from "./axes.js";
+import { clean, format, pretty, read, shownUnit } from "../../words/units.js";
+import { capital } from "../../words/words.js";
 
 /**
  * Return the fields of a side: which number, between which ends, logarithmic or not.
@@ -63,18 +63,6 @@ export function sideForm(key, title, current, paths, set) {
     ),
     error,
   );
-}
-
-/** Return a function that updates a form, but not while somebody types into it: what is typed would be lost. */
-export function patient(form, update) {
-  let late = null;
-  form.addEventListener("change", () => (late = null)); // what was typed is taken, and brings news of its own
-  form.addEventListener("focusout", () => late && update(late));
-  return (news) => {
-    const typing = [...form.querySelectorAll("input[type=text]")].some((one) => one === document.activeElement && one.value !== one.defaultValue);
-    late = typing ? news : null;
-    if (!typing) update(news);
-  };
 }
 
 function problemOf(side) {

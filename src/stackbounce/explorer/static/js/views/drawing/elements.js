@@ -1,17 +1,13 @@
 /** The elements of a view that shows one drawing, with a stage beside it: a line or a map. */
 
-import { h } from "../dom.js";
-import { t } from "../words/language.js";
-import { capital } from "../words/words.js";
+import { h } from "../../dom.js";
+import { t } from "../../words/language.js";
+import { capital } from "../../words/words.js";
 
 const NAMES = { line: t("line"), map: t("map") };
 
-/**
- * Return the elements of a view by what they are.
- * @param {string} name "line" or "map", with which their classes begin @param {string} keysText what the keys do
- * @param {Element} drawing @param {Element} marks what lies on top of the drawing
- */
-export function drawingView(name, keysText, drawing, marks) {
+/** Return the elements of a view by what they are; their classes begin with its name, `drawing` has `marks` on top. */
+export function drawingParts({ name, keys: keysText, drawing, marks }) {
   const named = (part) => `${name}-${part}`;
   const board = h(
     "div",
@@ -38,5 +34,5 @@ export function drawingView(name, keysText, drawing, marks) {
   const figure = h("section", { class: named("figure"), "aria-label": capital(NAMES[name]) }, title, readout, play, box, keys, live);
   const stage = h("div", { class: `stage ${named("stage")}` });
   const told = h("p", { class: named("told") });
-  return { stage, told, figure, drawing, marks, board, title, readout, play, live, message, again, summary };
+  return { stage, told, figure, board, title, readout, play, live, message, again, summary };
 }
