@@ -1,5 +1,6 @@
 /** All outcomes of a kind over one number of the drop, from coarse to fine: closely where a curve bends or jumps. */
 
+import { extentOf } from "../extent.js";
 import { separate } from "../model/calibration.js";
 import { InvalidValue, Wrong, nearest, shown } from "../model/errors.js";
 import { known } from "../model/known.js";
@@ -161,12 +162,7 @@ function separated(drop) {
 
 /** Return the range of a curve; that of one that is constant but for rounding has no end, so that it is straight. */
 function rangeOf(values) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const value of values) {
-    if (value === null) continue;
-    low = Math.min(low, value);
-    high = Math.max(high, value);
-  }
+  const [low, high] = extentOf(values);
   return high - low > NOISE * Math.max(Math.abs(low), Math.abs(high)) ? high - low : Infinity;
 }
 

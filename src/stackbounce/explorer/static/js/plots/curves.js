@@ -1,5 +1,6 @@
 /** The three panels of curves of a result, in convenient units. */
 
+import { extentOf } from "../extent.js";
 import { t } from "../words/language.js";
 import { format } from "../words/units.js";
 import { shortBall, shortContact } from "../words/words.js";
@@ -95,7 +96,7 @@ export function describePanel(panel) {
       const own = stems.filter((stem) => stem.index === index).map((stem) => stem.impulse);
       return t("{name} {count} times, up to {most} {unit}", { name: label, count: own.length, most: format(Math.max(...own), 3), unit });
     }
-    const [low, high] = [Math.min, Math.max].map((end) => values.reduce((a, b) => end(a, b))).map((one) => (Math.abs(one) < NOTHING ? 0 : one));
+    const [low, high] = extentOf(values).map((end) => (Math.abs(end) < NOTHING ? 0 : end));
     return t("{name} from {low} to {high} {unit}", { name: label, low: format(low, 3), high: format(high, 3), unit });
   });
   return t("{what} against time: {ranges}.", { what: title, ranges: ranges.join("; ") });

@@ -1,5 +1,7 @@
 /** A knock at the begin of each contact: as loud as its peak force, and as high as its contact time is short. */
 
+import { clamp } from "./shape.js";
+
 const LOUDEST = 0.6; // of what the machine can play, for the strongest contact of the drop
 const QUIETEST = 0.05;
 const PITCHES = [90, 4000]; // Hz, what small loudspeakers play
@@ -18,8 +20,8 @@ export function knocksOf({ intervals }) {
       const lasts = one.end === null ? Infinity : one.end - one.start;
       return {
         time: one.start,
-        loudness: within(Math.sqrt(strength(one) / most) || 0, QUIETEST, 1), // the ear hears a quarter as half
-        pitch: within(1 / lasts, ...PITCHES),
+        loudness: clamp(Math.sqrt(strength(one) / most) || 0, QUIETEST, 1), // the ear hears a quarter as half
+        pitch: clamp(1 / lasts, ...PITCHES),
       };
     })
     .sort((a, b) => a.time - b.time);
@@ -66,8 +68,4 @@ function knock(context, { loudness, pitch }) {
   tone.connect(volume).connect(context.destination);
   tone.start(now);
   tone.stop(now + RINGS);
-}
-
-function within(value, low, high) {
-  return Math.min(Math.max(value, low), high);
 }

@@ -22,9 +22,7 @@ export function mountNumbers({ root, table }, store) {
     renew(root, ballTable(result, until, prediction), facts(result, until, prediction), ...compared);
     showIntervals();
   };
-  store.subscribe((state, before) => {
-    if (["result", "prediction", "kept"].some((name) => state[name] !== before[name])) show();
-  });
+  store.watch(["result", "prediction", "kept"], show);
 }
 
 function columns(...names) {

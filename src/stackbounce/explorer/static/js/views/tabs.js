@@ -33,8 +33,6 @@ export function mountTabs(store, openers) {
       tabs[place].focus();
     });
   });
-  store.subscribe((state, before) => {
-    if (state.view !== before.view) show();
-  });
+  store.watch(["view"], show);
   show();
 }

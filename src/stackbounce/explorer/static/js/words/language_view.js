@@ -11,8 +11,8 @@ export function mountLanguage(root, store) {
   const set = (event) => store.set({ lang: event.target.value });
   const select = h("select", { "aria-label": t("Language"), "data-key": "language", onchange: set }, options);
   root.replaceChildren(h("span", { class: "language-code", "aria-hidden": "true", text: language.toUpperCase() }), select);
-  store.subscribe(({ lang }, before) => {
-    if (lang === before.lang || lang === language) return;
+  store.watch(["lang"], ({ lang }) => {
+    if (lang === language) return;
     history.replaceState(history.state, "", `#${addressOf(store.get())}`);
     location.reload();
   });

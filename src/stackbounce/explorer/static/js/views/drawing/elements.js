@@ -1,6 +1,6 @@
 /** The elements of a view that shows one drawing, with a stage beside it: a line or a map. */
 
-import { h } from "../../dom.js";
+import { button, h } from "../../dom.js";
 import { t } from "../../words/language.js";
 import { capital } from "../../words/words.js";
 
@@ -24,10 +24,10 @@ export function drawingParts({ name, keys: keysText, drawing, marks }) {
   );
   const title = h("h2", { class: named("title") });
   const readout = h("p", { class: named("readout") });
-  const play = h("button", { type: "button", class: named("play"), text: t("Play this drop"), hidden: true });
+  const play = button(t("Play this drop"), null, { class: named("play"), hidden: true });
   const live = h("p", { class: "quiet", "aria-live": "polite" });
   const message = h("p", { class: named("message"), role: "status" });
-  const again = h("button", { type: "button", text: t("Try again"), hidden: true });
+  const again = button(t("Try again"), null, { hidden: true });
   const summary = h("p", { class: "note", id: named("summary") });
   const keys = h("p", { class: "quiet", id: named("keys"), text: keysText });
   const box = h("div", { class: named("box") }, board, h("div", { class: named("over") }, message, again));

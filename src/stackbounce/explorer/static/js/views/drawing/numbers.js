@@ -51,3 +51,15 @@ export function depends(path, other) {
   if (other === undefined) return false;
   return path === other || RATIOS[path]?.[0] === other || RATIOS[other]?.[0] === path;
 }
+
+/** Return the places of the smallest and the largest value, null where there is none; of counts the endless ones, -1, are the most. */
+export function extremes(values, areCounts) {
+  const order = (value) => (areCounts && value < 0 ? Infinity : value);
+  let [low, high] = [null, null];
+  values.forEach((value, i) => {
+    if (value === null) return;
+    if (low === null || order(value) < order(values[low])) low = i;
+    if (high === null || order(value) > order(values[high])) high = i;
+  });
+  return [low, high];
+}

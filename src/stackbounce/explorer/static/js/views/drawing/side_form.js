@@ -1,7 +1,7 @@
 /** The choice of a number that varies, between which ends: for the sides of a map, and for a line. */
 
 import { h, write } from "../../dom.js";
-import { choice } from "../../set_up/fields.js";
+import { check, choice, problemLine } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
 import { firstSide, isSide } from "./axes.js";
 import { clean, format, pretty, read, shownUnit } from "../../words/units.js";
@@ -13,15 +13,14 @@ import { capital } from "../../words/words.js";
  */
 export function sideForm(key, title, current, paths, set) {
   const side = current();
-  const error = h("p", { class: "field-error", id: `${key}-error`, role: "alert", hidden: true });
+  const problem = problemLine(write, { id: `${key}-error` });
   const { unit } = paths.find(({ path }) => path === side.path);
   const shown = shownUnit(unit);
   const change = (patch) => {
     const next = { ...current(), ...patch };
-    const problem = problemOf(next);
-    error.hidden = !problem;
-    write(error, problem ?? "");
-    if (!problem) set(next);
+    const message = problemOf(next);
+    problem.show(message);
+    if (!message) set(next);
   };
   const end = (which, label) => {
     const input = h("input", {
@@ -29,18 +28,12 @@ export function sideForm(key, title, current, paths, set) {
       inputmode: "decimal",
       class: "field-number",
       "data-key": `${key}-${which}`,
-      "aria-describedby": error.id,
+      "aria-describedby": problem.element.id,
       value: format(clean(side[which] / shown.size), 6),
       onchange: () => change({ [which]: read(input.value, unit, shown) }),
     });
     return h("label", { class: "side-end" }, h("span", { text: label }), input);
   };
-  const log = h("input", {
-    type: "checkbox",
-    checked: side.log,
-    "data-key": `${key}-log`,
-    onchange: (event) => change({ log: event.target.checked }),
-  });
   return h(
     "fieldset",
     {},
@@ -59,9 +52,9 @@ export function sideForm(key, title, current, paths, set) {
       end("low", t("from")),
       end("high", t("to")),
       h("span", { class: "unit", text: pretty(shown.unit) }),
-      h("label", { class: "check" }, log, t("logarithmic")),
+      check(t("logarithmic"), side.log, (log) => change({ log }), { "data-key": `${key}-log` }),
     ),
-    error,
+    problem.element,
   );
 }
 

@@ -36,7 +36,8 @@ export class DrawingView {
     parts.again.addEventListener("click", () => this.refresh());
     new ResizeObserver(() => this.drawSoon()).observe(parts.board);
     onRepaint(() => this.draw());
-    store.subscribe((state, before) => this.follow(state, before));
+    store.watch(["result"], (state) => this.tell(state));
+    store.watch(["view", "drop", kind.name], (state, before) => this.follow(state, before));
     this.tell(store.get());
     this.refresh();
   }
@@ -116,7 +117,6 @@ export class DrawingView {
   /** Follow the store: another drop of the same drawing is only marked in it. */
   follow(state, before) {
     const { name, sidesOf } = this.kind;
-    if (state.result !== before.result) this.tell(state);
     if (state.view !== name) {
       if (before.view === name) this.requests.drop();
       this.asked = {};

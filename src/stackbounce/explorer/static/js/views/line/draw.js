@@ -1,6 +1,7 @@
 /** Draws a line as SVG, which is also the picture that is saved: axes, curves, and names at their ends. */
 
 import { ds, s } from "../../dom.js";
+import { extentOf } from "../../extent.js";
 import { t, translated } from "../../words/language.js";
 import { nameOf } from "./in_words.js";
 import { fitting, marks, sideOf, ticks } from "../drawing/axes.js";
@@ -53,8 +54,7 @@ function scaleOf({ curves, show }, measured, most) {
   const all = curves.flatMap(({ values, textbook }) => [...values, ...(textbook?.values ?? [])]);
   const known = all.filter((value) => isDrawn(show, value));
   if (show === "rebound_ratio") for (const { value, error } of measured) known.push(value - error, value + error);
-  let low = known.reduce((a, b) => Math.min(a, b), Infinity);
-  let high = known.reduce((a, b) => Math.max(a, b), -Infinity);
+  let [low, high] = extentOf(known);
   if (!known.length || (show === "energy_retained" && high < 1 + NOISE)) [low, high] = [0, 1];
   if (low > 0 && low < 0.6 * high) low = 0;
   if (high < 0 && high > 0.6 * low) high = 0;

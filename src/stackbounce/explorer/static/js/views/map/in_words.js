@@ -1,6 +1,6 @@
 /** A map in words. */
 
-import { brief, quantity } from "../drawing/numbers.js";
+import { brief, extremes, quantity } from "../drawing/numbers.js";
 import { t } from "../../words/language.js";
 import { capital, count } from "../../words/words.js";
 
@@ -17,23 +17,14 @@ export function place({ x, y }, point) {
 
 /** Return what a map shows as a whole: its ends and where they are. */
 export function summary(answer) {
-  const { values, x, y, label } = answer;
-  let [low, high] = [null, null];
-  const order = (value) => (answer.show.startsWith("collisions") && value < 0 ? Infinity : value);
-  values.forEach((line, row) =>
-    line.forEach((value, column) => {
-      if (value === null) return;
-      const point = { value, at: [x.values[column], y.values[row]] };
-      if (!low || order(value) < order(low.value)) low = point;
-      if (!high || order(value) > order(high.value)) high = point;
-    }),
-  );
-  const total = values.length * values[0].length;
-  const open = answer.unfinished ? ` ${t("{some} of {all} points, hatched, could not be finished.", { some: answer.unfinished, all: total })}` : "";
-  if (!low) return t("No point of this map could be finished.");
-  const [least, most] = [outcome(answer, low.value), outcome(answer, high.value)];
+  const { x, y, label, unfinished } = answer;
+  const values = answer.values.flat();
+  const [low, high] = extremes(values, answer.show.startsWith("collisions"));
+  if (low === null) return t("No point of this map could be finished.");
+  const open = unfinished ? ` ${t("{some} of {all} points, hatched, could not be finished.", { some: unfinished, all: values.length })}` : "";
+  const [least, most] = [low, high].map((i) => outcome(answer, values[i]));
   const name = capital(label);
   if (least === most) return `${t("{name}: {value} everywhere.", { name, value: least })}${open}`;
-  const ends = { name, low: least, where: place(answer, low.at), high: most, there: place(answer, high.at) };
-  return `${t("{name}: smallest {low} at {where}; largest {high} at {there}.", ends)}${open}`;
+  const at = (i) => place(answer, [x.values[i % x.values.length], y.values[Math.floor(i / x.values.length)]]);
+  return `${t("{name}: smallest {low} at {where}; largest {high} at {there}.", { name, low: least, where: at(low), high: most, there: at(high) })}${open}`;
 }

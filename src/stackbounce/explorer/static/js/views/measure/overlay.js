@@ -1,13 +1,13 @@
 /** A record beside the simulated drop: keeps both, the shift between their clocks, and the plots in step. */
 
-import { h, write } from "../../dom.js";
+import { h } from "../../dom.js";
+import { GRAVITY } from "../../set_up/drops.js";
 import { choice } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
 import { bestShift, laid, lines, matched, shifted } from "./record.js";
 import { recordPlot } from "../../plots/record_plot.js";
 import { ballName, capital, contactName } from "../../words/words.js";
 
-const GRAVITY = 9.80665;
 const ASK = { force: t("The record is of one contact. Which?"), position: t("The record is of one ball. Which?") };
 const LONGEST = 10; // s of a track that are simulated
 
@@ -86,9 +86,8 @@ export class Overlay {
       return;
     }
     this.asking = "";
-    const said = h("p", { class: "note" });
-    write(said, t("It lies over {places}.", { places: curves.map(({ what, index }) => this.place(what, index)).join(", ") }));
-    this.over.replaceChildren(said);
+    const named = curves.map(({ what, index }) => this.place(what, index)).join(", ");
+    this.over.replaceChildren(h("p", { class: "note", text: t("It lies over {places}.", { places: named }) }));
   }
 
   /** Return what a curve of a record can lie over, in words. */

@@ -1,8 +1,9 @@
 /** A record laid over a simulated drop: the same clock, the same zero of height, the same unit. */
 
+import { extentOf } from "../../extent.js";
+import { GRAVITY } from "../../set_up/drops.js";
 import { t, translated } from "../../words/language.js";
 
-const GRAVITY = 9.80665;
 const TRIES = 160; // shifts of the clock that are tried
 const FALLING = 60; // points of the fall before the impact
 
@@ -119,5 +120,5 @@ function mean(values) {
 }
 
 function most(values) {
-  return values.reduce((high, value) => Math.max(high, value ?? 0), 0);
+  return extentOf([0, ...values])[1];
 }
