@@ -101,10 +101,18 @@ def address(request):
     return request.getfixturevalue("one_file").as_uri()
 
 
+SHORT = """for (const name of ["store", "clock", "whole"]) {
+  Object.defineProperty(window, name, { get: () => window.stackbounce?.[name] });
+}
+Object.defineProperty(window, "state", { get: () => window.store?.get() });
+"""  # what the scripts of these tests call the parts of `window.stackbounce`
+
+
 class Visit:
     """A page, and what it complained about or asked for."""
 
     def __init__(self, page, address, downloads):
+        page.add_init_script(SHORT)
         self.page, self.address, self.downloads = page, address, downloads
         self.complaints, self.requests = [], []
         page.on("console", self._heard)
@@ -123,12 +131,19 @@ class Visit:
     def ready(self):
         """Wait until the page shows the result of the drop that it has."""
         self.page.wait_for_function(
-            "() => { const s = window.stackbounce?.store.get();"
-            " return s?.result && !s.busy && document.querySelector('#controls').children.length; }"
+            "() => state?.result && !state.busy"
+            " && document.querySelector('#controls').children.length"
         )
 
     def state(self, path):
-        return self.page.evaluate(f"() => window.stackbounce.store.get().{path}")
+        return self.page.evaluate(f"() => state.{path}")
+
+    def type(self, path, text):
+        """Type a number of the drop into its field; return the field."""
+        field = self.page.locator(f"#controls [data-path='{path}']")
+        field.fill(text)
+        field.press("Enter")
+        return field
 
     def note(self, name, text):
         PICTURES.mkdir(parents=True, exist_ok=True)

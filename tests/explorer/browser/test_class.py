@@ -10,7 +10,7 @@ import httpx
 import numpy as np
 import pytest
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
 
 USERS = 50
 PAGES = 3  # of the users have a browser, the others load what it loads
@@ -45,7 +45,7 @@ async def load_all(address, paths, users):
 
 def whole(visit):
     visit.page.wait_for_function("() => window.stackbounce?.whole")
-    visit.page.evaluate("() => window.stackbounce.whole.then(() => null)")
+    visit.page.evaluate("() => whole.then(() => null)")
     visit.page.wait_for_load_state("networkidle")
 
 
@@ -53,9 +53,7 @@ def play(visit):
     """Play another law, drag a slider, and look at a map."""
     page = visit.page
     page.locator("[data-key=law-0]").select_option("Hysteretic")
-    page.wait_for_function(
-        "() => window.stackbounce.store.get().result.drop.contacts[0].law === 'Hysteretic'"
-    )
+    page.wait_for_function("() => state.result.drop.contacts[0].law === 'Hysteretic'")
     slider = page.locator('[data-slider="balls.0.mass"]')
     slider.focus()
     for _ in range(10):

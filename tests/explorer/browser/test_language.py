@@ -24,9 +24,7 @@ def test_a_browser_in_german_gets_german(visits):
     speed.press("Enter")
     visit.ready()
     assert visit.state("drop.impact_speed") == 2.5
-    mass = page.locator("[data-path='balls.1.mass']")
-    mass.fill("-1")
-    mass.press("Enter")
+    visit.type("balls.1.mass", "-1")
     page.get_by_text("Nötig ist eine positive Zahl in Kilogramm, angegeben ist -0.001").wait_for()
 
 

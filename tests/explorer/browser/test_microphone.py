@@ -12,7 +12,7 @@ from stackbounce.measure import bounces, knocks
 from synthetic.falls import falls
 from synthetic.sound import sound
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
 
 RATE = 44_100
 RESTITUTION = 0.75
