@@ -139,21 +139,13 @@ function placeSetUp() {
 
 /** Say what cannot be done without stackbounce itself. */
 function explain(section) {
-  section.append(
-    h(
-      "div",
-      { class: "prose" },
-      h("h2", { text: t("Measure and fit") }),
-      h("p", {
-        text: t(
-          "Reading a measurement and fitting a drop to it need stackbounce itself: install it as its documentation says, and start “stackbounce app”, which opens this page with both.",
-        ),
-      }),
-    ),
+  const says = t(
+    "Reading a measurement and fitting a drop to it need stackbounce itself: install it as its documentation says, and start “stackbounce app”, which opens this page with both.",
   );
+  section.append(h("div", { class: "prose" }, h("h2", { text: t("Measure and fit") }), h("p", { text: says })));
 }
 
-for (const one of document.querySelectorAll("[data-home]")) one.hidden = (one.dataset.home === "server") !== hasServer;
+for (const part of document.querySelectorAll("[data-home]")) part.hidden = (part.dataset.home === "server") !== hasServer;
 
 /** The controls need the catalogue; until it is loaded there are none. Returns what tries at once. */
 function loadCatalogue() {

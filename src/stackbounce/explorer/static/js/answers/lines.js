@@ -72,7 +72,7 @@ export class LineJob {
     const there = drops.filter(Boolean);
     const outcomes = there.length ? solveAll(there) : null;
     let row = 0;
-    return drops.map((one) => (one ? [outcomes, row++] : [null, 0]));
+    return drops.map((drop) => (drop ? [outcomes, row++] : [null, 0]));
   }
 
   /** Return the middles of the intervals in which a curve is not known well enough. */

@@ -35,7 +35,7 @@ export function playDrop(mapping, until_, frames, eventLimit) {
     drop: drop.toMapping(),
     reference_speed: drop.speed,
     ...numbers(result),
-    intervals: result.intervals.map((one) => plain(one)),
+    intervals: result.intervals.map((interval) => plain(interval)),
     impact: [0, Math.max(0, ...ends)],
     frames: { time: times, ...sampleWithEnergy(result, times) },
     separate: drop.rigid ? null : playSeparate(drop, until, times, eventLimit),
@@ -44,9 +44,9 @@ export function playDrop(mapping, until_, frames, eventLimit) {
 
 /** Return numbers with null for those that are not finite. */
 function plain(values) {
-  const one = (value) => (typeof value === "number" && !Number.isFinite(value) ? null : value);
-  if (Array.isArray(values)) return values.map(one);
-  return Object.fromEntries(Object.entries(values).map(([name, value]) => [name, one(value)]));
+  const finite = (value) => (typeof value === "number" && !Number.isFinite(value) ? null : value);
+  if (Array.isArray(values)) return values.map(finite);
+  return Object.fromEntries(Object.entries(values).map(([name, value]) => [name, finite(value)]));
 }
 
 function numbers(result) {

@@ -16,7 +16,7 @@ export function mountLessons({ root, button }, store) {
   const fill = () => {
     const { lesson: name } = store.get();
     if (!lessons || !isOpen()) return;
-    const lesson = lessons.find((one) => one.name === name);
+    const lesson = lessons.find((lesson) => lesson.name === name);
     root.replaceChildren(...(lesson ? lessonParts(lesson, open) : listParts(lessons, open)));
     root.scrollTop = 0;
   };
@@ -67,7 +67,7 @@ function listParts(lessons, open) {
     );
   const says = t("Each has steps that set this page, questions, answers for the teacher, and a worksheet to print.");
   const title = own("h2", t("Lessons"), { tabindex: -1 });
-  return [head(title, open), own("p", says, { class: "note" }), h("ul", { class: "lesson-list" }, lessons.map((one) => h("li", {}, entry(one))))];
+  return [head(title, open), own("p", says, { class: "note" }), h("ul", { class: "lesson-list" }, lessons.map((lesson) => h("li", {}, entry(lesson))))];
 }
 
 function lessonParts(lesson, open) {

@@ -14,7 +14,7 @@ const STEPS = 1024; // of colours that are told apart
 const COLORS = Array.from({ length: STEPS + 1 }, (_, step) => {
   const place = (step / STEPS) * (VIRIDIS.length - 1);
   const low = Math.min(Math.floor(place), VIRIDIS.length - 2);
-  return VIRIDIS[low].map((one, i) => Math.round(one + (place - low) * (VIRIDIS[low + 1][i] - one)));
+  return VIRIDIS[low].map((level, i) => Math.round(level + (place - low) * (VIRIDIS[low + 1][i] - level)));
 });
 
 /** Return the colour [r, g, b] of a part of the range, from 0 to 1. */

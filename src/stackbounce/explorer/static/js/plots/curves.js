@@ -15,11 +15,11 @@ export function panels(result, whole, overlays = [], prediction = null) {
   const common = { times, scale, timeUnit: whole ? "s" : "ms" };
   const own = (what, factor) =>
     overlays
-      .filter((one) => one.what === what)
-      .map((one) => ({
-        ...one,
-        time: one.time.map((time) => time * scale),
-        values: one.values.map((value) => (value === null ? null : value * factor)),
+      .filter((overlay) => overlay.what === what)
+      .map((overlay) => ({
+        ...overlay,
+        time: overlay.time.map((time) => time * scale),
+        values: overlay.values.map((value) => (value === null ? null : value * factor)),
       }));
   return [positions(result, whole), result.separate ? forces(result) : impulses(result, scale), energies(result)].map(
     (panel) => ({
@@ -35,7 +35,7 @@ export function panels(result, whole, overlays = [], prediction = null) {
 function bands(band, { what, lines, factor }, scale) {
   const [low, high] = band?.[what] ?? [];
   if (!low) return [];
-  const time = band.time.map((one) => one * scale);
+  const time = band.time.map((time) => time * scale);
   return lines.map(({ index }) => ({ index, time, low: scaled(low[index], factor), high: scaled(high[index], factor) }));
 }
 

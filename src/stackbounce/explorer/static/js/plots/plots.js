@@ -18,7 +18,7 @@ export function mountPlots(root, store, clock) {
   let due = false; // what is shown has changed
   let extent = [0, 1]; // s, of what is plotted
   const redraw = () => {
-    for (const one of shown) one.plot.setData(one.data());
+    for (const panel of shown) panel.plot.setData(panel.data());
     clock.touch();
   };
   const zoom = new PlotZoom(clock, () => extent, redraw);
@@ -33,7 +33,7 @@ export function mountPlots(root, store, clock) {
     if (same) {
       wanted.forEach((panel, i) => shown[i].update(panel));
     } else {
-      for (const one of shown) one.remove();
+      for (const panel of shown) panel.remove();
       const colors = palette();
       root.replaceChildren();
       shown = wanted.map((panel) => new Panel(root, panel, colors, clock, zoom));
@@ -44,7 +44,7 @@ export function mountPlots(root, store, clock) {
     clock.touch();
   };
   const repaint = () => {
-    for (const one of shown) one.remove();
+    for (const panel of shown) panel.remove();
     shown = [];
     build();
   };
@@ -53,8 +53,8 @@ export function mountPlots(root, store, clock) {
     if (due && !(state.busy && pace.isBusy)) build();
   });
   clock.subscribe(() => {
-    for (const one of shown) if (clock.legible) one.tell(clock.time);
-    for (const one of shown) one.follow(clock.time);
+    for (const panel of shown) if (clock.legible) panel.tell(clock.time);
+    for (const panel of shown) panel.follow(clock.time);
   });
   onRepaint(repaint);
   build();
@@ -75,7 +75,7 @@ class Panel {
     this.values = panel.lines.map(() => h("span", { class: "legend-value" }));
     const items = panel.lines.map((line, i) => this.legendItem(line, this.values[i]));
     this.host = h("div", { class: "plot-canvas", role: "img" });
-    items.push(...panel.overlays.map((one) => this.legendItem({ ...one, index: one.index ?? null, dash: [1, 2] }, null)));
+    items.push(...panel.overlays.map((overlay) => this.legendItem({ ...overlay, index: overlay.index ?? null, dash: [1, 2] }, null)));
     const title = h("h3", {}, panel.title, h("span", { class: "unit", text: ` ${panel.unit}` }));
     root.append(
       h("figure", { class: "plot" }, h("figcaption", {}, title, h("ul", { class: "legend" }, items)), this.host),

@@ -132,9 +132,9 @@ function legendItems({ curves, simulated, names }) {
 function described({ curves, simulated, names }) {
   const peak = ({ values }) => extentOf(values)[1];
   return curves
-    .map((one, i) => {
-      const { unit, size } = shownUnit(one.unit, Math.abs(peak(one)) > 0.3);
-      const values = { name: names[i], points: one.values.length, most: format(peak(one) / size, 3), unit };
+    .map((curve, i) => {
+      const { unit, size } = shownUnit(curve.unit, Math.abs(peak(curve)) > 0.3);
+      const values = { name: names[i], points: curve.values.length, most: format(peak(curve) / size, 3), unit };
       const own = t("{name}: {points} points, at most {most} {unit}", values);
       return simulated ? t("{own}; simulated at most {most} {unit}", { own, unit, most: format(peak(simulated[i]) / size, 3) }) : own;
     })

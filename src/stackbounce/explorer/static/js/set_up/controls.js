@@ -67,7 +67,7 @@ export function mountControls(root, store, api, catalogue) {
   const rebuild = () => {
     const { drop, until, notes } = store.get();
     const focused = document.activeElement?.closest?.("[data-key], [data-path], [data-slider]");
-    const open = [...root.querySelectorAll("details[open]")].map((one) => one.dataset.key);
+    const open = [...root.querySelectorAll("details[open]")].map((details) => details.dataset.key);
     const built = towerOf(drop, tools, notes);
     tower.replaceChildren(built.element);
     fields = [...incidence(drops, drop, until, tools), ...built.fields];
@@ -124,7 +124,7 @@ function presetChoice({ presets }, use) {
     groups: [...groups],
     value: "",
     set: (name) => {
-      const preset = presets.find((one) => one.name === name);
+      const preset = presets.find((preset) => preset.name === name);
       if (preset) use(preset);
     },
   });
@@ -133,21 +133,11 @@ function presetChoice({ presets }, use) {
 /** Fill the box on how the tower comes in; returns its fields. */
 function incidence(box, drop, until, { set, errorAt, change, drop: current }) {
   const kind = incidenceOf(drop);
-  const radios = INCIDENCE.map(([value, text]) =>
-    h(
-      "label",
-      {},
-      h("input", {
-        type: "radio",
-        name: "incidence",
-        value,
-        checked: value === kind,
-        "data-key": `incidence-${value}`,
-        onchange: () => change(withIncidence(current(), value)),
-      }),
-      h("span", { text }),
-    ),
-  );
+  const radios = INCIDENCE.map(([value, text]) => {
+    const choose = { onchange: () => change(withIncidence(current(), value)) };
+    const radio = h("input", { type: "radio", name: "incidence", value, checked: value === kind, "data-key": `incidence-${value}`, ...choose });
+    return h("label", {}, radio, h("span", { text }));
+  });
   const fields = [];
   if (kind === "height") fields.push(new NumberField({ path: "height", label: t("falls from"), unit: "m", large: true, low: 0.02, high: 10, set, errorAt }));
   if (kind === "impact_speed") fields.push(new NumberField({ path: "impact_speed", label: t("comes in at"), unit: "m/s", low: 0.1, high: 15, set, errorAt }));

@@ -39,7 +39,7 @@ function ballCard(drop, ball, tools, field) {
   const icon = (text, title, key, disabled, act) =>
     button(text, () => tools.arrange(act), { class: "icon", "aria-label": title, title, "data-key": `${key}-${ball}`, disabled });
   const entries = (lossy) =>
-    tools.catalogue.balls.filter((one) => one.lossy === lossy).map((one) => [one.name, `${translated(one.name)}, ${format(one.mass * 1e3)} g`]);
+    tools.catalogue.balls.filter((ball) => ball.lossy === lossy).map((ball) => [ball.name, `${translated(ball.name)}, ${format(ball.mass * 1e3)} g`]);
   const choose = choice({
     label: t("Ball {place}", { place: ball }),
     quiet: true,
@@ -84,8 +84,8 @@ function namer(select, note, drop, ball, { catalogue }) {
 }
 
 function contactCard(drop, contact, tools, field, note) {
-  const law = tools.catalogue.laws.find((one) => one.law === drop.contacts[contact].law);
-  const laws = tools.catalogue.laws.map((one) => [one.law, lawName(one.law)]);
+  const law = tools.catalogue.laws.find((known) => known.law === drop.contacts[contact].law);
+  const laws = tools.catalogue.laws.map(({ law: name }) => [name, lawName(name)]);
   if (contact === 0) laws.push(["none", t("no floor")]);
   const header = h(
     "div",
@@ -112,10 +112,9 @@ function contactCard(drop, contact, tools, field, note) {
 function lawFields(drop, contact, law, field) {
   const own = drop.contacts[contact];
   return law.fields
-    .filter((one) => typeof one.low === "number" && (one.required || own[one.name] !== undefined))
-    .map((one) => {
-      const unit = one.unit === "N/m**exponent" && own.exponent === 1 ? "N/m" : one.unit;
-      const { name, low, high, words, says, explains } = one;
+    .filter(({ name, low, required }) => typeof low === "number" && (required || own[name] !== undefined))
+    .map(({ name, low, high, words, says, explains, unit: unitOfLaw }) => {
+      const unit = unitOfLaw === "N/m**exponent" && own.exponent === 1 ? "N/m" : unitOfLaw;
       const term = says === words ? undefined : translated(says);
       const spec = { label: translated(words ?? says), term, of: contactName(drop, contact), unit, low, high, says: translated(explains) };
       return field({ path: `contacts.${contact}.${name}`, ...spec });

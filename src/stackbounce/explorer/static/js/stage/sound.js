@@ -15,12 +15,12 @@ export function knocksOf({ intervals }) {
     Math.max(...some.map(strength)),
   );
   return intervals
-    .map((one) => {
-      const most = Number.isFinite(one.peak_force) ? strongest : hardest;
-      const lasts = one.end === null ? Infinity : one.end - one.start;
+    .map((interval) => {
+      const most = Number.isFinite(interval.peak_force) ? strongest : hardest;
+      const lasts = interval.end === null ? Infinity : interval.end - interval.start;
       return {
-        time: one.start,
-        loudness: clamp(Math.sqrt(strength(one) / most) || 0, QUIETEST, 1), // the ear hears a quarter as half
+        time: interval.start,
+        loudness: clamp(Math.sqrt(strength(interval) / most) || 0, QUIETEST, 1), // the ear hears a quarter as half
         pitch: clamp(1 / lasts, ...PITCHES),
       };
     })

@@ -135,7 +135,7 @@ function switches(store) {
   );
   parts.push(check(t("Whole drop"), until !== null, (on) => store.set(on ? whole(store.get()) : alone(store.get()))));
   if (until === null) {
-    const sizes = [...new Set(magnify === null ? MAGNIFY : [...MAGNIFY, magnify])].sort((a, b) => a - b).map((one) => [one, `×${format(one, 3)}`]);
+    const sizes = [...new Set(magnify === null ? MAGNIFY : [...MAGNIFY, magnify])].sort((a, b) => a - b).map((times) => [times, `×${format(times, 3)}`]);
     const set = (value) => store.set({ magnify: value === "" ? null : Number(value) });
     parts.push(
       check(t("Predict first"), predict, (on) => store.set({ predict: on, guess: null })),

@@ -35,7 +35,7 @@ function patient(form, update) {
   form.addEventListener("change", () => (late = null)); // what was typed is taken, and brings news of its own
   form.addEventListener("focusout", () => late && update(late));
   return (news) => {
-    const typing = [...form.querySelectorAll("input[type=text]")].some((one) => one === document.activeElement && one.value !== one.defaultValue);
+    const typing = [...form.querySelectorAll("input[type=text]")].some((input) => input === document.activeElement && input.value !== input.defaultValue);
     late = typing ? news : null;
     if (!typing) update(news);
   };

@@ -44,7 +44,7 @@ export function sideForm(key, title, current, paths, set) {
       key,
       groups: [["", paths.map(({ path, label }) => [path, capital(translated(label))])]],
       value: side.path,
-      set: (path) => set(firstSide(paths.find((one) => one.path === path))),
+      set: (path) => set(firstSide(paths.find((number) => number.path === path))),
     }),
     h(
       "div",

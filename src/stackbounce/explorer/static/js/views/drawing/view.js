@@ -121,8 +121,10 @@ export class DrawingView {
       if (before.view === name) this.requests.drop();
       this.asked = {};
     } else if (state[name] !== this.asked.settings || state.drop !== this.asked.drop) {
-      const paths = this.news ? sidesOf(this.news).map(({ path }) => path) : [];
-      const isSame = paths.length && state[name] === this.asked.settings && haveSameDrawing(state.drop, this.asked.drop, paths);
+      if (!this.news) return this.refresh();
+      const paths = sidesOf(this.news).map(({ path }) => path);
+      const shown = this.news?.drop === this.asked.drop ? [this.news.answer.drop] : []; // as the engine writes it
+      const isSame = state[name] === this.asked.settings && [this.asked.drop, ...shown].some((drop) => haveSameDrawing(state.drop, drop, paths));
       if (!isSame) return this.refresh();
       this.asked.drop = state.drop;
       this.mark();

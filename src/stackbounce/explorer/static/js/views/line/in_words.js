@@ -26,7 +26,7 @@ export function nameOf({ drop, show }, { index }) {
 export function valueAt({ x, show }, { values, jumps }, part) {
   const side = sideOf(x);
   const parts = x.values.map((value) => side.part(value));
-  const after = parts.findIndex((one) => one >= part);
+  const after = parts.findIndex((place) => place >= part);
   if (after < 0) return values.at(-1);
   if (after === 0) return values[0];
   const [left, right] = [values[after - 1], values[after]];

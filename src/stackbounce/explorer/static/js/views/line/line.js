@@ -1,6 +1,6 @@
 /** The line: the rebound over one number of the drop, with the present drop as a point on it. */
 
-import { h, renew, s } from "../../dom.js";
+import { h, s } from "../../dom.js";
 import { haveSameDrawing, brief } from "../drawing/numbers.js";
 import { DrawingView } from "../drawing/view.js";
 import { complete } from "../../set_up/drops.js";
@@ -47,7 +47,7 @@ export async function mount(root, store, api, clock) {
     sidesOf: ({ answer }) => [answer.x],
     draw(size, { answer }) {
       drawn = drawLine(answer, size, palette(), measured(answer));
-      renew(drawing, drawn.svg);
+      drawing.replaceChildren(drawn.svg);
       const [what, number] = [SHOWS.get(answer.show), translated(answer.x.label)];
       return {
         frame: drawn.frame,

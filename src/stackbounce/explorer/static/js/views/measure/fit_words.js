@@ -15,7 +15,7 @@ export function describeFit(answer, labels) {
   const parts = [table(t("Found"), [t("Number"), t("Value")], rows), h("p", { text: describeQuality(answer) })];
   if (residuals.length) {
     const heads = [t("Quantity"), t("Measured"), t("Fitted"), t("Apart, in errors")];
-    parts.push(table(t("Measured and fitted"), heads, residuals.map((one) => compareRow(one, labels))));
+    parts.push(table(t("Measured and fitted"), heads, residuals.map((residual) => compareRow(residual, labels))));
   }
   if (notes.length) parts.push(h("ul", { class: "notes" }, notes.map((text) => h("li", { text }))));
   return parts;

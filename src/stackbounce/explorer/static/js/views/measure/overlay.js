@@ -128,7 +128,7 @@ export class Overlay {
       record: this.record,
       curves: put.curves,
       simulated: this.lines,
-      names: put.curves.map((one) => this.name(one)),
+      names: put.curves.map((curve) => this.name(curve)),
       window: result ? [result.impact[0] - 0.25 * this.reach, result.impact[1] + 0.5 * this.reach] : null,
       whole: put.curves[0].what === "position",
       shift,
@@ -138,7 +138,7 @@ export class Overlay {
     });
     this.notes.replaceChildren(...put.notes.map((text) => h("p", { text: capital(text) })));
     if (settled && result) {
-      this.store.set({ overlays: put.curves.map((one) => ({ ...one, label: t("measured {what}", { what: translated(one.label) }) })) });
+      this.store.set({ overlays: put.curves.map((curve) => ({ ...curve, label: t("measured {what}", { what: translated(curve.label) }) })) });
     }
   }
 
