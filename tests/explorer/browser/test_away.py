@@ -3,6 +3,7 @@
 import pytest
 
 pytestmark = [pytest.mark.slow, pytest.mark.release]
+FORMS = ("served",)
 
 SHIFTS = """() => new Promise((tell) => {
   let sum = 0;
@@ -11,11 +12,6 @@ SHIFTS = """() => new Promise((tell) => {
   store.set({ error: { detail: 'The server does not answer.', offline: true } });
   setTimeout(() => tell(sum), 300);
 })"""
-
-
-@pytest.fixture
-def address(address_of_server):
-    return address_of_server
 
 
 def test_a_view_opened_while_the_server_is_away_comes_to_life(visit):

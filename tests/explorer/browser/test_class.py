@@ -11,15 +11,11 @@ import numpy as np
 import pytest
 
 pytestmark = [pytest.mark.slow, pytest.mark.release]
+FORMS = ("served",)
 
 USERS = 50
 PAGES = 3  # of the users have a browser, the others load what it loads
 TOGETHER = 6  # connections of a browser to one server
-
-
-@pytest.fixture
-def address(address_of_server):
-    return address_of_server
 
 
 async def load(address, paths, number):

@@ -6,12 +6,7 @@ import pytest
 import stackbounce as sb
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def address(address_of_server):
-    """Open the page of the server only: the one file does not carry errors forward."""
-    return address_of_server
+FORMS = ("served",)  # the one file carries no errors forward
 
 
 def carried(visit):

@@ -14,6 +14,7 @@ from stackbounce.explorer.page.folder import folder_files
 from stackbounce.files import write_folder
 
 pytestmark = [pytest.mark.slow, pytest.mark.release]
+FORMS = ("folder",)
 
 KEPT = "() => navigator.serviceWorker.ready.then(() => caches.keys())"
 
@@ -43,7 +44,7 @@ def write_new(folder):
 
 
 @pytest.fixture
-def address(site):
+def folder(site):
     return f"http://127.0.0.1:{site.server_port}/class/explorer/"
 
 

@@ -6,11 +6,7 @@ import stackbounce as sb
 from stackbounce.model.catalogue import stack
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def address(address_of_server):
-    return address_of_server
+FORMS = ("served",)
 
 
 def body(page, ball):

@@ -3,14 +3,9 @@
 import pytest
 
 pytestmark = pytest.mark.slow
+FORMS = ("served",)  # the other forms have the same modules
 
 FIRST_MASS = 0.057
-
-
-@pytest.fixture
-def address(address_of_server):
-    """Open the page of the server: the other forms have the same modules."""
-    return address_of_server
 
 
 def mass(visit):

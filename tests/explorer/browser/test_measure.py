@@ -10,12 +10,7 @@ import stackbounce as sb
 from stackbounce.explorer import LIMITS
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def address(address_of_server):
-    """Open the page of the server only: the one file does not measure."""
-    return address_of_server
+FORMS = ("served",)  # the one file does not measure
 
 
 def opened(visit):

@@ -5,14 +5,9 @@ import pytest
 import stackbounce as sb
 
 pytestmark = pytest.mark.slow
+FORMS = ("one file",)
 
 MOST = 1_500_000  # bytes
-
-
-@pytest.fixture
-def address(one_file):
-    """Open the file only, no server."""
-    return one_file.as_uri()
 
 
 def test_it_is_small(one_file):

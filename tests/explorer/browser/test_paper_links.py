@@ -5,11 +5,7 @@ import pytest
 from stackbounce.cross2007.playable import link_figures
 
 pytestmark = [pytest.mark.slow, pytest.mark.release]
-
-
-@pytest.fixture
-def address(address_of_server):
-    return address_of_server
+FORMS = ("served",)
 
 
 def test_figures_are_played_and_lines_opened(visit):

@@ -3,6 +3,7 @@
 import pytest
 
 pytestmark = [pytest.mark.slow, pytest.mark.release]
+FORMS = ("served",)
 
 STUB = """
 window.contexts = 0;
@@ -26,11 +27,6 @@ PLAYED = "() => clock.reel >= clock.film.length"
 BEGINS = """() => state.result.intervals.map(({ start, end, peak_force }) =>
   ({ reel: clock.film.toFilm(start), force: peak_force, lasts: end - start }))"""
 FRAME = 0.1 * 4  # s of film, at most: the longest frame at this speed
-
-
-@pytest.fixture
-def address(address_of_server):
-    return address_of_server
 
 
 @pytest.fixture
