@@ -62,7 +62,7 @@ lowest: kernels  ## the fast tests with the lowest versions of all dependencies 
 coverage: $(DEV) kernels  ## hold all error bars to their claim (make check: some of them); half an hour
 	@STACKBOUNCE_COVERAGE=all $(PYTEST) tests/*/test_coverage_*.py
 
-browsers: $(DEV) kernels  ## the page's tests in Chromium and in Firefox, served and as one file; ten minutes
+browsers: $(DEV) kernels  ## before a release: all tests of the page in Chromium and in Firefox, served and as one file; ten minutes
 	@tests/explorer/browser/browsers.sh
 	@STACKBOUNCE_BROWSERS="chromium firefox" $(PYTEST) tests/explorer/browser
 
@@ -71,9 +71,9 @@ bench: $(DEV) kernels  ## growth, accuracy, speed, and the benchmark of impacts,
 	@$(BIN)/python -m benchmarks.impacts --out build/bench
 	@echo "Open $(CURDIR)/build/bench/index.html"
 
-check: lint types imports docs test  ## everything: lint, types, import rules, documentation, all tests, in Chromium and Firefox too
+check: lint types imports docs test  ## everything but what only a release needs: lint, types, import rules, documentation, tests, some in a browser
 	@tests/explorer/browser/browsers.sh
-	@$(PYTEST) -m 'slow or hypothesis'
+	@$(PYTEST) -m '(slow or hypothesis) and not release'
 
 fuzz: $(DEV) kernels  ## random drops and files in great number: make fuzz DROPS=1000000 FILES=5000 FOLDER= SEED=1
 	@cd tests && PYTHONPATH=.. ../$(BIN)/python -m fuzz --drops $(DROPS) --seed $(SEED)

@@ -167,16 +167,3 @@ def test_a_log_longer_than_its_room(tmp_path):
     assert answer[0] == codes.EVENT_LIMIT
     assert answer[2] == 2000 * codes.LOG_COLUMNS  # without the changes that are not logged
     compare([job(SIMULATE, drop, False, options)], [answer], tmp_path)
-
-
-@pytest.mark.parametrize(
-    ("kind", "limit", "says"),
-    [
-        (SWEEP, 0, "eventLimit: it must be a whole number from 1"),
-        (SPRINGS, LIMIT, "springs: there must be 2 balls, not 1"),
-    ],
-)
-def test_what_would_leave_its_memory_is_refused(tmp_path, kind, limit, says):
-    drops = Drops._make(array[:, :1] if array.ndim > 1 else array for array in two_springs(3))
-    done = run_node([job(kind, drops, False, Options(math.inf, 1e-9, limit))], tmp_path)
-    assert says in done.stderr

@@ -10,7 +10,8 @@ from stackbounce.model.catalogue import CLASS_BALLS
 STATIC = files("stackbounce.explorer") / "static"
 SCRIPT = (STATIC / "js/stage/looks.js").read_text("utf-8")
 STYLES = [(STATIC / name).read_text("utf-8") for name in ("style.css", "css/looks.css")]
-KINDS = re.findall(r'^  "?([\w-]+)"?: \{ half', SCRIPT, re.MULTILINE)
+LOOKS = re.findall(r'^  "?([\w-]+)"?: \{ balls: \[(.*?)\]', SCRIPT, re.MULTILINE)
+KINDS = [kind for kind, _ in LOOKS]
 
 
 def colors(dark):
@@ -43,11 +44,7 @@ def test_curves_are_seen_on_their_card(dark):
 
 
 def test_each_ball_of_a_class_has_a_look():
-    table = re.search(r"^const KINDS = \{(.*?)^\};", SCRIPT, re.MULTILINE | re.DOTALL)
-    kinds = {
-        quoted or plain: kind
-        for quoted, plain, kind in re.findall(r'(?:"([^"]+)"|(\w+)): "([\w-]+)"', table[1])
-    }
+    kinds = {ball: kind for kind, balls in LOOKS for ball in re.findall(r'"(.+?)"', balls)}
     assert {kinds[str(entry.ball.name)] for entry in CLASS_BALLS} == set(KINDS)
     for name in ("fill", "mark", "ink"):
         assert all(f"{name}-{kind}" in colors(dark=False) for kind in KINDS)

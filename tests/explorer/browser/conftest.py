@@ -40,28 +40,21 @@ def downloads(tmp_path_factory):
 
 
 def pytest_generate_tests(metafunc):
-    """Run tests in the browsers that STACKBOUNCE_BROWSERS names, else in Chromium, some in both."""
+    """Run tests in the browsers that STACKBOUNCE_BROWSERS names, else in Chromium, some in both.
+
+    The forms of the page are those that a module names in `FORMS`. Of several one is chosen by the
+    test's name: all of them take too long, and Firefox is asked for where time does not count.
+    """
     if "browser" in metafunc.fixturenames:
         both = metafunc.module.__name__.rpartition(".")[2] in IN_BOTH
         names = ASKED if "firefox" in ASKED else list(BROWSERS) if both else ["chromium"]
         metafunc.parametrize("browser", names, indirect=True, scope="module")
-
-
-def pytest_collection_modifyitems(config, items):
-    """Keep one form of the page for each test of both, chosen by its name: both take too long."""
-    if "firefox" in ASKED:
-        return
-    left_out = [item for item in items if _is_of_other_form(item)]
-    items[:] = [item for item in items if not _is_of_other_form(item)]
-    config.hook.pytest_deselected(items=left_out)
-
-
-def _is_of_other_form(item):
-    form = item.callspec.params.get("address") if hasattr(item, "callspec") else None
-    if item.path.parent != Path(__file__).parent or form not in FORMS:
-        return False
-    name = item.name.replace(form, "").encode()
-    return form != FORMS[zlib.crc32(name) % len(FORMS)]
+    if "address" in metafunc.fixturenames:
+        marks = metafunc.definition.iter_markers("forms")
+        forms = next((mark.args for mark in marks), getattr(metafunc.module, "FORMS", FORMS))
+        place = zlib.crc32(metafunc.function.__name__.encode()) % len(forms)
+        chosen = forms if "firefox" in ASKED else forms[place : place + 1]
+        metafunc.parametrize("address", chosen, indirect=True)
 
 
 @pytest.fixture(scope="module")
@@ -93,18 +86,28 @@ def one_file(tmp_path_factory):
     return path
 
 
-@pytest.fixture(params=FORMS)
+@pytest.fixture
 def address(request):
-    """Return the address of the page in one of its forms; `make browsers` runs both, one by one."""
+    """Return the address of the page in one of its forms."""
     if request.param == "served":
         return request.getfixturevalue("address_of_server")
+    if request.param == "folder":
+        return request.getfixturevalue("folder")
     return request.getfixturevalue("one_file").as_uri()
+
+
+SHORT = """for (const name of ["store", "clock", "whole"]) {
+  Object.defineProperty(window, name, { get: () => window.stackbounce?.[name] });
+}
+Object.defineProperty(window, "state", { get: () => window.store?.get() });
+"""  # what the scripts of these tests call the parts of `window.stackbounce`
 
 
 class Visit:
     """A page, and what it complained about or asked for."""
 
     def __init__(self, page, address, downloads):
+        page.add_init_script(SHORT)
         self.page, self.address, self.downloads = page, address, downloads
         self.complaints, self.requests = [], []
         page.on("console", self._heard)
@@ -123,12 +126,19 @@ class Visit:
     def ready(self):
         """Wait until the page shows the result of the drop that it has."""
         self.page.wait_for_function(
-            "() => { const s = window.stackbounce?.store.get();"
-            " return s?.result && !s.busy && document.querySelector('#controls').children.length; }"
+            "() => state?.result && !state.busy"
+            " && document.querySelector('#controls').children.length"
         )
 
     def state(self, path):
-        return self.page.evaluate(f"() => window.stackbounce.store.get().{path}")
+        return self.page.evaluate(f"() => state.{path}")
+
+    def type(self, path, text):
+        """Type a number of the drop into its field; return the field."""
+        field = self.page.locator(f"#controls [data-path='{path}']")
+        field.fill(text)
+        field.press("Enter")
+        return field
 
     def note(self, name, text):
         PICTURES.mkdir(parents=True, exist_ok=True)

@@ -2,26 +2,21 @@
 
 import pytest
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
+FORMS = ("served",)
 
 SHIFTS = """() => new Promise((tell) => {
   let sum = 0;
   new PerformanceObserver((list) => list.getEntries().forEach(({ value }) => (sum += value)))
     .observe({ type: 'layout-shift', buffered: false });
-  const { store } = window.stackbounce;
   store.set({ error: { detail: 'The server does not answer.', offline: true } });
   setTimeout(() => tell(sum), 300);
 })"""
 
 
-@pytest.fixture
-def address(address_of_server):
-    return address_of_server
-
-
 def test_a_view_opened_while_the_server_is_away_comes_to_life(visit):
     page = visit.open()
-    page.evaluate("() => window.stackbounce.whole.then(() => null)")
+    page.evaluate("() => whole.then(() => null)")
     page.context.set_offline(True)
     page.get_by_role("tab", name="Measure").click()
     page.locator("#measure .field-error").filter(has_text="The server does not answer").wait_for()
@@ -42,9 +37,7 @@ def test_the_banner_moves_nothing(visit):
 def test_a_result_of_other_numbers_is_dimmed(visit):
     page = visit.open()
     body = page.locator("body")
-    field = page.locator("[data-path='balls.1.mass']")
-    field.fill("-3 g")
-    field.press("Enter")
+    field = visit.type("balls.1.mass", "-3 g")
     page.locator("body.stale").wait_for()
     assert float(page.locator("#stage").evaluate("(one) => getComputedStyle(one).opacity")) < 1
     field.fill("50 g")

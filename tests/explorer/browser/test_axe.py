@@ -14,6 +14,7 @@ VIOLATIONS = """async () => {
 
 
 @pytest.mark.slow
+@pytest.mark.release
 @pytest.mark.parametrize(
     ("width", "colors"), [(1366, "light"), (1366, "dark"), (390, "light"), (390, "dark")]
 )

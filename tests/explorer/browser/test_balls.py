@@ -20,8 +20,7 @@ DRAWN = """() => [...document.querySelectorAll("#stage .ball")]
 def choose(visit, ball, name):
     visit.page.locator(f"#controls [data-key='ball-{ball}']").select_option(name)
     visit.page.wait_for_function(
-        "([ball, name]) => window.stackbounce.store.get().drop.balls[ball].name === name",
-        arg=[ball, name],
+        "([ball, name]) => state.drop.balls[ball].name === name", arg=[ball, name]
     )
     visit.ready()
 
@@ -48,13 +47,13 @@ def test_colours_belong_to_balls_and_not_to_places(visit):
     assert all(inks)
     assert page.evaluate(COLORS) == inks
     page.locator("#controls [data-key='down-1']").click()
-    page.wait_for_function("() => window.stackbounce.store.get().drop.balls[0].name === 'tennis'")
+    page.wait_for_function("() => state.drop.balls[0].name === 'tennis'")
     visit.ready()
     assert page.evaluate(COLORS) == inks[::-1]
     assert page.evaluate(LOOKS) == ["tennis", "basketball"]
     assert page.evaluate(DRAWN) == [2, 2]
     page.locator("#controls [data-key='ball-1']").select_option("")  # a ball without a name
-    page.wait_for_function("() => !window.stackbounce.store.get().drop.balls[1].name")
+    page.wait_for_function("() => !state.drop.balls[1].name")
     visit.ready()
     assert page.evaluate(COLORS)[0] == inks[1]
     assert page.evaluate(COLORS)[1] not in inks

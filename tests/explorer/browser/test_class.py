@@ -10,16 +10,12 @@ import httpx
 import numpy as np
 import pytest
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
+FORMS = ("served",)
 
 USERS = 50
 PAGES = 3  # of the users have a browser, the others load what it loads
 TOGETHER = 6  # connections of a browser to one server
-
-
-@pytest.fixture
-def address(address_of_server):
-    return address_of_server
 
 
 async def load(address, paths, number):
@@ -45,7 +41,7 @@ async def load_all(address, paths, users):
 
 def whole(visit):
     visit.page.wait_for_function("() => window.stackbounce?.whole")
-    visit.page.evaluate("() => window.stackbounce.whole.then(() => null)")
+    visit.page.evaluate("() => whole.then(() => null)")
     visit.page.wait_for_load_state("networkidle")
 
 
@@ -53,9 +49,7 @@ def play(visit):
     """Play another law, drag a slider, and look at a map."""
     page = visit.page
     page.locator("[data-key=law-0]").select_option("Hysteretic")
-    page.wait_for_function(
-        "() => window.stackbounce.store.get().result.drop.contacts[0].law === 'Hysteretic'"
-    )
+    page.wait_for_function("() => state.result.drop.contacts[0].law === 'Hysteretic'")
     slider = page.locator('[data-slider="balls.0.mass"]')
     slider.focus()
     for _ in range(10):

@@ -8,7 +8,7 @@ import threading
 
 import pytest
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
 
 
 class Quiet(http.server.SimpleHTTPRequestHandler):
@@ -132,7 +132,7 @@ def test_plots_zoom_together_and_follow_the_cursor(visit, address_of_server):
     assert longer.is_disabled()
     assert whole.is_disabled()
     width = page.locator(".plot .u-over").first.bounding_box()["width"]
-    seek = "(time) => window.stackbounce.clock.seek(time)"
+    seek = "(time) => clock.seek(time)"
     before = cursor_places(page)
     for _ in range(3):
         shorter.click()

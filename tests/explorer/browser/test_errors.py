@@ -6,17 +6,12 @@ import pytest
 import stackbounce as sb
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def address(address_of_server):
-    """Open the page of the server only: the one file does not carry errors forward."""
-    return address_of_server
+FORMS = ("served",)  # the one file carries no errors forward
 
 
 def carried(visit):
     """Wait until the page has carried the errors forward."""
-    visit.page.wait_for_function("() => window.stackbounce.store.get().prediction")
+    visit.page.wait_for_function("() => state.prediction")
     return visit.state("prediction")
 
 
@@ -28,13 +23,9 @@ def test_errors_are_carried_forward_and_kept_in_the_link(visits):
     field = page.locator("[data-path=height]")
     field.fill("63 ± 1 cm")
     field.press("Enter")
-    mass = page.locator("[data-path='balls.1.mass']")
-    mass.fill("57 ± 0.5 g")
-    mass.press("Enter")
+    visit.type("balls.1.mass", "57 ± 0.5 g")
     visit.ready()
-    page.wait_for_function(
-        "() => Object.keys(window.stackbounce.store.get().prediction?.numbers ?? {}).length == 2"
-    )
+    page.wait_for_function("() => Object.keys(state.prediction?.numbers ?? {}).length == 2")
     assert field.input_value() == "0.63 ± 0.01"
     assert visit.state("errors") == {"height": 0.01, "balls.1.mass": pytest.approx(5e-4)}
     drop = sb.Drop.from_mapping(visit.state("drop"))
@@ -55,7 +46,7 @@ def test_errors_are_carried_forward_and_kept_in_the_link(visits):
     )
     field.fill("63 cm")
     field.press("Enter")
-    page.wait_for_function("() => !('height' in window.stackbounce.store.get().errors)")
+    page.wait_for_function("() => !('height' in state.errors)")
 
 
 def test_bands_are_drawn_around_the_curves(visit):
@@ -73,9 +64,7 @@ def test_bands_are_drawn_around_the_curves(visit):
     assert np.all(low <= np.array(middle) + 1e-5)
     assert np.all(high >= np.array(middle) - 1e-5)
     assert (high - low).max() > 5e-3
-    page.evaluate(
-        "() => { const { clock } = window.stackbounce; clock.pause(); clock.seek(0.02); }"
-    )
+    page.evaluate("() => { clock.pause(); clock.seek(0.02); }")
     visit.picture("errors-laptop")
     painted = page.evaluate(
         """() => { const canvas = document.querySelector('.plot-canvas canvas');

@@ -13,7 +13,8 @@ from stackbounce.explorer.page import assembly
 from stackbounce.explorer.page.folder import folder_files
 from stackbounce.files import write_folder
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
+FORMS = ("folder",)
 
 KEPT = "() => navigator.serviceWorker.ready.then(() => caches.keys())"
 
@@ -43,19 +44,16 @@ def write_new(folder):
 
 
 @pytest.fixture
-def address(site):
+def folder(site):
     return f"http://127.0.0.1:{site.server_port}/class/explorer/"
 
 
 def change_speed(page, speed):
     page.evaluate(
-        """(speed) => { const { store } = window.stackbounce;
-             store.set({ drop: { ...store.get().drop, impact_speed: speed } }); }""",
+        """(speed) => { store.set({ drop: { ...store.get().drop, impact_speed: speed } }); }""",
         speed,
     )
-    page.wait_for_function(
-        "(speed) => window.stackbounce.store.get().result.drop.impact_speed === speed", arg=speed
-    )
+    page.wait_for_function("(speed) => state.result.drop.impact_speed === speed", arg=speed)
 
 
 def test_it_plays_without_a_network_after_a_visit(visit, site):

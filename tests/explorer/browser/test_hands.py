@@ -6,11 +6,7 @@ import stackbounce as sb
 from stackbounce.model.catalogue import stack
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def address(address_of_server):
-    return address_of_server
+FORMS = ("served",)
 
 
 def body(page, ball):
@@ -63,11 +59,11 @@ def test_an_upper_ball_is_lifted_off_and_put_below(visit):
     visit.ready()
     page.get_by_role("button", name="Undo", exact=True).click()
     visit.ready()
-    page.evaluate("() => { const { clock } = window.stackbounce; clock.pause(); }")
+    page.evaluate("() => { clock.pause(); }")
     page.wait_for_timeout(200)
     x, y, _ = body(page, 1)
     drag(page, (x, y), (x, y + 260))
-    page.wait_for_function("() => window.stackbounce.store.get().drop.balls[0].name === 'tennis'")
+    page.wait_for_function("() => state.drop.balls[0].name === 'tennis'")
     turned = sb.Drop.from_mapping(visit.state("drop"))
     assert turned.contacts == stack(["tennis", "basketball"]).contacts
 
@@ -125,7 +121,7 @@ def test_a_finger_that_swipes_over_a_ball_scrolls_and_one_that_rests_on_it_drags
 
 def test_a_guess_is_dragged_by_a_finger(phone):
     page = opened(phone)
-    page.evaluate("() => window.stackbounce.store.set({ predict: true })")
+    page.evaluate("() => store.set({ predict: true })")
     mark = page.get_by_role("slider", name="Your guess")
     mark.wait_for()
     before = float(mark.get_attribute("aria-valuenow"))

@@ -3,14 +3,9 @@
 import pytest
 
 pytestmark = pytest.mark.slow
+FORMS = ("served",)  # the other forms have the same modules
 
 FIRST_MASS = 0.057
-
-
-@pytest.fixture
-def address(address_of_server):
-    """Open the page of the server: the other forms have the same modules."""
-    return address_of_server
 
 
 def mass(visit):
@@ -59,10 +54,8 @@ def test_one_movement_of_a_slider_is_one_step(visit):
 
 
 def test_keys_in_a_field_are_the_fields_own(visit):
-    page = visit.open()
-    field = page.locator("[data-path='balls.1.mass']")
-    field.fill("60 g")
-    field.press("Enter")
+    visit.open()
+    field = visit.type("balls.1.mass", "60 g")
     assert mass(visit) == 0.06
     field.press("Control+z")
     assert mass(visit) == 0.06
@@ -71,7 +64,7 @@ def test_keys_in_a_field_are_the_fields_own(visit):
 def test_a_reset_can_be_undone(visit):
     page = visit.open()
     page.get_by_label("Remove tennis").click()
-    page.wait_for_function("() => window.stackbounce.store.get().drop.balls.length === 1")
+    page.wait_for_function("() => state.drop.balls.length === 1")
     page.get_by_role("button", name="Reset").click()
     assert len(visit.state("drop.balls")) == 2
     page.get_by_role("button", name="Undo", exact=True).click()
@@ -82,24 +75,24 @@ def test_back_undoes_views_and_examples_and_keeps_the_drop(visit):
     page = visit.open()
     page.get_by_role("tab", name="Map").click()
     visit.page.evaluate(
-        """() => { const { store } = window.stackbounce; const { drop } = store.get();
+        """() => { const { drop } = store.get();
              const balls = [drop.balls[0], { ...drop.balls[1], mass: 0.07 }];
              store.set({ drop: { ...drop, balls } }); }"""
     )
     page.go_back()
-    page.wait_for_function("() => window.stackbounce.store.get().view === 'play'")
+    page.wait_for_function("() => state.view === 'play'")
     assert mass(visit) == 0.07  # changed after the view that Back undid
     page.get_by_label("Example").select_option("figure-5")
     assert visit.state("drop.balls.length") == 2
     assert mass(visit) != 0.07
     page.get_by_role("tab", name="Line").click()
     page.go_back()
-    page.wait_for_function("() => window.stackbounce.store.get().view === 'play'")
+    page.wait_for_function("() => state.view === 'play'")
     assert mass(visit) != 0.07
     page.go_back()
-    page.wait_for_function("() => window.stackbounce.store.get().drop.balls[1].mass === 0.07")
+    page.wait_for_function("() => state.drop.balls[1].mass === 0.07")
     page.go_forward()
-    page.wait_for_function("() => window.stackbounce.store.get().drop.balls[1].mass !== 0.07")
+    page.wait_for_function("() => state.drop.balls[1].mass !== 0.07")
     page.keyboard.press("Control+z")
     assert mass(visit) == 0.07
 
@@ -110,20 +103,14 @@ def test_a_law_that_is_chosen_again_has_its_numbers(visit):
 
     def choose(name):
         law.select_option(name)
-        page.wait_for_function(
-            f"() => window.stackbounce.store.get().drop.contacts[0].law === '{name}'"
-        )
+        page.wait_for_function(f"() => state.drop.contacts[0].law === '{name}'")
 
-    field = page.locator("[data-path='contacts.0.stiffness']")
-    field.fill("3.3")
-    field.press("Enter")
+    visit.type("contacts.0.stiffness", "3.3")
     choose("Rigid")
     choose("Spring")
     assert [one["stiffness"] for one in visit.state("drop.contacts")] == [3300, 1000]
     choose("Rigid")
-    field = page.locator("[data-path='contacts.0.restitution']")
-    field.fill("0.9")
-    field.press("Enter")
+    visit.type("contacts.0.restitution", "0.9")
     choose("Spring")
     assert [one["stiffness"] for one in visit.state("drop.contacts")] == [3300, 1000]
     choose("none")
@@ -136,9 +123,7 @@ def test_one_rigid_law_can_be_chosen_for_one_contact(visit):
 
     def choose(contact, name):
         page.locator(f"[data-key=law-{contact}]").select_option(name)
-        page.wait_for_function(
-            f"() => window.stackbounce.store.get().drop.contacts[{contact}].law === '{name}'"
-        )
+        page.wait_for_function(f"() => state.drop.contacts[{contact}].law === '{name}'")
 
     choose(0, "Rigid")
     choose(1, "RigidLossBySpeed")

@@ -27,7 +27,7 @@ def test_a_step_sets_the_page_beside_the_lesson(visits, size):
         "(one) => one === document.activeElement"
     )
     page.get_by_role("link", name="2 cm apart", exact=True).click()
-    page.wait_for_function("() => window.stackbounce.store.get().result?.drop.gaps[0] === 0.02")
+    page.wait_for_function("() => state.result?.drop.gaps[0] === 0.02")
     assert visit.state("drop.balls.map((ball) => ball.name)") == ["big basketball", "tennis ball"]
     assert "lesson=gap" in page.url
     stage, lesson = (page.locator(one).bounding_box() for one in ("#stage", "#lesson"))
@@ -45,7 +45,7 @@ def test_back_goes_through_the_lessons_and_closes_them(visit):
     first = visit.state("drop.gaps")
     opened(page, "gap")
     page.get_by_role("link", name="2 cm apart", exact=True).click()
-    page.wait_for_function("() => window.stackbounce.store.get().drop.gaps[0] === 0.02")
+    page.wait_for_function("() => state.drop.gaps[0] === 0.02")
     states = []
     for _ in range(3):
         page.go_back()

@@ -97,7 +97,7 @@ def test_a_click_plays_the_drop_of_that_point(visit):
     page = opened(visit, MASSES)
     page.locator(".line-board").click(position=spot(page, 0.5))
     assert visit.state("view") == "play"
-    page.wait_for_function("() => window.stackbounce.clock.playing")
+    page.wait_for_function("() => clock.playing")
     assert visit.state("drop.balls[0].mass") == pytest.approx(5.5 * 0.057, rel=0.01)
 
 
@@ -138,7 +138,7 @@ def test_a_curve_follows_while_a_number_changes(visit):
     page = opened(visit)
     page.evaluate(
         """async () => {
-             const { store } = window.stackbounce; let seen = new Set();
+             let seen = new Set();
              const curve = () => document.querySelectorAll('.line-curve')[1].getAttribute('d');
              for (let stiffness = 1000; stiffness <= 4000; stiffness += 100) {
                const { drop } = store.get();
@@ -166,10 +166,7 @@ def test_a_figure_of_the_paper_sets_drop_and_line(visit):
     assert "measured 1.91 ± 0.02" in page.locator(".line-board").inner_text()
     assert visit.state("drop.balls[1].mass") == 0.0248
     assert page.locator("[data-key=line-x-high]").input_value() == "100"
-    page.evaluate(
-        """() => { const { store } = window.stackbounce;
-             store.set({ drop: { ...store.get().drop, gaps: [0.001] } }); }"""
-    )
+    page.evaluate("""() => { store.set({ drop: { ...store.get().drop, gaps: [0.001] } }); }""")
     page.locator(".line-measured").first.wait_for(state="detached")  # no drop of that figure
     assert page.locator("[data-key=line-figure]").input_value() == ""
 
@@ -235,11 +232,11 @@ def test_settings_of_a_newer_page_are_named_and_the_rest_is_kept(visit):
 def test_a_drop_that_is_none_is_told_and_the_line_comes_back(visit):
     page = opened(visit)
     page.evaluate(
-        """() => { const { store } = window.stackbounce; window.good = store.get().drop;
+        """() => { window.good = store.get().drop;
              store.set({ drop: { ...window.good, impact_speed: -1 } }); }"""
     )
     page.locator(".line-message").get_by_text("impact_speed must be a positive number").wait_for()
-    page.evaluate("() => window.stackbounce.store.set({ drop: window.good })")
+    page.evaluate("() => store.set({ drop: window.good })")
     whole(page)
 
 
@@ -255,7 +252,7 @@ def test_six_balls_with_a_law_of_their_own_are_drawn_from_coarse_to_fine(visit, 
         },
     }[law]
     page.evaluate(
-        """(contact) => { const { store } = window.stackbounce; const { drop } = store.get();
+        """(contact) => { const { drop } = store.get();
              const balls = Array.from({ length: 6 }, (_, i) => ({ mass: 0.1 / (1 + i) }));
              store.set({ drop: { ...drop, balls, gaps: [0, 0, 0, 0, 0],
                                  contacts: balls.map(() => contact) } }); }""",

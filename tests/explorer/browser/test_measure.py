@@ -9,12 +9,7 @@ import stackbounce as sb
 from stackbounce.explorer import LIMITS
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def address(address_of_server):
-    """Open the page of the server only: the one file does not measure."""
-    return address_of_server
+FORMS = ("served",)  # the one file does not measure
 
 
 def opened(visit):
@@ -46,11 +41,11 @@ def test_a_force_record_is_laid_over_the_drop_and_fitted(visit):
     tried(page, "Force on the floor")
     found = page.locator(".measure-in table").inner_text()
     assert "30.00 ± 0.06 ms" in found
-    page.wait_for_function("() => window.stackbounce.store.get().overlays.length")
+    page.wait_for_function("() => state.overlays.length")
     before = apart(visit)
     fitted(page)
     visit.ready()
-    page.wait_for_function("() => window.stackbounce.store.get().overlays.length")
+    page.wait_for_function("() => state.overlays.length")
     stiffness = [visit.state(f"drop.contacts[{i}].stiffness") for i in (0, 1)]
     assert stiffness[0] == pytest.approx(2700.0, abs=3 * 2.2)  # errors as the fit tells them
     assert stiffness[1] == pytest.approx(1350.0, abs=3 * 7.0)
@@ -65,7 +60,7 @@ def test_a_force_record_is_laid_over_the_drop_and_fitted(visit):
 def test_the_record_can_be_shifted_by_hand(visit):
     page = opened(visit)
     tried(page, "Force on the floor")
-    page.wait_for_function("() => window.stackbounce.store.get().overlays.length")
+    page.wait_for_function("() => state.overlays.length")
     first = visit.state("overlays[0].time[0]")
     slider = page.locator("#record-shift")
     for _ in range(5):
@@ -143,7 +138,7 @@ def test_a_law_that_is_new_is_offered_with_its_loss(visit):
     opened(visit)
     assert "Clay" in page.locator('[data-key="law-0"] option').all_inner_texts()
     page.evaluate(
-        """() => { const { store } = window.stackbounce; const { drop } = store.get();
+        """() => { const { drop } = store.get();
              const contacts = [{ law: 'Clay', softness: 0.1 }, drop.contacts[1]];
              store.set({ drop: { ...drop, contacts } }); }"""
     )
@@ -211,9 +206,7 @@ def test_a_contact_time_becomes_the_stiffness_of_the_ball_that_bounced(visit):
     page.locator(".fit-vary input").first.wait_for()
     given(page, "tennis-force.csv")
     page.get_by_role("button", name="Use this as the ball").click()
-    page.wait_for_function(
-        "() => window.stackbounce.store.get().drop.contacts[0].stiffness !== 9000"
-    )
+    page.wait_for_function("() => state.drop.contacts[0].stiffness !== 9000")
     exact = 0.057 * (np.pi / 0.005344390241265924) ** 2
     assert visit.state("drop.contacts[0].stiffness") == pytest.approx(exact, rel=1e-4)
 
@@ -229,7 +222,7 @@ def test_a_press_curve_is_plotted_and_used(visit):
     visit.picture("measure-press")
     page.get_by_label("Which ball bounced?").select_option("Basketball")
     page.get_by_role("button", name="Use this as the ball").click()
-    page.wait_for_function("() => window.stackbounce.store.get().drop.contacts[0].restitution")
+    page.wait_for_function("() => state.drop.contacts[0].restitution")
     contact = visit.state("drop.contacts[0]")
     assert contact["law"] == "Hysteretic"
     assert contact["stiffness"] == pytest.approx(2500.0, abs=5.0)
@@ -242,10 +235,10 @@ def test_a_record_of_one_says_over_what_it_lies(visit):
     over = page.get_by_label("The record is of one contact. Which?")
     assert over.locator("option:checked").inner_text() == "floor – basketball"
     over.select_option("basketball – tennis")
-    page.wait_for_function("() => window.stackbounce.store.get().overlays[0]?.index === 1")
+    page.wait_for_function("() => state.overlays[0]?.index === 1")
     assert page.locator(".fit-row select").first.input_value() == "force.1"
     over.select_option("floor – basketball")
-    page.wait_for_function("() => window.stackbounce.store.get().overlays[0]?.index === 0")
+    page.wait_for_function("() => state.overlays[0]?.index === 0")
 
 
 def test_a_phone_needs_no_scrolling_sideways(visits):
@@ -260,7 +253,7 @@ def test_a_phone_needs_no_scrolling_sideways(visits):
 def test_a_record_can_be_taken_away(visit):
     page = opened(visit)
     tried(page, "Video of two balls")
-    page.wait_for_function("() => window.stackbounce.store.get().overlays.length === 2")
+    page.wait_for_function("() => state.overlays.length === 2")
     page.get_by_role("tab", name="Play").click()
     assert "of the whole drop" in page.locator(".options").inner_text()
     page.get_by_role("tab", name="Measure").click()

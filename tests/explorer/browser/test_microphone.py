@@ -12,7 +12,8 @@ from stackbounce.measure import bounces, knocks
 from synthetic.falls import falls
 from synthetic.sound import sound
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
+FORMS = ("served",)
 
 RATE = 44_100
 RESTITUTION = 0.75
@@ -41,11 +42,6 @@ def browser(request, tmp_path_factory):
         started = playwright.chromium.launch(executable_path=path, args=options)
         yield started
         started.close()
-
-
-@pytest.fixture
-def address(address_of_server):
-    return address_of_server
 
 
 def test_a_recorded_bounce_is_measured_and_can_be_saved(visit, tmp_path):

@@ -5,14 +5,9 @@ import pytest
 import stackbounce as sb
 
 pytestmark = pytest.mark.slow
+FORMS = ("one file",)
 
 MOST = 1_500_000  # bytes
-
-
-@pytest.fixture
-def address(one_file):
-    """Open the file only, no server."""
-    return one_file.as_uri()
 
 
 def test_it_is_small(one_file):
@@ -22,13 +17,10 @@ def test_it_is_small(one_file):
 def test_it_computes_and_asks_for_nothing(visit, in_firefox):
     page = visit.open()
     assert "1.803" in page.locator("#numbers").inner_text()
-    page.locator('[data-path="gaps.0"]').fill("2 mm")
-    page.keyboard.press("Enter")
-    page.wait_for_function("() => window.stackbounce.store.get().result.drop.gaps[0] === 0.002")
+    visit.type("gaps.0", "2 mm")
+    page.wait_for_function("() => state.result.drop.gaps[0] === 0.002")
     page.locator("[data-key=law-0]").select_option("Hysteretic")
-    page.wait_for_function(
-        "() => window.stackbounce.store.get().result.drop.contacts[0].law === 'Hysteretic'"
-    )
+    page.wait_for_function("() => state.result.drop.contacts[0].law === 'Hysteretic'")
     drop = sb.Drop.from_mapping(visit.state("drop"))
     ratios = sb.simulate(drop, rtol=1e-10).rebound_ratios
     assert visit.state("result.rebound_ratios") == pytest.approx(ratios, rel=1e-12)
@@ -71,8 +63,7 @@ def test_what_it_cannot_do_is_said(visit):
 
 def test_errors_of_numbers_need_a_server_and_it_says_so(visit):
     page = visit.open()
-    page.locator("[data-path='balls.1.mass']").fill("57 ± 1 g")
-    page.locator("[data-path='balls.1.mass']").press("Enter")
+    visit.type("balls.1.mass", "57 ± 1 g")
     page.locator("#numbers").get_by_text("“stackbounce app” opens a page that does").wait_for()
 
 

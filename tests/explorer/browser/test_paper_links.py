@@ -4,12 +4,8 @@ import pytest
 
 from stackbounce.cross2007.playable import link_figures
 
-pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def address(address_of_server):
-    return address_of_server
+pytestmark = [pytest.mark.slow, pytest.mark.release]
+FORMS = ("served",)
 
 
 def test_figures_are_played_and_lines_opened(visit):
@@ -20,7 +16,7 @@ def test_figures_are_played_and_lines_opened(visit):
     assert visit.state("result.intervals.length") > 9
     page = visit.page
     page.goto(f"{visit.address}{links['6'][1].address}")
-    page.wait_for_function("() => window.stackbounce.store.get().view === 'line'")
+    page.wait_for_function("() => state.view === 'line'")
     assert visit.state("line.x.path") == "stiffness_ratio"
     assert visit.state("drop.balls[1].name") == "B2"
     assert visit.state("notice") is None
@@ -34,5 +30,5 @@ def test_a_link_is_followed_though_the_page_writes_its_own_address_meanwhile(vis
              history.replaceState(history.state, "", own || "#"); }""",
         line,
     )
-    page.wait_for_function("() => window.stackbounce.store.get().view === 'line'")
+    page.wait_for_function("() => state.view === 'line'")
     assert page.evaluate("() => location.hash").startswith("#view=line")

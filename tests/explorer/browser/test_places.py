@@ -2,12 +2,8 @@
 
 import pytest
 
-pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def address(address_of_server):
-    return address_of_server
+pytestmark = [pytest.mark.slow, pytest.mark.release]
+FORMS = ("served",)
 
 
 def test_the_share_box_shows_the_address_and_its_code(visit):

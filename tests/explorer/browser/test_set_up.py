@@ -3,6 +3,7 @@
 import pytest
 
 pytestmark = pytest.mark.slow
+FORMS = ("served",)
 
 WIDE = (
     "#impact_speed=3.5&balls.0.mass=0.15&balls.1.mass=0.06"
@@ -16,11 +17,6 @@ CLIPPED = """(selects) => selects.filter((select) => {
   const text = select.selectedOptions[0].textContent;
   return probe.measureText(text).width > select.clientWidth - 24;  // the arrow has its place
 }).map((select) => select.selectedOptions[0].textContent)"""
-
-
-@pytest.fixture
-def address(address_of_server):
-    return address_of_server
 
 
 @pytest.mark.parametrize(("width", "least"), [(1366, 120), (1024, 120), (390, 300)])

@@ -2,7 +2,8 @@
 
 import pytest
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
+FORMS = ("served",)
 
 STUB = """
 window.contexts = 0;
@@ -22,16 +23,10 @@ class Node {
 window.OscillatorNode = window.GainNode = Node;
 window.AudioContext = class { constructor() { contexts += 1; this.currentTime = 0; } resume() {} };
 """
-PLAYED = "() => { const { clock } = window.stackbounce; return clock.reel >= clock.film.length; }"
-BEGINS = """() => { const { store, clock } = window.stackbounce;
-  return store.get().result.intervals.map((one) => ({ reel: clock.film.toFilm(one.start),
-    force: one.peak_force, lasts: one.end - one.start })); }"""
+PLAYED = "() => clock.reel >= clock.film.length"
+BEGINS = """() => state.result.intervals.map(({ start, end, peak_force }) =>
+  ({ reel: clock.film.toFilm(start), force: peak_force, lasts: end - start }))"""
 FRAME = 0.1 * 4  # s of film, at most: the longest frame at this speed
-
-
-@pytest.fixture
-def address(address_of_server):
-    return address_of_server
 
 
 @pytest.fixture

@@ -9,7 +9,15 @@ const made = (name) => readFileSync(`${page}/made/${name}`);
 const { openDesk } = await import(`${page}/js/answers/desk.js`);
 const model = JSON.parse(made("model.json"));
 model.limits.events = Number(events);
+const { readDrop } = await import(`${page}/js/model/schema.js`);
 const desk = await openDesk({ engine: made("engine.wasm"), layout: JSON.parse(made("layout.json")), model });
+const finished = (job) => {
+  while (!job.finished) job.run(Infinity);
+  return job.answer();
+};
+desk.read = (drop) => readDrop(drop).toMapping();
+desk.map = (request) => finished(desk.mapJob(request));
+desk.line = (request) => finished(desk.lineJob(request));
 const written = (_, value) => {
   if (typeof value === "number" && !Number.isFinite(value)) return String(value);
   return ArrayBuffer.isView(value) ? [...value] : value;

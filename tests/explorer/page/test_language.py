@@ -20,7 +20,6 @@ COMPLETE = ("de",)
 COVERED = {"es": 0.74, "fr": 0.74}  # of the sentences, at least: all but those of Measure
 LITERAL = r'"(?:[^"\\]|\\.)*"'
 CALL = re.compile(rf"(?<![\w.])t\(\s*({LITERAL})?")
-ENTRY = re.compile(rf"^  ({LITERAL}): ({LITERAL}),$", re.MULTILINE)
 PLACE = re.compile(r"\{\w+\}")
 NAMED_BALLS = ("tennis", "table tennis", "golf")  # of which "ball" is said, as in sentence.js
 NUMBERS = ("mass", "velocity", "impact speed", "height", "gravity", "stiffness")  # of labels
@@ -35,7 +34,7 @@ def scripts():
     return {
         path.relative_to(STATIC).as_posix(): path.read_text("utf-8")
         for path in sorted(Path(str(STATIC)).glob("js/**/*.js"))
-        if path.parent.name != "languages" and path.name != "language.js"
+        if path.name != "language.js"
     }
 
 
@@ -111,9 +110,9 @@ def keys(html):
 
 
 def table(code):
-    text = (STATIC / f"js/languages/{code}.js").read_text("utf-8")
-    entries = [(json.loads(key), json.loads(value)) for key, value in ENTRY.findall(text)]
-    assert len(entries) == len(text.splitlines()) - 3 == len(dict(entries))  # all was read
+    text = (STATIC / f"js/languages/{code}.json").read_text("utf-8")
+    entries = json.loads(text, object_pairs_hook=list)
+    assert len(entries) == len(dict(entries))  # none is there twice
     return dict(entries)
 
 

@@ -3,6 +3,7 @@
 import base64
 import functools
 import hashlib
+import json
 import re
 from pathlib import Path
 from typing import NamedTuple
@@ -14,6 +15,7 @@ __all__ = ["Texts", "assemble", "digest", "icon", "service_worker", "with_policy
 
 _STATIC = Path(__file__).parent.parent / "static"
 _SERVED = "js/origin/served.js"
+_LANGUAGES = "made/languages.js"  # a server has a file of each instead
 _STYLE = re.compile(r'\s*<link rel="stylesheet" href="([^"]+)">')
 _SCRIPT = re.compile(r'\s*<script type="module" src="([^"]+)"></script>')
 _CHARSET = '<meta charset="utf-8">'
@@ -106,6 +108,14 @@ def _read(name: str) -> str:
 def _module(origin: str, path: str) -> str:
     """Return the text of a module."""
     folder, _, name = path.partition("/")
+    if path == _LANGUAGES:
+        return f"export const tables = {json.dumps(_tables(), ensure_ascii=False)};"
     if folder == "made":
         return made_file(name).decode()
     return _read(f"js/origin/{origin}.js" if path == _SERVED else path)
+
+
+def _tables() -> dict[str, dict[str, str]]:
+    """Return the page's sentences in each language, by the English ones."""
+    found = sorted((_STATIC / "js" / "languages").glob("*.json"))
+    return {path.stem: json.loads(path.read_text("utf-8")) for path in found}

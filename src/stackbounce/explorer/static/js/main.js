@@ -5,7 +5,7 @@ import * as api from "./asking/api.js";
 import { mountLooks } from "./stage/looks.js";
 import { Clock } from "./stage/clock.js";
 import { mountControls } from "./set_up/controls.js";
-import { h, hide, write } from "./dom.js";
+import { button, h, hide, write } from "./dom.js";
 import { takeFiles } from "./views/measure/dropped.js";
 import { mountEmbed } from "./embed.js";
 import { direct } from "./stage/director.js";
@@ -71,12 +71,12 @@ mountTabs(store, {
   map: (section) => open(loadMap, section),
   measure: (section) => (hasServer ? open(loadMeasure, section) : explain(section)),
 });
-store.subscribe((state, before) => state.view !== before.view && placeSetUp());
+store.watch(["view"], () => placeSetUp());
 place("skip").addEventListener("click", (event) => {
   event.preventDefault(); // the fragment holds the state
   place("stage-box").focus();
 });
-store.subscribe((state, before) => state.view !== before.view && state.view !== "play" && clock.pause());
+store.watch(["view"], ({ view }) => view !== "play" && clock.pause());
 const show = () => document.querySelectorAll(".starting").forEach((part) => part.classList.remove("starting"));
 setTimeout(show, LATE);
 const endShow = store.subscribe(({ result, error }) => {
@@ -98,8 +98,8 @@ const catalogueAgain = loadCatalogue();
 /** Build a view from its own module when it is first opened; while that fails, say so and try again. */
 function open(load, section) {
   const said = h("p", { class: "field-error", role: "alert" });
-  const button = h("button", { type: "button", class: "small", text: t("Try again"), onclick: () => again() });
-  const unopened = h("div", { class: "unopened", hidden: true }, said, button);
+  const tryAgain = button(t("Try again"), () => again(), { class: "small" });
+  const unopened = h("div", { class: "unopened", hidden: true }, said, tryAgain);
   section.append(unopened);
   const again = retry(
     async () => {
@@ -139,21 +139,13 @@ function placeSetUp() {
 
 /** Say what cannot be done without stackbounce itself. */
 function explain(section) {
-  section.append(
-    h(
-      "div",
-      { class: "prose" },
-      h("h2", { text: t("Measure and fit") }),
-      h("p", {
-        text: t(
-          "Reading a measurement and fitting a drop to it need stackbounce itself: install it as its documentation says, and start “stackbounce app”, which opens this page with both.",
-        ),
-      }),
-    ),
+  const says = t(
+    "Reading a measurement and fitting a drop to it need stackbounce itself: install it as its documentation says, and start “stackbounce app”, which opens this page with both.",
   );
+  section.append(h("div", { class: "prose" }, h("h2", { text: t("Measure and fit") }), h("p", { text: says })));
 }
 
-for (const one of document.querySelectorAll("[data-home]")) one.hidden = (one.dataset.home === "server") !== hasServer;
+for (const part of document.querySelectorAll("[data-home]")) part.hidden = (part.dataset.home === "server") !== hasServer;
 
 /** The controls need the catalogue; until it is loaded there are none. Returns what tries at once. */
 function loadCatalogue() {

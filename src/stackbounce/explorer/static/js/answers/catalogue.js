@@ -23,7 +23,7 @@ export function stackBalls(names, height) {
 const NO_GAP = [0, "no gap given"];
 
 function entryOf(name) {
-  return known.balls.find((one) => one.name === name);
+  return known.balls.find((ball) => ball.name === name);
 }
 
 /** Find the constants of a law from restitution and contact time. */

@@ -1,9 +1,8 @@
-/** All questions that the page asks of its own engine, by name; a worker answers them, or node in a test. */
+/** All questions that the page asks of its own engine, by name; a worker answers them. */
 
 import { loadEngine } from "../engine/engine.js";
 import { learn } from "../model/known.js";
 import { useEngine } from "../model/one_ball.js";
-import { readDrop } from "../model/schema.js";
 import { calibrateLaw, convertLaw, stackBalls } from "./catalogue.js";
 import { exportText } from "./exports.js";
 import { LineJob } from "./lines.js";
@@ -15,7 +14,6 @@ export async function openDesk({ engine, layout, model }) {
   learn(model);
   useEngine(await loadEngine(engine, layout));
   return {
-    read: (drop) => readDrop(drop).toMapping(),
     simulate: playDrop,
     stack: stackBalls,
     law: calibrateLaw,
@@ -24,13 +22,5 @@ export async function openDesk({ engine, layout, model }) {
     exportText,
     mapJob: (request) => new MapJob(request),
     lineJob: (request) => new LineJob(request),
-    map: (request) => finished(new MapJob(request)),
-    line: (request) => finished(new LineJob(request)),
   };
-}
-
-/** Return the answer of a job that is done at once. */
-function finished(job) {
-  while (!job.finished) job.run(Infinity);
-  return job.answer();
 }

@@ -35,7 +35,7 @@ function addValues(drop, errors) {
 /** Return a drop as plain values, numbers with errors as texts: as stackbounce/prediction/scenario.py. */
 function withErrors(drop, pairs) {
   const mapping = dropAt(drop, pairs.map(({ number, value }) => [number, value])).toMapping();
-  for (const { number, value, error } of pairs.filter((one) => one.error > 0)) {
+  for (const { number, value, error } of pairs.filter((pair) => pair.error > 0)) {
     const { part, index, field, unit } = number;
     const text = `${writeFloat(value)} ± ${writeFloat(error)} ${unit}`.trimEnd();
     if (!part) mapping[field] = text;
@@ -81,7 +81,7 @@ function writeToml(drop) {
   for (const [key, value] of Object.entries(drop)) {
     if (Array.isArray(value) && value.length && typeof value[0] === "object") {
       for (const table of value) {
-        tables.push("", `[[${key}]]`, ...Object.entries(table).map(([name, one]) => `${name} = ${written(one)}`));
+        tables.push("", `[[${key}]]`, ...Object.entries(table).map(([name, value]) => `${name} = ${written(value)}`));
       }
     } else lines.push(`${key} = ${written(value)}`);
   }

@@ -1,5 +1,6 @@
 /** All outcomes of a kind over one number of the drop, from coarse to fine: closely where a curve bends or jumps. */
 
+import { extentOf } from "../extent.js";
 import { separate } from "../model/calibration.js";
 import { InvalidValue, Wrong, nearest, shown } from "../model/errors.js";
 import { known } from "../model/known.js";
@@ -71,7 +72,7 @@ export class LineJob {
     const there = drops.filter(Boolean);
     const outcomes = there.length ? solveAll(there) : null;
     let row = 0;
-    return drops.map((one) => (one ? [outcomes, row++] : [null, 0]));
+    return drops.map((drop) => (drop ? [outcomes, row++] : [null, 0]));
   }
 
   /** Return the middles of the intervals in which a curve is not known well enough. */
@@ -161,12 +162,7 @@ function separated(drop) {
 
 /** Return the range of a curve; that of one that is constant but for rounding has no end, so that it is straight. */
 function rangeOf(values) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const value of values) {
-    if (value === null) continue;
-    low = Math.min(low, value);
-    high = Math.max(high, value);
-  }
+  const [low, high] = extentOf(values);
   return high - low > NOISE * Math.max(Math.abs(low), Math.abs(high)) ? high - low : Infinity;
 }
 

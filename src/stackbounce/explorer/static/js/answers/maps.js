@@ -56,7 +56,7 @@ function nameContact(drop, index) {
 export function nameOutcome(drop, show) {
   if (show === "energy_retained") return known.energy;
   const [name, index] = split(show);
-  const all = Object.keys(known.outcomes).flatMap((one) => drop.balls.map((_, i) => `${one}.${i}`));
+  const all = Object.keys(known.outcomes).flatMap((kind) => drop.balls.map((_, i) => `${kind}.${i}`));
   if (!all.includes(show)) throw new InvalidValue(`${shown(show)} is no outcome; ${nearest(show, ["energy_retained", ...all])}`);
   const [words, unit] = known.outcomes[name];
   return [words.replace("{ball}", nameBall(drop, index)).replace("{contact}", nameContact(drop, index)), unit];
@@ -105,7 +105,7 @@ export class MapJob {
   answer() {
     const side = (name) => {
       const { path, values } = this.sides[name];
-      const { label, unit } = this.paths.find((one) => one.path === path);
+      const { label, unit } = this.paths.find((number) => number.path === path);
       return { path, label, unit, values };
     };
     const { show, label, unit, values, unfinished } = this;

@@ -35,18 +35,18 @@ export function playDrop(mapping, until_, frames, eventLimit) {
     drop: drop.toMapping(),
     reference_speed: drop.speed,
     ...numbers(result),
-    intervals: result.intervals.map((one) => plain(one)),
+    intervals: result.intervals.map((interval) => plain(interval)),
     impact: [0, Math.max(0, ...ends)],
-    frames: sampleFrames(result, times),
+    frames: { time: times, ...sampleWithEnergy(result, times) },
     separate: drop.rigid ? null : playSeparate(drop, until, times, eventLimit),
   };
 }
 
 /** Return numbers with null for those that are not finite. */
 function plain(values) {
-  const one = (value) => (typeof value === "number" && !Number.isFinite(value) ? null : value);
-  if (Array.isArray(values)) return values.map(one);
-  return Object.fromEntries(Object.entries(values).map(([name, value]) => [name, one(value)]));
+  const finite = (value) => (typeof value === "number" && !Number.isFinite(value) ? null : value);
+  if (Array.isArray(values)) return values.map(finite);
+  return Object.fromEntries(Object.entries(values).map(([name, value]) => [name, finite(value)]));
 }
 
 function numbers(result) {
@@ -100,12 +100,12 @@ export function spaced(from, to, count) {
 function sampleWithApproach(result, times) {
   const { drop } = result;
   const found = result.sample(times.map((time) => Math.max(time, 0)));
-  addFall(found.position, drop, times);
   times.forEach((time, row) => {
     if (time >= 0) return;
-    let below = 0;
+    let below = 0; // how far the ball below has fallen
     drop.start.forEach((velocity, ball) => {
-      const fallen = fallenAt(drop, velocity, time);
+      const fallen = velocity * time - 0.5 * drop.gravity * time * time;
+      found.position[ball][row] += fallen;
       found.velocity[ball][row] -= drop.gravity * time;
       found.compression[ball][row] -= fallen - below;
       found.force[ball][row] = 0;
@@ -115,40 +115,16 @@ function sampleWithApproach(result, times) {
   return found;
 }
 
-/** Return the positions alone, also at times before the first touch. */
-function positionsWithApproach(result, times) {
-  const { position } = result.sample(times.map((time) => Math.max(time, 0)), ["position"]);
-  addFall(position, result.drop, times);
-  return position;
-}
-
-/** Add the fall before the first touch to positions at times that have none of it. */
-function addFall(position, drop, times) {
-  times.forEach((time, row) => {
-    if (time < 0) drop.start.forEach((velocity, ball) => (position[ball][row] += fallenAt(drop, velocity, time)));
-  });
-}
-
-function fallenAt({ gravity }, velocity, time) {
-  return velocity * time - 0.5 * gravity * time * time;
-}
-
-function sampleFrames(result, times) {
-  const { position, velocity, force, compression, energy } = sampleWithEnergy(result, times);
-  return { time: times, position, velocity, force, compression, energy };
-}
-
 /** Return a sample with the energies in J over time; of the balls' motion a list each. */
 export function sampleWithEnergy(result, times) {
   const { balls, gravity } = result.drop;
-  const found = sampleWithApproach(result, times);
+  const { stored, ...found } = sampleWithApproach(result, times);
   const kinetic = balls.map(({ mass }, i) => found.velocity[i].map((speed) => 0.5 * mass * speed * speed));
   const moving = summed(kinetic);
   const potential = summed(balls.map(({ mass }, i) => found.position[i].map((height) => mass * gravity * height)));
-  const held = summed(found.stored);
+  const held = summed(stored);
   const total = summed([moving, potential, held]);
-  const stored = held.map((energy) => Math.max(energy, 0));
-  return { ...found, energy: { kinetic, stored, potential, total } };
+  return { ...found, energy: { kinetic, stored: held.map((energy) => Math.max(energy, 0)), potential, total } };
 }
 
 /** Return the sums of lists, place by place. */
@@ -165,7 +141,7 @@ function playSeparate(drop, until, times, eventLimit) {
     const textbook = until === null ? alone : alone.changed({ gravity: drop.gravity }); // a whole drop has flights
     const result = runDrop(textbook, until, eventLimit);
     const reached = result.stopped ? result.end : Infinity;
-    const position = positionsWithApproach(result, times.map((time) => Math.min(time, reached)));
+    const { position } = sampleWithApproach(result, times.map((time) => Math.min(time, reached)));
     return {
       ...numbers(result),
       restitutions: textbook.contacts.map((law) => law && law.restitution),

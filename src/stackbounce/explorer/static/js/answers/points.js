@@ -68,18 +68,18 @@ export class Points {
 
   /** Two numbers of a law that determine each other cannot both vary. */
   checkTogether(numbers) {
-    for (const one of numbers) {
-      const law = one.part === "contacts" ? this.drop.contacts[one.index] : null;
-      const twin = law?.kind.loss_fields.find((field) => field !== one.field);
-      const other = numbers.find(({ part, index, field }) => part === one.part && index === one.index && field === twin);
-      if (law?.kind.loss_fields[0] !== one.field || !other) continue;
-      throw new InvalidValue(`${one.path} and ${other.path}: only one of the two can vary`);
+    for (const number of numbers) {
+      const law = number.part === "contacts" ? this.drop.contacts[number.index] : null;
+      const twin = law?.kind.loss_fields.find((field) => field !== number.field);
+      const other = numbers.find(({ part, index, field }) => part === number.part && index === number.index && field === twin);
+      if (law?.kind.loss_fields[0] !== number.field || !other) continue;
+      throw new InvalidValue(`${number.path} and ${other.path}: only one of the two can vary`);
     }
   }
 
   /** Return the drop of a point, checked. */
   at(i, j) {
-    return dropAt(this.drop, this.varied.map((one) => [one.number, one.at(i, j)]));
+    return dropAt(this.drop, this.varied.map((axis) => [axis.number, axis.at(i, j)]));
   }
 
   /** Raise for the first point whose drop is none; where all corners are drops, all points are. */
@@ -91,7 +91,7 @@ export class Points {
     } catch (error) {
       if (!(error instanceof Wrong)) throw error;
     }
-    const dims = [...new Set(varied.flatMap((one) => one.dims))];
+    const dims = [...new Set(varied.flatMap((axis) => axis.dims))];
     const sizes = { x: columns, y: rows };
     for (let a = 0; a < sizes[dims[0]]; a += 1) {
       for (let b = 0; b < (sizes[dims[1]] ?? 1); b += 1) {
@@ -100,7 +100,7 @@ export class Points {
           this.at(place.x, place.y);
         } catch (error) {
           if (!(error instanceof Wrong)) throw error;
-          const there = varied.map((one) => `${one.number.path} = ${general(one.at(place.x, place.y), 10)}`).join(", ");
+          const there = varied.map((axis) => `${axis.number.path} = ${general(axis.at(place.x, place.y), 10)}`).join(", ");
           throw new InvalidValue(`${error.message} (at ${dims.map((dim) => `${dim} ${place[dim]}`).join(", ")}: ${there})`);
         }
       }
@@ -145,17 +145,17 @@ export class Points {
     const { base, drop, varied } = this;
     const found = [];
     const change = (some, targets, numbers) => {
-      const dims = [...new Set(some.flatMap((one) => one.dims))];
+      const dims = [...new Set(some.flatMap((axis) => axis.dims))];
       found.push({ dims, targets, numbers: dims.length === 1 ? remembered(numbers) : numbers });
     };
-    for (const one of varied) {
-      const { part, index } = one.number;
+    for (const axis of varied) {
+      const { part, index } = axis.number;
       const target = { gaps: ["gap", index + 1], velocities: ["velocity", index], balls: ["mass", index] }[part];
-      if (target) change([one], [target], (i, j) => [one.at(i, j)]);
+      if (target) change([axis], [target], (i, j) => [axis.at(i, j)]);
     }
     drop.contacts.forEach((law, contact) => {
       const own = varied.filter(({ number }) => number.part === "contacts" && number.index === contact);
-      const constants = (i, j) => Object.fromEntries(own.map((one) => [one.number.field, one.at(i, j)]));
+      const constants = (i, j) => Object.fromEntries(own.map((axis) => [axis.number.field, axis.at(i, j)]));
       const targets = ["first", "second", "third", "fourth"].map((name) => [name, contact]);
       if (own.length) change(own, targets, (i, j) => law.replaced(constants(i, j)).engineNumbers(theEngine().forms).slice(1));
     });

@@ -40,7 +40,7 @@ export class AtOnce {
 function attempt(desk, drop, until, frames) {
   try {
     const result = desk.simulate(drop, until, frames, EVENTS);
-    const isWhole = [result, result.separate].every((one) => one?.status !== "EVENT_LIMIT");
+    const isWhole = [result, result.separate].every((run) => run?.status !== "EVENT_LIMIT");
     return isWhole ? result : null;
   } catch {
     return null;

@@ -26,7 +26,7 @@ export class Client {
   async askNewest(name, given) {
     this.turn += 1;
     const mine = this.turn;
-    const older = () => [...this.waiting.values()].filter((one) => one.name === name);
+    const older = () => [...this.waiting.values()].filter((question) => question.name === name);
     if (older().length > 1) await answeredSoon(older()[0]);
     if (this.turn !== mine) throw replaced();
     if (older().length > 1) this.restart(replaced());

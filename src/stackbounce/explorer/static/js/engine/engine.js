@@ -3,11 +3,9 @@
 const LINE = 64; // bytes of a cache line, where each block of numbers begins
 const WORD = 8; // bytes of a number
 const PAGE = 65536; // bytes by which memory grows
-const MOST_EVENTS = 2 ** 31 - 1; // counts fit into 32 bits
 
-/** Return the engine, from `engine.wasm` (its bytes or a Response) and `layout.json` that was written with it. */
-export async function loadEngine(source, layout) {
-  const bytes = typeof source.arrayBuffer === "function" ? await source.arrayBuffer() : source;
+/** Return the engine, from the bytes of `engine.wasm` and `layout.json` that was written with it. */
+export async function loadEngine(bytes, layout) {
   const { instance } = await WebAssembly.instantiate(bytes, {});
   return new Engine(instance.exports, layout);
 }
@@ -19,27 +17,10 @@ export async function loadEngine(source, layout) {
  */
 class Engine {
   constructor(exports, layout) {
-    this.exports = exports;
-    this.layout = layout;
+    const { forms, statuses, events, log } = layout; // codes of laws, of how a run ended, of events; columns of a log
+    Object.assign(this, { exports, layout, forms, statuses, events, log });
     this.room = new Room(exports.memory, exports.__heap_base.value, layout.records);
     this.stacks = new Map();
-  }
-
-  /** Codes: of the laws of contacts, of how a run ended, of what an event is; and the columns of a log. */
-  get forms() {
-    return this.layout.forms;
-  }
-
-  get statuses() {
-    return this.layout.statuses;
-  }
-
-  get events() {
-    return this.layout.events;
-  }
-
-  get log() {
-    return this.layout.log;
   }
 
   /**
@@ -89,7 +70,6 @@ class Engine {
   sweep(drops, { rtol = 1e-12, until = Infinity, eventLimit = 1e6, springs = false } = {}) {
     const count = drops.gravity.length;
     const balls = count ? drops.mass.length / count : 1;
-    if (springs && balls !== 2) throw new RangeError(`springs: there must be 2 balls, not ${balls}`);
     const { stack, space, none } = springs ? {} : this.stack(drops.rigid, balls);
     const outcomes = this.room.lend((room) => {
       const given = room.make("Drops", { balls, drops: count });
@@ -99,7 +79,7 @@ class Engine {
       room.write(out, "work", new Array(count).fill(0)); // that of two springs is not counted
       if (springs) {
         const scratch = room.make("Workspace", { balls, scratch: this.layout.sizes.scratch });
-        this.call("run_two_springs", given, events(eventLimit), out, scratch);
+        this.call("run_two_springs", given, eventLimit, out, scratch);
       } else {
         const entry = drops.rigid ? "run_rigid_batch" : "run_batch";
         const limits = this.limits(eventLimit);
@@ -131,7 +111,7 @@ class Engine {
   /** Return the limits of a run: events, and the work that a run may cost, which is more where more events are asked for. */
   limits(eventLimit) {
     const { work, events: usual } = this.layout.limits;
-    return [events(eventLimit), Math.floor((work * Math.max(usual, eventLimit)) / usual)];
+    return [eventLimit, Math.floor((work * Math.max(usual, eventLimit)) / usual)];
   }
 
   /** Return the memory of runs of stacks of one height, which is kept. */
@@ -151,12 +131,7 @@ class Engine {
 
   /** Write the numbers of drops. */
   put(record, drops) {
-    for (const [name, { length }] of Object.entries(record.arrays)) {
-      if (drops[name].length !== length) {
-        throw new RangeError(`${name}: there must be ${length} numbers, not ${drops[name].length}`);
-      }
-      this.room.write(record, name, drops[name]);
-    }
+    for (const name of Object.keys(record.arrays)) this.room.write(record, name, drops[name]);
   }
 
   /** Call an entry with records and numbers; return its answer. */
@@ -267,11 +242,6 @@ function total(terms, sizes) {
     sum += names ? names.split(" ").reduce((product, name) => product * sizes[name], factor) : factor;
   }
   return sum;
-}
-
-function events(limit) {
-  if (Number.isInteger(limit) && limit >= 1 && limit <= MOST_EVENTS) return limit;
-  throw new RangeError(`eventLimit: it must be a whole number from 1 to ${MOST_EVENTS}, not ${limit}`);
 }
 
 function joined(parts) {

@@ -1,6 +1,6 @@
 /** The lessons beside the page: the list of them, or one with its steps, its answers and its worksheet, which can be printed. */
 
-import { h, s } from "../dom.js";
+import { button, h, s } from "../dom.js";
 import { embedded } from "../embed.js";
 import { t } from "../words/language.js";
 import { language } from "../words/language_choice.js";
@@ -16,7 +16,7 @@ export function mountLessons({ root, button }, store) {
   const fill = () => {
     const { lesson: name } = store.get();
     if (!lessons || !isOpen()) return;
-    const lesson = lessons.find((one) => one.name === name);
+    const lesson = lessons.find((lesson) => lesson.name === name);
     root.replaceChildren(...(lesson ? lessonParts(lesson, open) : listParts(lessons, open)));
     root.scrollTop = 0;
   };
@@ -28,8 +28,7 @@ export function mountLessons({ root, button }, store) {
   };
   button.addEventListener("click", () => open(isOpen() ? null : LESSON_LIST));
   root.addEventListener("keydown", ({ key }) => key === "Escape" && open(null));
-  store.subscribe((state, before) => {
-    if (state.lesson === before.lesson) return;
+  store.watch(["lesson"], () => {
     const focused = root.contains(document.activeElement);
     show();
     if (isOpen()) root.querySelector("h2")?.focus();
@@ -68,7 +67,7 @@ function listParts(lessons, open) {
     );
   const says = t("Each has steps that set this page, questions, answers for the teacher, and a worksheet to print.");
   const title = own("h2", t("Lessons"), { tabindex: -1 });
-  return [head(title, open), own("p", says, { class: "note" }), h("ul", { class: "lesson-list" }, lessons.map((one) => h("li", {}, entry(one))))];
+  return [head(title, open), own("p", says, { class: "note" }), h("ul", { class: "lesson-list" }, lessons.map((lesson) => h("li", {}, entry(lesson))))];
 }
 
 function lessonParts(lesson, open) {
@@ -115,7 +114,7 @@ function stepOf(step, lesson, open) {
 function told(text, lesson, open) {
   return [text].flat().map((part) => {
     if (typeof part === "string") return part;
-    if (part.lesson) return h("button", { type: "button", class: "lesson-link", text: part.words, onclick: () => open(part.lesson) });
+    if (part.lesson) return button(part.words, () => open(part.lesson), { class: "lesson-link" });
     return h("a", { href: `#${part.fragment}&lesson=${lesson.name}`, text: part.words, onclick: lookThere });
   });
 }

@@ -5,14 +5,12 @@ import { language } from "../words/language_choice.js";
 
 export { loadParts } from "./parts.js";
 
-const TABLES = {
-  de: () => import("../languages/de.js"),
-  es: () => import("../languages/es.js"),
-  fr: () => import("../languages/fr.js"),
-};
-
 /** The sentences of the page's language by the English ones: loaded before the page is built, and none in English itself. */
-export const sentences = language in TABLES ? await TABLES[language]().then(({ table }) => table, () => ({})) : {};
+export const sentences = language === "en" ? {} : await loadSentences().catch(() => ({}));
+
+async function loadSentences() {
+  return (await fetch(new URL(`../languages/${language}.json`, import.meta.url))).json();
+}
 
 export const hasServer = true;
 

@@ -1,5 +1,7 @@
 /** Colours for numbers: viridis, which is perceptually uniform and safe for colour-blind readers. */
 
+import { extentOf } from "../extent.js";
+
 /** Seventeen of its colours, evenly spread (S. van der Walt and N. Smith, matplotlib, CC0). */
 const VIRIDIS =
   "440154 48186a 472d7b 424086 3b528b 33638d 2c728e 26828e 21918c 1fa088 28ae80 3fbc73 5ec962 84d44b addc30 d8e219 fde725"
@@ -12,7 +14,7 @@ const STEPS = 1024; // of colours that are told apart
 const COLORS = Array.from({ length: STEPS + 1 }, (_, step) => {
   const place = (step / STEPS) * (VIRIDIS.length - 1);
   const low = Math.min(Math.floor(place), VIRIDIS.length - 2);
-  return VIRIDIS[low].map((one, i) => Math.round(one + (place - low) * (VIRIDIS[low + 1][i] - one)));
+  return VIRIDIS[low].map((level, i) => Math.round(level + (place - low) * (VIRIDIS[low + 1][i] - level)));
 });
 
 /** Return the colour [r, g, b] of a part of the range, from 0 to 1. */
@@ -46,14 +48,7 @@ export function scaleOfColors(values, whole) {
     const part = (count) => (counts.length > 1 ? counts.indexOf(count) / (counts.length - 1) : 0.5);
     return { kind: "counts", counts, color: (count) => colorAt(part(kind(count))) };
   }
-  let [low, high] = [Infinity, -Infinity];
-  for (const line of values) {
-    for (const value of line) {
-      if (value === null) continue;
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
-  }
+  let [low, high] = extentOf(values.flat());
   if (low > high) [low, high] = [0, 1];
   const least = 1e-6 * Math.max(Math.abs(low), Math.abs(high), 1e-9); // what is the same but for rounding
   if (high - low < least) {

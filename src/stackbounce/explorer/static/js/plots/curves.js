@@ -1,5 +1,6 @@
 /** The three panels of curves of a result, in convenient units. */
 
+import { extentOf } from "../extent.js";
 import { t } from "../words/language.js";
 import { format } from "../words/units.js";
 import { shortBall, shortContact } from "../words/words.js";
@@ -14,11 +15,11 @@ export function panels(result, whole, overlays = [], prediction = null) {
   const common = { times, scale, timeUnit: whole ? "s" : "ms" };
   const own = (what, factor) =>
     overlays
-      .filter((one) => one.what === what)
-      .map((one) => ({
-        ...one,
-        time: one.time.map((time) => time * scale),
-        values: one.values.map((value) => (value === null ? null : value * factor)),
+      .filter((overlay) => overlay.what === what)
+      .map((overlay) => ({
+        ...overlay,
+        time: overlay.time.map((time) => time * scale),
+        values: overlay.values.map((value) => (value === null ? null : value * factor)),
       }));
   return [positions(result, whole), result.separate ? forces(result) : impulses(result, scale), energies(result)].map(
     (panel) => ({
@@ -34,7 +35,7 @@ export function panels(result, whole, overlays = [], prediction = null) {
 function bands(band, { what, lines, factor }, scale) {
   const [low, high] = band?.[what] ?? [];
   if (!low) return [];
-  const time = band.time.map((one) => one * scale);
+  const time = band.time.map((time) => time * scale);
   return lines.map(({ index }) => ({ index, time, low: scaled(low[index], factor), high: scaled(high[index], factor) }));
 }
 
@@ -95,7 +96,7 @@ export function describePanel(panel) {
       const own = stems.filter((stem) => stem.index === index).map((stem) => stem.impulse);
       return t("{name} {count} times, up to {most} {unit}", { name: label, count: own.length, most: format(Math.max(...own), 3), unit });
     }
-    const [low, high] = [Math.min, Math.max].map((end) => values.reduce((a, b) => end(a, b))).map((one) => (Math.abs(one) < NOTHING ? 0 : one));
+    const [low, high] = extentOf(values).map((end) => (Math.abs(end) < NOTHING ? 0 : end));
     return t("{name} from {low} to {high} {unit}", { name: label, low: format(low, 3), high: format(high, 3), unit });
   });
   return t("{what} against time: {ranges}.", { what: title, ranges: ranges.join("; ") });

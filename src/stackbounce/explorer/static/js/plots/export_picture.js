@@ -1,8 +1,9 @@
 /** The curves of a drop as a picture, SVG or PNG, that needs no server. */
 
 import { panels } from "./curves.js";
+import { extentOf } from "../extent.js";
 import { t } from "../words/language.js";
-import { ticks } from "../views/map/axes.js";
+import { ticks } from "../views/drawing/axes.js";
 import { colorOf, paperPalette } from "./palette.js";
 import { format } from "../words/units.js";
 import { ballName, setUp } from "../words/words.js";
@@ -85,15 +86,7 @@ function drawPanel(panel, top, paint) {
 }
 
 function rangeOf({ lines, stems = [], floor = Infinity }) {
-  let [low, high] = [floor, -Infinity];
-  for (const { values } of lines) {
-    for (const value of values ?? []) {
-      if (!Number.isFinite(value)) continue;
-      low = Math.min(low, value);
-      high = Math.max(high, value);
-    }
-  }
-  for (const { impulse } of stems) high = Math.max(high, impulse);
+  const [low, high] = extentOf([floor, ...lines.flatMap(({ values }) => values ?? []), ...stems.map(({ impulse }) => impulse)]);
   if (!(high > low)) return Number.isFinite(low) ? [low - 1, low + 1] : [0, 1];
   const air = 0.06 * (high - low);
   return [low === floor ? low : low - air, high + air];

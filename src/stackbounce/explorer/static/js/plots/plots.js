@@ -2,10 +2,12 @@
 
 import uPlot from "../../vendor/uplot/uPlot.esm.js";
 import { between, locate } from "../stage/clock.js";
+import { chartOptions, clipped, drawDots, legendItem } from "./chart.js";
 import { describePanel, panels } from "./curves.js";
 import { h, hide, write } from "../dom.js";
+import { extentOf } from "../extent.js";
 import { Pace } from "../pace.js";
-import { colorOf, LETTERS, onRepaint, palette } from "./palette.js";
+import { colorOf, onRepaint, palette } from "./palette.js";
 import { PlotZoom } from "./zoom.js";
 import { format } from "../words/units.js";
 
@@ -16,7 +18,7 @@ export function mountPlots(root, store, clock) {
   let due = false; // what is shown has changed
   let extent = [0, 1]; // s, of what is plotted
   const redraw = () => {
-    for (const one of shown) one.plot.setData(one.data());
+    for (const panel of shown) panel.plot.setData(panel.data());
     clock.touch();
   };
   const zoom = new PlotZoom(clock, () => extent, redraw);
@@ -31,7 +33,7 @@ export function mountPlots(root, store, clock) {
     if (same) {
       wanted.forEach((panel, i) => shown[i].update(panel));
     } else {
-      for (const one of shown) one.remove();
+      for (const panel of shown) panel.remove();
       const colors = palette();
       root.replaceChildren();
       shown = wanted.map((panel) => new Panel(root, panel, colors, clock, zoom));
@@ -42,7 +44,7 @@ export function mountPlots(root, store, clock) {
     clock.touch();
   };
   const repaint = () => {
-    for (const one of shown) one.remove();
+    for (const panel of shown) panel.remove();
     shown = [];
     build();
   };
@@ -51,8 +53,8 @@ export function mountPlots(root, store, clock) {
     if (due && !(state.busy && pace.isBusy)) build();
   });
   clock.subscribe(() => {
-    for (const one of shown) if (clock.legible) one.tell(clock.time);
-    for (const one of shown) one.follow(clock.time);
+    for (const panel of shown) if (clock.legible) panel.tell(clock.time);
+    for (const panel of shown) panel.follow(clock.time);
   });
   onRepaint(repaint);
   build();
@@ -73,7 +75,7 @@ class Panel {
     this.values = panel.lines.map(() => h("span", { class: "legend-value" }));
     const items = panel.lines.map((line, i) => this.legendItem(line, this.values[i]));
     this.host = h("div", { class: "plot-canvas", role: "img" });
-    items.push(...panel.overlays.map((one) => this.legendItem({ ...one, index: one.index ?? null, dash: [1, 2] }, null)));
+    items.push(...panel.overlays.map((overlay) => this.legendItem({ ...overlay, index: overlay.index ?? null, dash: [1, 2] }, null)));
     const title = h("h3", {}, panel.title, h("span", { class: "unit", text: ` ${panel.unit}` }));
     root.append(
       h("figure", { class: "plot" }, h("figcaption", {}, title, h("ul", { class: "legend" }, items)), this.host),
@@ -145,58 +147,36 @@ class Panel {
   }
 
   legendItem(line, value) {
-    const look = line.dash ? ` ${line.dash[0] > line.dash[1] ? "dashed" : "dotted"}` : "";
-    const swatch = h("span", { class: `swatch${look}`, "aria-hidden": "true" });
-    swatch.style.setProperty("--ball", this.color(line));
-    return h("li", {}, swatch, h("span", { class: "legend-label", text: line.label }), value);
+    const look = line.dash ? (line.dash[0] > line.dash[1] ? "dashed" : "dotted") : "";
+    return legendItem(this.color(line), look, h("span", { class: "legend-label", text: line.label }), value);
   }
 
   dot(line) {
-    const dot = h("div", { class: "cursor-dot", hidden: !line.values });
-    dot.style.setProperty("--ball", this.color(line));
-    return dot;
+    return h("div", { class: "cursor-dot", hidden: !line.values, "--ball": this.color(line) });
   }
 
   options() {
     const { width, height } = this.host.getBoundingClientRect();
-    const { colors } = this;
-    const axis = {
-      stroke: colors.muted,
-      font: LETTERS,
-      grid: { stroke: colors.line, width: 1 },
-      ticks: { show: false },
-    };
-    return {
+    const { panel, colors } = this;
+    const values = (_, ticks) => ticks.map((tick) => format(tick, 4));
+    const times = (_, ticks) => ticks.map((tick) => `${format(tick, 4)}${tick === 0 ? ` ${this.panel.timeUnit}` : ""}`);
+    return chartOptions(colors, {
       width: Math.max(width, 40),
       height: Math.max(height, 40),
       padding: [6, 8, 0, 0],
-      legend: { show: false },
-      cursor: { show: false },
-      scales: {
-        x: { time: false, range: () => this.zoom.range().map((time) => time * this.panel.scale) },
-        y: { range: (_, low, high) => this.range(low, high) },
-      },
-      axes: [
-        { ...axis, size: 22, gap: 3, values: (_, ticks) => ticks.map((tick) => this.tick(tick)) },
-        { ...axis, size: 46, gap: 4, space: 26, values: (_, ticks) => ticks.map((tick) => format(tick, 4)) },
-      ],
-      series: [
-        {},
-        ...this.panel.lines.map((line) => ({
-          stroke: this.color(line),
-          width: line.index === null ? 1.2 : 2,
-          dash: line.dash,
-          fill: this.panel.what === "force" ? `${this.color(line)}22` : undefined,
-          points: { show: false },
-          pxAlign: 0,
-        })),
-      ],
-      hooks: { drawAxes: [(plot) => this.drawBands(plot), (plot) => this.drawDots(plot)], draw: [(plot) => this.drawStems(plot)] },
-    };
-  }
-
-  tick(tick) {
-    return `${format(tick, 4)}${tick === 0 ? ` ${this.panel.timeUnit}` : ""}`;
+      x: () => this.zoom.range().map((time) => time * this.panel.scale),
+      y: (_, low, high) => this.range(low, high),
+      axes: [{ size: 22, gap: 3, values: times }, { size: 46, gap: 4, space: 26, values }],
+      series: panel.lines.map((line) => ({
+        stroke: this.color(line),
+        width: line.index === null ? 1.2 : 2,
+        dash: line.dash,
+        fill: panel.what === "force" ? `${this.color(line)}22` : undefined,
+        points: { show: false },
+        pxAlign: 0,
+      })),
+      hooks: { drawAxes: [(plot) => this.drawBands(plot), (plot) => this.drawMeasured(plot)], draw: [(plot) => this.drawStems(plot)] },
+    });
   }
 
   /** Return the range of the values, of what is laid over them, with a little air. */
@@ -205,9 +185,8 @@ class Panel {
     const seen = (time) => time >= times[0] && time <= times.at(-1);
     const laid = [...overlays, ...bands.flatMap(({ time, low, high }) => [{ time, values: low }, { time, values: high }])];
     const more = laid.flatMap(({ time, values }) => values.filter((value, i) => value !== null && seen(time[i])));
-    const bottom = more.reduce((a, b) => Math.min(a, b), Math.min(floor ?? Infinity, low ?? Infinity));
-    const top = more.reduce((a, b) => Math.max(a, b), Math.max(ceiling ?? -Infinity, high ?? -Infinity));
-    if (!Number.isFinite(bottom) || !Number.isFinite(top)) return [0, 1];
+    const [bottom, top] = extentOf([...more, floor, ceiling, low, high]);
+    if (bottom > top) return [0, 1];
     const air = 0.06 * (top - bottom) || 1;
     return [bottom === floor ? floor : bottom - air, top + air];
   }
@@ -242,31 +221,14 @@ class Panel {
   }
 
   /** Draw measurements as dots, below the simulated lines. */
-  drawDots(plot) {
-    const size = 2 * devicePixelRatio;
+  drawMeasured(plot) {
     clipped(plot, (ctx) => {
       for (const { index, time, values } of this.panel.overlays) {
         ctx.fillStyle = this.color({ index: index ?? null });
-        values.forEach((value, i) => {
-          if (value === null) return;
-          const x = plot.valToPos(time[i], "x", true);
-          ctx.fillRect(x - size / 2, plot.valToPos(value, "y", true) - size / 2, size, size);
-        });
+        drawDots(plot, time, values, 2);
       }
     });
   }
-}
-
-/** Draw inside of a plot's axes only. */
-function clipped(plot, paint) {
-  const { ctx } = plot;
-  const { left, top, width, height } = plot.bbox;
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(left, top, width, height);
-  ctx.clip();
-  paint(ctx);
-  ctx.restore();
 }
 
 /** Let the cursor be dragged on a plot. */

@@ -1,6 +1,6 @@
 /** The range of time that all plots show: the whole, or a part around the cursor. */
 
-import { h } from "../dom.js";
+import { button, h } from "../dom.js";
 import { t } from "../words/language.js";
 
 const MOST = 64; // times larger than the whole
@@ -11,10 +11,10 @@ export class PlotZoom {
   /** @param {() => number[]} extent the begin and end of what is plotted, in s @param {() => void} redraw of all plots */
   constructor(clock, extent, redraw) {
     Object.assign(this, { clock, extent, redraw, times: 1, from: null });
-    const button = (text, label, act) => h("button", { type: "button", class: "small", text, "aria-label": label, onclick: act });
-    this.out = button("−", t("Show a longer time in the plots"), () => this.set(this.times / STEP));
-    this.in = button("+", t("Show a shorter time in the plots, around the cursor"), () => this.set(this.times * STEP));
-    this.all = button(t("Whole"), t("Show the whole time in the plots"), () => this.set(1));
+    const labelled = (label) => ({ class: "small", "aria-label": label });
+    this.out = button("−", () => this.set(this.times / STEP), labelled(t("Show a longer time in the plots")));
+    this.in = button("+", () => this.set(this.times * STEP), labelled(t("Show a shorter time in the plots, around the cursor")));
+    this.all = button(t("Whole"), () => this.set(1), labelled(t("Show the whole time in the plots")));
     this.element = h("div", { class: "plot-zoom", role: "group", "aria-label": t("Time in the plots") }, h("span", { text: t("Time in the plots") }), this.out, this.in, this.all);
     clock.subscribe(() => this.follow());
     this.show();

@@ -27,6 +27,7 @@ export function simulate(drop, { until = Infinity, rtol, eventLimit }) {
   return new Result(drop, again([]), again);
 }
 
+const SAMPLED = ["position", "velocity", "compression", "force", "stored"];
 const STOPPED = ["TIME_REACHED", "EVENT_LIMIT", "INVALID"];
 
 export class Result {
@@ -88,10 +89,10 @@ export class Result {
     return came > 0 ? energy(this.speeds) / came : NaN;
   }
 
-  /** Return lists by ball or contact over ascending times in s: position, velocity, compression, force; stored energy; or some of these. */
-  sample(times, names = ["position", "velocity", "compression", "force", "stored"]) {
+  /** Return lists by ball or contact over ascending times in s: position, velocity, compression, force; stored energy. */
+  sample(times) {
     const { samples } = this.again(times);
-    return Object.fromEntries(names.map((name) => [name, columnsOf(samples[name], this.drop.balls.length)]));
+    return Object.fromEntries(SAMPLED.map((name) => [name, columnsOf(samples[name], this.drop.balls.length)]));
   }
 }
 

@@ -2,7 +2,7 @@
 
 import { h, hide, write } from "../dom.js";
 import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withValue } from "./drops.js";
-import { choice, numberField } from "./fields.js";
+import { NumberField, check, choice } from "./fields.js";
 import { t, translated, writeTold } from "../words/language.js";
 import { asMeasured, changeLaw, lawMemory } from "./laws.js";
 import { withError } from "../asking/prediction.js";
@@ -45,12 +45,7 @@ export function mountControls(root, store, api, catalogue) {
       store.set({ error: { detail: error.message, offline: Boolean(error.offline) } });
     }
   };
-  const choose = (ball, name) =>
-    attempt(async () => {
-      const entry = catalogue.balls.find((one) => one.name === name);
-      const { drop } = store.get();
-      change(...(await restacked(api, catalogue, drop, withChosen(drop, ball, entry))));
-    });
+  const choose = (ball, name) => arrange((drop) => withChosen(drop, ball, catalogue.balls.find((known) => known.name === name)));
   const arrange = (act) =>
     attempt(async () => {
       const { drop } = store.get();
@@ -72,7 +67,7 @@ export function mountControls(root, store, api, catalogue) {
   const rebuild = () => {
     const { drop, until, notes } = store.get();
     const focused = document.activeElement?.closest?.("[data-key], [data-path], [data-slider]");
-    const open = [...root.querySelectorAll("details[open]")].map((one) => one.dataset.key);
+    const open = [...root.querySelectorAll("details[open]")].map((details) => details.dataset.key);
     const built = towerOf(drop, tools, notes);
     tower.replaceChildren(built.element);
     fields = [...incidence(drops, drop, until, tools), ...built.fields];
@@ -104,12 +99,10 @@ export function mountControls(root, store, api, catalogue) {
   });
   root.replaceChildren(presets, said, general, drops, tower);
   new IntersectionObserver(([{ isIntersecting }]) => root.classList.toggle("seen", isIntersecting)).observe(root);
-  store.subscribe((state, before) => {
-    if (state.notice !== before.notice) write(said, state.notice ?? "");
-    const touched = ["drop", "error", "errors", "until", "notes"].some((name) => state[name] !== before[name]);
-    if (touched) update();
-  });
-  write(said, store.get().notice ?? "");
+  const tell = ({ notice }) => write(said, notice ?? "");
+  store.watch(["notice"], tell);
+  store.watch(["drop", "error", "errors", "until", "notes"], update);
+  tell(store.get());
   update();
 }
 
@@ -131,7 +124,7 @@ function presetChoice({ presets }, use) {
     groups: [...groups],
     value: "",
     set: (name) => {
-      const preset = presets.find((one) => one.name === name);
+      const preset = presets.find((preset) => preset.name === name);
       if (preset) use(preset);
     },
   });
@@ -140,37 +133,22 @@ function presetChoice({ presets }, use) {
 /** Fill the box on how the tower comes in; returns its fields. */
 function incidence(box, drop, until, { set, errorAt, change, drop: current }) {
   const kind = incidenceOf(drop);
-  const radios = INCIDENCE.map(([value, text]) =>
-    h(
-      "label",
-      {},
-      h("input", {
-        type: "radio",
-        name: "incidence",
-        value,
-        checked: value === kind,
-        "data-key": `incidence-${value}`,
-        onchange: () => change(withIncidence(current(), value)),
-      }),
-      h("span", { text }),
-    ),
-  );
-  const fields = [];
-  if (kind === "height") fields.push(numberField({ path: "height", label: t("falls from"), unit: "m", large: true, low: 0.02, high: 10, set, errorAt }));
-  if (kind === "impact_speed") fields.push(numberField({ path: "impact_speed", label: t("comes in at"), unit: "m/s", low: 0.1, high: 15, set, errorAt }));
-  if (until !== null) fields.push(numberField({ path: "until", label: t("shown for"), unit: "s", large: true, low: 0.2, high: 20, set }));
-  for (const field of fields) field.update(field.path === "until" ? until : drop[field.path]);
-  const gravity = h("input", {
-    type: "checkbox",
-    checked: drop.gravity > 0,
-    "data-key": "gravity",
-    onchange: (event) => set("gravity", event.target.checked ? GRAVITY : 0),
+  const radios = INCIDENCE.map(([value, text]) => {
+    const choose = { onchange: () => change(withIncidence(current(), value)) };
+    const radio = h("input", { type: "radio", name: "incidence", value, checked: value === kind, "data-key": `incidence-${value}`, ...choose });
+    return h("label", {}, radio, h("span", { text }));
   });
+  const fields = [];
+  if (kind === "height") fields.push(new NumberField({ path: "height", label: t("falls from"), unit: "m", large: true, low: 0.02, high: 10, set, errorAt }));
+  if (kind === "impact_speed") fields.push(new NumberField({ path: "impact_speed", label: t("comes in at"), unit: "m/s", low: 0.1, high: 15, set, errorAt }));
+  if (until !== null) fields.push(new NumberField({ path: "until", label: t("shown for"), unit: "s", large: true, low: 0.2, high: 20, set }));
+  for (const field of fields) field.update(field.path === "until" ? until : drop[field.path]);
+  const gravity = check(t("gravity during the impact"), drop.gravity > 0, (on) => set("gravity", on ? GRAVITY : 0), { "data-key": "gravity" });
   box.replaceChildren(
     h("legend", { text: t("The drop") }),
     h("div", { class: "segments" }, radios),
     ...fields.map((field) => field.element),
-    h("label", { class: "check" }, gravity, t("gravity during the impact")),
+    gravity,
   );
   return fields;
 }

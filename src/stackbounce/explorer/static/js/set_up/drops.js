@@ -35,8 +35,8 @@ export function complete(drop) {
 /** Return whether a mapping that somebody brought has the shape of a drop; its numbers are the server's to judge. */
 export function isDrop(drop) {
   const { balls, contacts, gaps, velocities } = drop;
-  const members = (list) => Array.isArray(list) && list.every((one) => typeof one === "object" && one !== null);
-  const numbers = (list) => list === undefined || (Array.isArray(list) && list.every((one) => typeof one !== "object"));
+  const members = (list) => Array.isArray(list) && list.every((member) => typeof member === "object" && member !== null);
+  const numbers = (list) => list === undefined || (Array.isArray(list) && list.every((member) => typeof member !== "object"));
   if (!members(balls) || !members(contacts) || balls.length === 0 || balls.length !== contacts.length) return false;
   return contacts.every(({ law }) => typeof law === "string") && numbers(gaps) && numbers(velocities);
 }

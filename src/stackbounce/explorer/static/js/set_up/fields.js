@@ -1,124 +1,133 @@
 /** One number of the drop: a label, a slider and a field that reads "57 g". */
 
-import { h, write } from "../dom.js";
+import { button, h, write } from "../dom.js";
 import { t, writeTold } from "../words/language.js";
 import { clean, format, numeric, pretty, read, shownUnit, splitError } from "../words/units.js";
 import { capital } from "../words/words.js";
 
 const STEPS = 1000; // of a slider
 
-/**
- * Return a field `{element, path, update(value), fail(message)}`.
- * @param {object} spec `{path, label, term, of, unit, low, high, large, says, optional, set(path, value, error), errorAt(path)}`;
- * with `errorAt` a text such as "63 ± 1 cm" has an error, which is null where none is typed
- */
-export function numberField(spec) {
-  const { path, unit, low, high } = spec;
-  const label = spec.term ? `${spec.label} (${spec.term})` : spec.label;
-  const spoken = spec.of ? t("{number} of {place}", { number: label, place: spec.of }) : label;
-  const shown = shownUnit(unit, spec.large);
-  const id = `field-${path.replaceAll(".", "-")}`;
-  const ladder = scaleOf(low, high);
-  const input = h("input", {
-    id,
-    class: "field-number",
-    type: "text",
-    inputmode: "decimal",
-    autocomplete: "off",
-    spellcheck: "false",
-    "data-path": path,
-    "aria-label": spoken,
-    "aria-describedby": `${id}-unit ${id}-error`,
-  });
-  const slider = h("input", {
-    class: "field-slider",
-    type: "range",
-    min: 0,
-    max: STEPS,
-    step: 1,
-    "data-slider": path,
-    "aria-label": t("{number}, slider", { number: spoken }),
-  });
-  const error = h("p", { class: "field-error", id: `${id}-error`, hidden: true });
-  const help = spec.says ? explanation(spec.says, spec.term ?? spec.label, `${id}-says`) : null;
-  const element = h(
-    "div",
-    { class: "field" },
-    h("span", { class: "field-label" }, h("label", { for: id, text: label }), help?.button),
-    h("span", { class: "field-box" }, input, h("span", { class: "unit", id: `${id}-unit`, text: pretty(shown.unit) })),
-    slider,
-    help?.text,
-    error,
-  );
+export class NumberField {
+  /**
+   * @param {object} spec `{path, label, term, of, unit, low, high, large, says, optional, set(path, value, error), errorAt(path),
+   * follow(value)}`; with `errorAt` a text such as "63 ± 1 cm" has an error, which is null where none is typed
+   */
+  constructor(spec) {
+    const { path, unit, low, high } = spec;
+    Object.assign(this, { spec, path, shown: shownUnit(unit, spec.large), scale: scaleOf(low, high) });
+    this.written = ""; // what the input has been given
+    this.latest = []; // value, error and whether somebody types: of many fields few change
+    this.build(spec);
+    this.input.addEventListener("change", () => {
+      this.commit();
+      const [value] = this.typed();
+      if (typeof value === "number") this.show(value);
+    });
+    this.input.addEventListener("keydown", (event) => this.press(event));
+    this.slider.addEventListener("input", () => this.slide(Number(this.slider.value)));
+  }
 
-  const place = (value) => {
-    const si = numeric(value, unit);
+  build({ path, term, label, of, says }) {
+    const name = term ? `${label} (${term})` : label;
+    const spoken = of ? t("{number} of {place}", { number: name, place: of }) : name;
+    const id = `field-${path.replaceAll(".", "-")}`;
+    this.input = h("input", {
+      id,
+      class: "field-number",
+      type: "text",
+      inputmode: "decimal",
+      autocomplete: "off",
+      spellcheck: "false",
+      "data-path": path,
+      "aria-label": spoken,
+      "aria-describedby": `${id}-unit ${id}-error`,
+    });
+    const range = { type: "range", min: 0, max: STEPS, step: 1 };
+    this.slider = h("input", { class: "field-slider", ...range, "data-slider": path, "aria-label": t("{number}, slider", { number: spoken }) });
+    this.error = h("p", { class: "field-error", id: `${id}-error`, hidden: true });
+    const help = says ? explanation(says, term ?? label, `${id}-says`) : null;
+    this.element = h(
+      "div",
+      { class: "field" },
+      h("span", { class: "field-label" }, h("label", { for: id, text: name }), help?.button),
+      h("span", { class: "field-box" }, this.input, h("span", { class: "unit", id: `${id}-unit`, text: pretty(this.shown.unit) })),
+      this.slider,
+      help?.text,
+      this.error,
+    );
+  }
+
+  /** Follow a value of the drop, which somebody may be typing. */
+  update(value) {
+    const next = [value, this.spec.errorAt?.(this.path), document.activeElement === this.input];
+    if (this.latest.length && next.every((part, i) => part === this.latest[i])) return;
+    this.latest = next;
+    this.place(value);
+    this.element.classList.toggle("uncertain", Boolean(next[1]));
+    if (!next[2]) this.show(value);
+    this.spec.follow?.(value);
+  }
+
+  show(value) {
+    this.place(value);
+    this.input.value = this.textOf(value);
+    this.written = this.input.value;
+  }
+
+  /** Put the slider where a value is. */
+  place(value) {
+    const si = numeric(value, this.spec.unit);
     if (!Number.isFinite(si)) return;
-    slider.value = ladder.toSlider(si);
-    slider.setAttribute("aria-valuetext", `${format(si / shown.size)} ${pretty(shown.unit)}`);
-  };
-  const written = (value) => {
-    const si = numeric(value, unit);
+    this.slider.value = this.scale.toSlider(si);
+    this.slider.setAttribute("aria-valuetext", `${format(si / this.shown.size)} ${pretty(this.shown.unit)}`);
+  }
+
+  /** Return a value with its error as it is written. */
+  textOf(value) {
+    const { size } = this.shown;
+    const si = numeric(value, this.spec.unit);
     if (!Number.isFinite(si)) return String(value ?? "");
-    const error = spec.errorAt?.(path);
-    const spread = typeof error === "number" ? ` ± ${format(clean(error / shown.size), 3)}` : error ? ` ± ${error}` : "";
-    return format(clean(si / shown.size), 5) + spread;
-  };
-  let before = "";
-  const show = (value) => {
-    place(value);
-    input.value = written(value);
-    before = input.value;
-  };
-  let shownNow = []; // value, error and whether somebody types: of many fields few change
-  const update = (value) => {
-    const next = [value, spec.errorAt?.(path), document.activeElement === input];
-    if (next.every((one, i) => one === shownNow[i]) && shownNow.length) return;
-    shownNow = next;
-    place(value);
-    element.classList.toggle("uncertain", Boolean(next[1]));
-    if (!next[2]) show(value);
-  };
-  const commit = () => {
-    if (input.value === before) return; // the shown value may be rounded
-    before = input.value;
-    if (spec.optional && input.value.trim() === "") spec.set(path, undefined);
-    else spec.set(path, ...typed());
-  };
-  const typed = () => {
-    const { value, error } = spec.errorAt ? splitError(input.value) : { value: input.value, error: null };
-    return [read(value, unit, shown), error === null ? null : read(error, unit, shown)];
-  };
-  slider.addEventListener("input", () => {
-    const value = ladder.toValue(Number(slider.value));
-    show(value);
-    spec.set(path, value);
-  });
-  input.addEventListener("change", () => {
-    commit();
-    const [value] = typed();
-    if (typeof value === "number") show(value);
-  });
-  input.addEventListener("keydown", (event) => {
-    const up = { ArrowUp: 1, ArrowDown: -1 }[event.key];
-    if (event.key === "Enter") event.preventDefault();
-    if (event.key === "Enter") commit();
-    if (!up) return;
-    event.preventDefault();
-    const value = ladder.toValue(Number(slider.value) + 5 * up);
-    show(value);
-    spec.set(path, value);
-  });
-  let told; // the message that is shown
-  const fail = (message) => {
-    if (message === told) return;
-    told = message;
-    writeTold(error, message ?? "");
-    write(error, capital(error.textContent));
-    error.hidden = !message;
-    input.setAttribute("aria-invalid", message ? "true" : "false");
-  };
-  return { element, path, update, fail };
+    const error = this.spec.errorAt?.(this.path);
+    const spread = typeof error === "number" ? format(clean(error / size), 3) : error;
+    return format(clean(si / size), 5) + (spread ? ` ± ${spread}` : "");
+  }
+
+  /** Return the value and the error that are typed. */
+  typed() {
+    const { unit, errorAt } = this.spec;
+    const { value, error } = errorAt ? splitError(this.input.value) : { value: this.input.value, error: null };
+    return [value, error].map((text) => (text === null ? null : read(text, unit, this.shown)));
+  }
+
+  commit() {
+    if (this.input.value === this.written) return; // the shown value may be rounded
+    this.written = this.input.value;
+    if (this.spec.optional && this.input.value.trim() === "") this.spec.set(this.path, undefined);
+    else this.spec.set(this.path, ...this.typed());
+  }
+
+  press(event) {
+    const way = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (way || event.key === "Enter") event.preventDefault();
+    if (event.key === "Enter") this.commit();
+    if (way) this.slide(Number(this.slider.value) + 5 * way);
+  }
+
+  slide(step) {
+    const value = this.scale.toValue(step);
+    this.show(value);
+    this.spec.set(this.path, value);
+  }
+
+  /** Say what is wrong with the value, or that nothing is. */
+  fail(message) {
+    if (message === this.message) return;
+    this.message = message;
+    writeTold(this.error, message ?? "");
+    write(this.error, capital(this.error.textContent));
+    this.error.hidden = !message;
+    this.input.setAttribute("aria-invalid", message ? "true" : "false");
+  }
 }
 
 /** Return `{button, text}`: an explanation that a button shows and hides. */
@@ -126,11 +135,11 @@ function explanation(says, what, id) {
   const text = h("p", { class: "note", id, text: says, hidden: true });
   const toggle = () => {
     text.hidden = !text.hidden;
-    button.setAttribute("aria-expanded", String(!text.hidden));
+    toggler.setAttribute("aria-expanded", String(!text.hidden));
   };
   const about = { class: "explain", "aria-label": t("What is {what}?", { what }), "aria-expanded": "false", "aria-controls": id };
-  const button = h("button", { type: "button", ...about, text: "?", onclick: toggle });
-  return { button, text };
+  const toggler = button("?", toggle, about);
+  return { button: toggler, text };
 }
 
 /** Return how a slider's steps become values: by factors over a wide range, else evenly. */
@@ -147,6 +156,22 @@ function scaleOf(low, high) {
       return Math.round(STEPS * Math.min(Math.max(part, 0), 1));
     },
   };
+}
+
+/** Return a labelled box to tick; `set` hears whether it is. */
+export function check(text, checked, set, attributes = {}) {
+  const box = h("input", { type: "checkbox", checked, onchange: (event) => set(event.target.checked), ...attributes });
+  return h("label", { class: "check" }, box, text);
+}
+
+/** Return `{element, show(message)}`: where an error is said; without one it is hidden. `tell` writes it. */
+export function problemLine(tell = writeTold, attributes = {}) {
+  const element = h("p", { class: "field-error", role: "alert", hidden: true, ...attributes });
+  const show = (message = null) => {
+    tell(element, message ?? "");
+    element.hidden = !message;
+  };
+  return { element, show };
 }
 
 /** Return a labelled choice; `groups` is a list of `[title, [[value, text], …]]`, without title for none. */

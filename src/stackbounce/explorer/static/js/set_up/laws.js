@@ -10,7 +10,7 @@ const NONE = { fields: [], loss_fields: [], rigid: false, exact: true }; // what
 
 /** Return what the catalogue tells of a law by its name; `laws` are the catalogue's. */
 export function lawOf(laws, name) {
-  return laws.find((one) => one.law === name) ?? NONE;
+  return laws.find((law) => law.law === name) ?? NONE;
 }
 
 /** Return the field of a contact that sets its loss of energy, undefined where nothing is lost. */
@@ -51,9 +51,9 @@ export function lawMemory() {
  * is a `lawMemory`.
  */
 export async function changeLaw(api, laws, drop, contact, name, memory) {
-  const one = drop.contacts[contact];
+  const now = drop.contacts[contact];
   if (name === "none") {
-    memory.keep(pairAt(drop, contact), one, { law: "none" }, !lawOf(laws, one.law).rigid);
+    memory.keep(pairAt(drop, contact), now, { law: "none" }, !lawOf(laws, now.law).rigid);
     return { drop: withValue(drop, `contacts.${contact}`, { law: "none" }), note: "" };
   }
   const { rigid } = lawOf(laws, name);
@@ -64,7 +64,7 @@ export async function changeLaw(api, laws, drop, contact, name, memory) {
     next = withValue(next, `contacts.${place}`, await recalled(api, laws, drop, place, name, memory));
   }
   const all = places.length > 1 ? `${t("All contacts are {law} now: rigid contacts and others cannot be mixed.", { law: lawName(name) })} ` : "";
-  return { drop: next, note: all + kept(laws, one.law, name) };
+  return { drop: next, note: all + kept(laws, now.law, name) };
 }
 
 /** Return a contact with another law: with the numbers that it had there, unless it was changed since. */

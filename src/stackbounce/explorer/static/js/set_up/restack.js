@@ -31,7 +31,7 @@ export async function restacked(api, catalogue, before, after) {
 
 /** Return whether a ball is one of the catalogue's, as it is there. */
 export function isOfCatalogue(catalogue, { name, mass }) {
-  return catalogue.balls.some((one) => one.name === name && one.mass === mass);
+  return catalogue.balls.some((ball) => ball.name === name && ball.mass === mass);
 }
 
 /** Return the stack that the catalogue has of these balls; null where it does not have all of them. */

@@ -1,8 +1,8 @@
 /** The tower: cards of the balls, with cards of the contacts between them. */
 
 import { gapsOf, incidenceOf, valueAt, withBall, withSwap, withValue, withoutBall } from "./drops.js";
-import { h, hide, write } from "../dom.js";
-import { choice, numberField } from "./fields.js";
+import { button, h, hide, write } from "../dom.js";
+import { NumberField, choice } from "./fields.js";
 import { t, translated } from "../words/language.js";
 import { firstContact } from "./laws.js";
 import { isOfCatalogue } from "./restack.js";
@@ -17,48 +17,29 @@ const OWN = "";
  */
 export function towerOf(drop, tools, notes) {
   const fields = [];
-  const field = (spec, follow = () => {}) => {
-    const one = numberField({ set: tools.set, errorAt: tools.errorAt, ...spec });
-    const update = (value) => {
-      one.update(value);
-      follow(value);
-    };
-    update(valueAt(drop, spec.path));
-    fields.push({ ...one, update });
-    return one.element;
+  const field = (spec) => {
+    const added = new NumberField({ set: tools.set, errorAt: tools.errorAt, ...spec });
+    added.update(valueAt(drop, spec.path));
+    fields.push(added);
+    return added.element;
   };
   const items = [];
   for (let ball = drop.balls.length - 1; ball >= 0; ball -= 1) {
     items.push(ballCard(drop, ball, tools, field), contactCard(drop, ball, tools, field, notes[ball]));
   }
   const full = drop.balls.length >= tools.catalogue.limits.balls;
-  const add = h("button", {
-    type: "button",
-    class: "small",
-    "data-key": "add",
-    disabled: full,
-    text: t("Add a ball on top"),
-    onclick: () => tools.arrange((now) => withBall(now, firstContact(tools.catalogue.laws))),
-  });
+  const addBall = () => tools.arrange((now) => withBall(now, firstContact(tools.catalogue.laws)));
+  const add = button(t("Add a ball on top"), addBall, { class: "small", "data-key": "add", disabled: full });
   return { element: h("div", {}, add, h("ol", { class: "tower" }, items)), fields };
 }
 
 function ballCard(drop, ball, tools, field) {
   const last = drop.balls.length - 1;
   const name = ballName(drop, ball);
-  const button = (text, label, key, disabled, act) =>
-    h("button", {
-      type: "button",
-      class: "icon",
-      "aria-label": label,
-      title: label,
-      "data-key": `${key}-${ball}`,
-      disabled,
-      text,
-      onclick: () => tools.arrange(act),
-    });
+  const icon = (text, title, key, disabled, act) =>
+    button(text, () => tools.arrange(act), { class: "icon", "aria-label": title, title, "data-key": `${key}-${ball}`, disabled });
   const entries = (lossy) =>
-    tools.catalogue.balls.filter((one) => one.lossy === lossy).map((one) => [one.name, `${translated(one.name)}, ${format(one.mass * 1e3)} g`]);
+    tools.catalogue.balls.filter((ball) => ball.lossy === lossy).map((ball) => [ball.name, `${translated(ball.name)}, ${format(ball.mass * 1e3)} g`]);
   const choose = choice({
     label: t("Ball {place}", { place: ball }),
     quiet: true,
@@ -71,14 +52,14 @@ function ballCard(drop, ball, tools, field) {
   const header = h(
     "div",
     { class: "card-head" },
-    swatch(ball),
+    h("span", { class: "swatch round", "aria-hidden": "true", "--ball": `var(--ball-${ball % 6})` }),
     choose,
-    button("↑", t("Move {ball} up", { ball: name }), "up", ball === last, (now) => withSwap(now, ball)),
-    button("↓", t("Move {ball} down", { ball: name }), "down", ball === 0, (now) => withSwap(now, ball - 1)),
-    button("×", t("Remove {ball}", { ball: name }), "remove", last === 0, (now) => withoutBall(now, ball)),
+    icon("↑", t("Move {ball} up", { ball: name }), "up", ball === last, (now) => withSwap(now, ball)),
+    icon("↓", t("Move {ball} down", { ball: name }), "down", ball === 0, (now) => withSwap(now, ball - 1)),
+    icon("×", t("Remove {ball}", { ball: name }), "remove", last === 0, (now) => withoutBall(now, ball)),
   );
-  const naming = namer(choose.querySelector("select"), changed, drop, ball, tools);
-  const rows = [field({ path: `balls.${ball}.mass`, label: t("mass"), of: name, unit: "kg", low: 1e-3, high: 2 }, naming)];
+  const follow = namer(choose.querySelector("select"), changed, drop, ball, tools);
+  const rows = [field({ path: `balls.${ball}.mass`, label: t("mass"), of: name, unit: "kg", low: 1e-3, high: 2, follow })];
   if (incidenceOf(drop) === "velocities") {
     rows.push(field({ path: `velocities.${ball}`, label: t("velocity"), of: name, unit: "m/s", low: -10, high: 10, says: t("Up is positive, down negative.") }));
   }
@@ -102,15 +83,9 @@ function namer(select, note, drop, ball, { catalogue }) {
   };
 }
 
-function swatch(index) {
-  const mark = h("span", { class: "swatch round", "aria-hidden": "true" });
-  mark.style.setProperty("--ball", `var(--ball-${index % 6})`);
-  return mark;
-}
-
 function contactCard(drop, contact, tools, field, note) {
-  const law = tools.catalogue.laws.find((one) => one.law === drop.contacts[contact].law);
-  const laws = tools.catalogue.laws.map((one) => [one.law, lawName(one.law)]);
+  const law = tools.catalogue.laws.find((known) => known.law === drop.contacts[contact].law);
+  const laws = tools.catalogue.laws.map(({ law: name }) => [name, lawName(name)]);
   if (contact === 0) laws.push(["none", t("no floor")]);
   const header = h(
     "div",
@@ -137,10 +112,9 @@ function contactCard(drop, contact, tools, field, note) {
 function lawFields(drop, contact, law, field) {
   const own = drop.contacts[contact];
   return law.fields
-    .filter((one) => typeof one.low === "number" && (one.required || own[one.name] !== undefined))
-    .map((one) => {
-      const unit = one.unit === "N/m**exponent" && own.exponent === 1 ? "N/m" : one.unit;
-      const { name, low, high, words, says, explains } = one;
+    .filter(({ name, low, required }) => typeof low === "number" && (required || own[name] !== undefined))
+    .map(({ name, low, high, words, says, explains, unit: unitOfLaw }) => {
+      const unit = unitOfLaw === "N/m**exponent" && own.exponent === 1 ? "N/m" : unitOfLaw;
       const term = says === words ? undefined : translated(says);
       const spec = { label: translated(words ?? says), term, of: contactName(drop, contact), unit, low, high, says: translated(explains) };
       return field({ path: `contacts.${contact}.${name}`, ...spec });
@@ -151,26 +125,22 @@ function lawFields(drop, contact, law, field) {
 function measuredBox(contact, law, tools) {
   const values = { restitution: 0.8, contact_time: 5e-3 };
   const local = (spec) => {
-    const one = numberField({ ...spec, path: `measured.${contact}.${spec.name}`, set: (_, value) => (values[spec.name] = value) });
-    one.update(values[spec.name]);
-    return one;
+    const set = (_, value) => (values[spec.name] = value);
+    const field = new NumberField({ ...spec, path: `measured.${contact}.${spec.name}`, set });
+    field.update(values[spec.name]);
+    return field.element;
   };
   const boxes = [local({ name: "restitution", label: t("how bouncy"), term: t("restitution"), unit: "", low: 0.05, high: 1 })];
   if (!law.rigid) boxes.push(local({ name: "contact_time", label: t("contact time"), unit: "s", low: 5e-4, high: 5e-2 }));
-  const apply = h("button", {
-    type: "button",
-    class: "small",
-    text: t("Same bounce as measured"),
-    onclick: () => tools.measured(contact, { restitution: values.restitution, contactTime: values.contact_time }),
-  });
+  const measured = () => tools.measured(contact, { restitution: values.restitution, contactTime: values.contact_time });
   const about = h("p", { class: "note", text: `${law.formula} – ${translated(law.says)} (${law.source})` });
   return h(
     "details",
     { "data-key": `measured-${contact}` },
     h("summary", { text: t("What is this law? Or a measured bounce") }),
     about,
-    boxes.map((one) => one.element),
-    apply,
+    boxes,
+    button(t("Same bounce as measured"), measured, { class: "small" }),
   );
 }
 

@@ -14,8 +14,7 @@ const LETTERS = 16; // of a name
 
 /** Return a group that shows a ball; `light` is the id of its shading. */
 export function ballGroup(drop, ball, light) {
-  const group = s("g", { class: "ball", "data-ball": ball });
-  group.style.setProperty("--ball", `var(--ball-${ball % 6})`);
+  const group = s("g", { class: "ball", "data-ball": ball, "--ball": `var(--ball-${ball % 6})` });
   const name = s("text", { class: "ball-name", "text-anchor": "end", y: 4, text: shortened(ballName(drop, ball)) });
   group.append(
     s("path", { class: "ball-body" }),
@@ -91,11 +90,7 @@ export function moveGhosts(group, positions, { view, floor, middle }) {
 /** Return what shows the balls of a kept drop, paler, and its name. */
 export function keptGroups(drop) {
   const inks = inksOf(drop.balls);
-  const bodies = drop.balls.map((_, ball) => {
-    const body = s("path", { class: "ball-body" });
-    body.style.setProperty("--ball", inks[ball] ?? `var(--place-${ball % 6})`);
-    return body;
-  });
+  const bodies = inks.map((ink, ball) => s("path", { class: "ball-body", "--ball": ink ?? `var(--place-${ball % 6})` }));
   return [...bodies, s("text", { y: 18, text: t("kept") })];
 }
 

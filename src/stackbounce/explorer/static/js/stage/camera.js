@@ -1,7 +1,7 @@
 /** The camera of a film: near while balls touch, far in fall and leap, and never so near that a ball leaves the picture. */
 
 import { pieceAt } from "./film.js";
-import { closeUp, farView, highest, largest, radii, stacked } from "./shape.js";
+import { clamp, closeUp, farView, highest, largest, radii, stacked } from "./shape.js";
 
 const SAMPLES = 240; // of a film, at which is looked how near the camera may be
 const SMOOTH = 0.25; // s of film to either side
@@ -61,7 +61,7 @@ function zoomAt(film, time) {
 }
 
 function smooth(part) {
-  const x = Math.min(Math.max(part, 0), 1);
+  const x = clamp(part, 0, 1);
   return x * x * (3 - 2 * x);
 }
 

@@ -101,6 +101,18 @@ export class Clock {
     this.touch();
   }
 
+  /** Stop at the begin of the film. */
+  rewind() {
+    this.pause();
+    this.seek(this.begin);
+  }
+
+  /** Play the film from its begin. */
+  replay() {
+    this.rewind();
+    this.play();
+  }
+
   /** Ask for one frame; however often it is asked, there is one. */
   touch() {
     this.asked ||= requestAnimationFrame((now) => this.frame(now));

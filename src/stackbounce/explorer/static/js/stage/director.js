@@ -16,14 +16,14 @@ export function direct(store, clock, calm) {
       else if (!clock.playing) clock.seek(state.t);
     }
     const asks = (one) => one.predict && one.guess === null;
-    if (asks(state) && !asks(before) && clock.film) hold(clock);
+    if (asks(state) && !asks(before) && clock.film) clock.rewind();
     if (state.result === before.result) return;
     const film = filmOf(state.result, state.until);
     const again = clock.film === null || film.whole !== whole || state.replay !== replay;
     const moment = again ? film.begin : sameMoment(clock.film, clock.time, film);
     clock.show(film, [...new Set(film.events.map(({ time }) => time))], wanted ?? moment);
     if (wanted !== null) clock.pause();
-    else if (asks(state) && state.until === null) hold(clock);
+    else if (asks(state) && state.until === null) clock.rewind();
     else if (again && !calm() && state.view === "play") clock.play();
     wanted = null;
     whole = film.whole;
@@ -31,10 +31,4 @@ export function direct(store, clock, calm) {
   });
   clock.speed = store.get().speed;
   clock.loop = store.get().loop;
-}
-
-/** Stop at the begin of the film. */
-function hold(clock) {
-  clock.pause();
-  clock.seek(clock.begin);
 }

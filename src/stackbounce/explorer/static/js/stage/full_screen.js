@@ -1,15 +1,15 @@
 /** The stage in full screen, for a projector: the sentence above it, the playback below, larger texts. */
 
-import { h, write } from "../dom.js";
+import { button, write } from "../dom.js";
 import { t } from "../words/language.js";
 
 /** Put the button at the stage where the browser has full screen; Escape leaves it. */
 export function mountFullScreen(root, stage) {
   if (!document.fullscreenEnabled) return;
-  const button = h("button", { type: "button", class: "small full-screen", onclick: () => turn() });
   const turn = () => (document.fullscreenElement ? document.exitFullscreen() : root.requestFullscreen()).catch(() => null); // a frame may forbid it
-  const show = () => write(button, document.fullscreenElement === root ? t("Leave full screen") : t("Full screen"));
+  const turner = button("", turn, { class: "small full-screen" });
+  const show = () => write(turner, document.fullscreenElement === root ? t("Leave full screen") : t("Full screen"));
   document.addEventListener("fullscreenchange", show);
   show();
-  stage.append(button);
+  stage.append(turner);
 }

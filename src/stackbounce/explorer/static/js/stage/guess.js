@@ -1,6 +1,6 @@
 /** "Predict first": a mark on the ruler that is dragged to where the highest ball is thought to rise, then let go. */
 
-import { h, hide, put, s, write } from "../dom.js";
+import { button, hide, put, s, write } from "../dom.js";
 import { t } from "../words/language.js";
 import { metres } from "../words/words.js";
 
@@ -14,8 +14,8 @@ export function mountGuess(root, store, clock) {
   const mark = s("g", { class: "guess-mark", tabindex: 0, role: "slider", "aria-label": t("Your guess of how high the ball flies"), "aria-valuemin": 0 });
   mark.append(s("line", { class: "guess-area" }), s("line", { class: "guess-line" }), grip, text);
   const svg = s("svg", { class: "guess", width: "100%", height: "100%" }, mark);
-  const go = h("button", { type: "button", class: "guess-go", text: t("Let go"), onclick: letGo });
-  const again = h("button", { type: "button", class: "guess-go", text: t("Guess again"), onclick: () => store.set({ guess: null }) });
+  const go = button(t("Let go"), letGo, { class: "guess-go" });
+  const again = button(t("Guess again"), () => store.set({ guess: null }), { class: "guess-go" });
   root.append(svg, go, again);
   let height = null; // m, where the mark is
   let place = null; // of the ruler in px: {zero, scale, width}, as the stage has it
@@ -29,8 +29,7 @@ export function mountGuess(root, store, clock) {
   function letGo() {
     flies = true;
     show();
-    clock.seek(clock.begin);
-    clock.play();
+    clock.replay();
   }
   /** Take the guess for good as soon as the film has shown the answer. */
   const watch = () => {
@@ -83,8 +82,7 @@ export function mountGuess(root, store, clock) {
     event.stopPropagation();
     set(height + moves[event.key] * most());
   });
-  store.subscribe((state, before) => {
-    if (!["predict", "guess", "until", "drop"].some((name) => state[name] !== before[name])) return;
+  store.watch(["predict", "guess", "until", "drop"], () => {
     flies = false;
     show();
   });

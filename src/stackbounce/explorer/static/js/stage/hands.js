@@ -30,8 +30,7 @@ export function mountHands(root, store, clock, api) {
   const ballAt = (event) => event.target.closest?.("[data-ball]");
   /** Begin to move a ball: the drop is shown from its begin, and measured once in the next frame. */
   const begin = (group) => {
-    clock.pause();
-    clock.seek(clock.begin);
+    clock.rewind();
     held.act = () => null; // until it is measured
     const mine = held;
     requestAnimationFrame(() =>

@@ -10,40 +10,25 @@ import { repaint } from "../plots/palette.js";
 const PLACES = 6;
 
 /**
- * Each kind: the upper half of its pattern in a circle of radius 1, which is drawn twice, as the lower half mirrors it; whether it
- * is filled; and the place whose colour is too much like its own.
+ * Each kind: the names of its balls; the upper half of its pattern in a circle of radius 1, which is drawn twice, as the lower
+ * half mirrors it; whether it is filled; and the place whose colour is too much like its own.
  */
 const LOOKS = {
-  basketball: { half: "M-1 0H1M0-1V0M-.72-.69Q-.4-.36-.4 0M.72-.69Q.4-.36.4 0", like: 1 },
-  tennis: { half: "M-.6-.8Q-.12-.5-.12 0M.6-.8Q.12-.5.12 0", wide: true },
-  football: { half: "M-.42 0L-.24-.34H.24L.42 0ZM-.24-.34L-.4-.66M.24-.34L.4-.66M.42 0H.8M-.42 0H-.8M-.4-.66H.4L.3-.92H-.3ZM.8 0L.86-.4.97-.2V0ZM-.8 0L-.86-.4-.97-.2V0Z", filled: true },
-  handball: { half: "M-.5 0L-.25-.43H.25L.5 0M-.25-.43L-.48-.86M.25-.43L.48-.86M.5 0H1M-.5 0H-1" },
-  volleyball: { half: "M-.98-.2Q0-.5.98-.2L.83-.55Q0-.95-.83-.55Z", filled: true, like: 0 },
-  "ping-pong": { half: "M-1 0L-.98-.2H.98L1 0Z", filled: true, like: 4 },
-  golf: { half: "M0-.15h0M-.3-.15h0M.3-.15h0M-.6-.15h0M.6-.15h0M-.15-.42h0M.15-.42h0M-.45-.42h0M.45-.42h0M-.3-.68h0M0-.68h0M.3-.68h0M-.74-.42h0M.74-.42h0M-.86-.15h0M.86-.15h0M0-.9h0", wide: true, like: 2 },
-  superball: { half: "M-.92-.38C-.5 0-.4-.9 0-.55S.5-.1.92-.38M-.6-.8C-.3-.6-.1-1 .6-.8", like: 3 },
-  marble: { half: "M-.8 0Q-.4-.75 0 0Q.4-.75.8 0Z", filled: true, like: 2 },
-  steel: { half: "M-.72-.42Q-.35-.88.3-.82M-.5-.34Q-.3-.58 0-.6" },
-};
-
-const KINDS = {
-  basketball: "basketball",
-  "big basketball": "basketball",
-  tennis: "tennis",
-  "tennis ball": "tennis",
-  football: "football",
-  handball: "handball",
-  volleyball: "volleyball",
-  "ping-pong ball": "ping-pong",
-  "golf ball": "golf",
-  superball: "superball",
-  marble: "marble",
-  "steel ball": "steel",
+  basketball: { balls: ["basketball", "big basketball"], half: "M-1 0H1M0-1V0M-.72-.69Q-.4-.36-.4 0M.72-.69Q.4-.36.4 0", like: 1 },
+  tennis: { balls: ["tennis", "tennis ball"], half: "M-.6-.8Q-.12-.5-.12 0M.6-.8Q.12-.5.12 0", wide: true },
+  football: { balls: ["football"], half: "M-.42 0L-.24-.34H.24L.42 0ZM-.24-.34L-.4-.66M.24-.34L.4-.66M.42 0H.8M-.42 0H-.8M-.4-.66H.4L.3-.92H-.3ZM.8 0L.86-.4.97-.2V0ZM-.8 0L-.86-.4-.97-.2V0Z", filled: true },
+  handball: { balls: ["handball"], half: "M-.5 0L-.25-.43H.25L.5 0M-.25-.43L-.48-.86M.25-.43L.48-.86M.5 0H1M-.5 0H-1" },
+  volleyball: { balls: ["volleyball"], half: "M-.98-.2Q0-.5.98-.2L.83-.55Q0-.95-.83-.55Z", filled: true, like: 0 },
+  "ping-pong": { balls: ["ping-pong ball"], half: "M-1 0L-.98-.2H.98L1 0Z", filled: true, like: 4 },
+  golf: { balls: ["golf ball"], half: "M0-.15h0M-.3-.15h0M.3-.15h0M-.6-.15h0M.6-.15h0M-.15-.42h0M.15-.42h0M-.45-.42h0M.45-.42h0M-.3-.68h0M0-.68h0M.3-.68h0M-.74-.42h0M.74-.42h0M-.86-.15h0M.86-.15h0M0-.9h0", wide: true, like: 2 },
+  superball: { balls: ["superball"], half: "M-.92-.38C-.5 0-.4-.9 0-.55S.5-.1.92-.38M-.6-.8C-.3-.6-.1-1 .6-.8", like: 3 },
+  marble: { balls: ["marble"], half: "M-.8 0Q-.4-.75 0 0Q.4-.75.8 0Z", filled: true, like: 2 },
+  steel: { balls: ["steel ball"], half: "M-.72-.42Q-.35-.88.3-.82M-.5-.34Q-.3-.58 0-.6" },
 };
 
 /** Return the kind of a ball by its name, or null. */
 function kindOf({ name }) {
-  return Object.hasOwn(KINDS, name ?? "") ? KINDS[name] : null;
+  return Object.keys(LOOKS).find((kind) => LOOKS[kind].balls.includes(name)) ?? null;
 }
 
 /** Return the colour of each place for these balls, as CSS writes it; null for the place's own. */

@@ -37,9 +37,7 @@ export function mountMomentum(root, store, clock) {
       if (clock.legible) write(value, fixed(now[row], 3));
     });
   };
-  store.subscribe((state, before) => {
-    if (state.result !== before.result || state.momentum !== before.momentum) build();
-  });
+  store.watch(["result", "momentum"], build);
   clock.subscribe(draw);
   new ResizeObserver(([{ contentRect }]) => {
     if (contentRect.width !== width) {
@@ -65,8 +63,8 @@ function barsOf(drop, film, width) {
   const rows = before.map((_, row) => {
     const y = row * ROW;
     const ball = order[row];
-    const bar = s("rect", { class: ball === undefined ? "momentum-bar sum" : "momentum-bar", y: y + 3, height: ROW - 6, x: zero });
-    if (ball !== undefined) bar.style.setProperty("--ball", `var(--ball-${ball % 6})`);
+    const look = ball === undefined ? { class: "momentum-bar sum" } : { class: "momentum-bar", "--ball": `var(--ball-${ball % 6})` };
+    const bar = s("rect", { ...look, y: y + 3, height: ROW - 6, x: zero });
     const mark = (value, name) => s("line", { class: name, x1: zero + value * scale, x2: zero + value * scale, y1: y + 1, y2: y + ROW - 1 });
     const value = s("text", { x: width - 2, y: y + 13, "text-anchor": "end" });
     const name = s("text", { x: 0, y: y + 13, text: ball === undefined ? t("sum") : shortBall(drop, ball).slice(0, 13) });

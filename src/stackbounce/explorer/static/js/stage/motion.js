@@ -113,7 +113,7 @@ function flightsOf({ time: times, position, leaves }, freed, last, g, floor) {
     const flies = (ball) => time > own[ball].from && time <= last;
     return position.every((_, ball) => ball === 0 || !(flies(ball) || flies(ball - 1)) || where(ball, time, i) >= where(ball - 1, time, i));
   });
-  const speeds = own.map((one) => flightAt({ ...one, lands: Infinity }, last, g).velocity);
+  const speeds = own.map((flight) => flightAt({ ...flight, lands: Infinity }, last, g).velocity);
   const parting = speeds.every((speed, ball) => ball === 0 || speed >= speeds[ball - 1]);
   return apart && parting ? own : position.map((_, ball) => flight(ball, last));
 }

@@ -23,7 +23,7 @@ export function drawRuler(root, { film, camera, result, floor, width, middle }) 
     const [x, x1, y] = [width - (tick ? 8 : BESIDE), tick ? 0 : middle, !tick && width < SLIM ? BELOW : ABOVE];
     return { group: lineOf(present, { name, x, x1, width, text, y }), height, ball: top };
   };
-  const step = STEPS.find((one) => one * camera.far.move >= APART) ?? 1e5;
+  const step = STEPS.find((apart) => apart * camera.far.move >= APART) ?? 1e5;
   const room = floor - camera.far.rest[top] + camera.far.radius[top] - 30;
   const count = film.floor ? Math.floor(room / (step * camera.far.move)) : 0;
   const lines = Array.from({ length: count }, (_, i) => line(step * (i + 1), "tick", `${format(step * (i + 1), 4)} m`));

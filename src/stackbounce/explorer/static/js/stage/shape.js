@@ -33,7 +33,7 @@ export function magnification(result, asked) {
   const room = Math.min(...rooms);
   if (asked !== null) return Math.min(asked, room);
   const third = Math.min(...compression.map((c, i) => (c > 0 ? smaller(radius, i) / 3 / c : Infinity)));
-  const nice = MAGNIFICATIONS.filter((one) => one <= third).at(-1) ?? 1;
+  const nice = MAGNIFICATIONS.filter((times) => times <= third).at(-1) ?? 1;
   return Number.isFinite(third) ? Math.min(nice, room) : 1;
 }
 

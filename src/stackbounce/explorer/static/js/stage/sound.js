@@ -1,5 +1,7 @@
 /** A knock at the begin of each contact: as loud as its peak force, and as high as its contact time is short. */
 
+import { clamp } from "./shape.js";
+
 const LOUDEST = 0.6; // of what the machine can play, for the strongest contact of the drop
 const QUIETEST = 0.05;
 const PITCHES = [90, 4000]; // Hz, what small loudspeakers play
@@ -13,13 +15,13 @@ export function knocksOf({ intervals }) {
     Math.max(...some.map(strength)),
   );
   return intervals
-    .map((one) => {
-      const most = Number.isFinite(one.peak_force) ? strongest : hardest;
-      const lasts = one.end === null ? Infinity : one.end - one.start;
+    .map((interval) => {
+      const most = Number.isFinite(interval.peak_force) ? strongest : hardest;
+      const lasts = interval.end === null ? Infinity : interval.end - interval.start;
       return {
-        time: one.start,
-        loudness: within(Math.sqrt(strength(one) / most) || 0, QUIETEST, 1), // the ear hears a quarter as half
-        pitch: within(1 / lasts, ...PITCHES),
+        time: interval.start,
+        loudness: clamp(Math.sqrt(strength(interval) / most) || 0, QUIETEST, 1), // the ear hears a quarter as half
+        pitch: clamp(1 / lasts, ...PITCHES),
       };
     })
     .sort((a, b) => a.time - b.time);
@@ -66,8 +68,4 @@ function knock(context, { loudness, pitch }) {
   tone.connect(volume).connect(context.destination);
   tone.start(now);
   tone.stop(now + RINGS);
-}
-
-function within(value, low, high) {
-  return Math.min(Math.max(value, low), high);
 }

@@ -66,7 +66,7 @@ export function mountStage(root, store, clock, onRuler = () => null) {
     const names = JSON.stringify(result.drop.balls.map((_, ball) => ballName(result.drop, ball)));
     if (names !== stack) {
       balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball, light)));
-      trails.replaceChildren(...result.drop.balls.map((_, ball) => trail(ball)));
+      trails.replaceChildren(...result.drop.balls.map((_, ball) => s("line", { class: "trail", "--ball": `var(--ball-${ball % 6})` })));
     }
     if (names !== stack || Boolean(film.ghosts) !== ghosts.hasChildNodes()) ghosts.replaceChildren(...(film.ghosts ? ghostGroup(result.drop) : []));
     stack = names;
@@ -105,11 +105,8 @@ export function mountStage(root, store, clock, onRuler = () => null) {
     balls.classList.toggle("no-arrows", !arrows);
     centre.classList.toggle("hidden", !mass);
   };
-  store.subscribe((state, before) => {
-    const changed = (...names) => names.some((name) => state[name] !== before[name]);
-    if (changed("result", "magnify", "kept", "predict")) build();
-    if (changed("ghosts", "arrows", "centre")) showParts();
-  });
+  store.watch(["result", "magnify", "kept", "predict"], build);
+  store.watch(["ghosts", "arrows", "centre"], showParts);
   clock.subscribe(draw);
   new ResizeObserver(([{ contentRect }]) => {
     size = contentRect;
@@ -125,12 +122,6 @@ function drawGround(ground, { film, floor }, width) {
     s("rect", { class: "ground-fill", x: 0, y: floor, width, height: FOOT }),
     s("line", { class: "ground-line", x1: 0, x2: width, y1: floor, y2: floor }),
   );
-}
-
-function trail(ball) {
-  const line = s("line", { class: "trail" });
-  line.style.setProperty("--ball", `var(--ball-${ball % 6})`);
-  return line;
 }
 
 /** Draw how far each ball has come since the impact. */

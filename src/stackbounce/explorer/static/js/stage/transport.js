@@ -1,8 +1,8 @@
 /** Playback: play, replay, events, the film's speed, and what the stage shows. */
 
-import { h, put, write } from "../dom.js";
+import { button, h, put, write } from "../dom.js";
 import { GRAVITY } from "../set_up/drops.js";
-import { choice } from "../set_up/fields.js";
+import { check, choice } from "../set_up/fields.js";
 import { t } from "../words/language.js";
 import { format } from "../words/units.js";
 import { moment } from "../words/words.js";
@@ -14,7 +14,7 @@ const SPEEDS = { min: -3, max: 2, step: 0.25 }; // the film's, as powers of two
 
 /** Build the transport into `root`; it drives the clock, and follows it. */
 export function mountTransport(root, store, clock) {
-  const play = h("button", { type: "button", class: "play", "aria-label": t("Play"), onclick: toggle });
+  const play = button("", toggle, { class: "play", "aria-label": t("Play") });
   const cursor = h("input", {
     type: "range",
     class: "cursor",
@@ -71,10 +71,8 @@ export function mountTransport(root, store, clock) {
   cursor.addEventListener("change", () => keep(store, clock));
   addEventListener("pointerup", () => !clock.playing && keep(store, clock));
   addEventListener("keyup", () => !clock.playing && keep(store, clock));
-  store.subscribe((state, before) => {
-    const changed = ["until", "magnify", "overlays", "predict", "kept", ...SHOWN.map(([name]) => name)].some((name) => state[name] !== before[name]);
-    if (changed || Boolean(state.result?.separate) !== Boolean(before.result?.separate)) showOptions();
-  });
+  store.watch(["until", "magnify", "overlays", "predict", "kept", ...SHOWN.map(([name]) => name)], showOptions);
+  store.watch(["result"], ({ result }, before) => Boolean(result?.separate) !== Boolean(before.result?.separate) && showOptions());
   showOptions();
 }
 
@@ -85,16 +83,11 @@ function keep(store, clock) {
 
 /** Return the row of what is done with the film. */
 function actions(store, clock) {
-  const button = (text, act) => h("button", { type: "button", class: "small", text, onclick: act });
+  const small = (text, act) => button(text, act, { class: "small" });
   const step = (forward) => () => {
     clock.pause();
     clock.step(forward);
     keep(store, clock);
-  };
-  const replay = () => {
-    clock.pause();
-    clock.seek(clock.begin);
-    clock.play();
   };
   const slider = h("input", {
     type: "range",
@@ -104,23 +97,23 @@ function actions(store, clock) {
     oninput: () => store.set({ speed: 2 ** Number(slider.value) }),
   });
   const told = h("output", { class: "speed-told", for: "film-speed", "aria-live": "off" });
-  const loop = h("input", { type: "checkbox", onchange: () => store.set({ loop: loop.checked }) });
+  const loop = check(t("Loop"), false, (on) => store.set({ loop: on }));
   const show = () => {
     const { speed, loop: again } = store.get();
     slider.value = Math.log2(speed);
-    loop.checked = again;
+    loop.querySelector("input").checked = again;
     write(told, `×${format(speed, 2)}`);
     put(slider, "aria-valuetext", t("{times} times", { times: format(speed, 2) }));
   };
-  store.subscribe((state, before) => (state.speed !== before.speed || state.loop !== before.loop) && show());
+  store.watch(["speed", "loop"], show);
   show();
   return h(
     "div",
     { class: "actions" },
-    button(t("Replay"), replay),
-    button(t("Previous event"), step(false)),
-    button(t("Next event"), step(true)),
-    h("label", { class: "check" }, loop, t("Loop")),
+    small(t("Replay"), () => clock.replay()),
+    small(t("Previous event"), step(false)),
+    small(t("Next event"), step(true)),
+    loop,
     h("span", { class: "film-speed" }, h("label", { for: "film-speed", text: t("Speed of the film") }), slider, told),
   );
 }
@@ -142,16 +135,11 @@ function switches(store) {
   );
   parts.push(check(t("Whole drop"), until !== null, (on) => store.set(on ? whole(store.get()) : alone(store.get()))));
   if (until === null) {
-    const sizes = [...new Set(magnify === null ? MAGNIFY : [...MAGNIFY, magnify])].sort((a, b) => a - b).map((one) => [one, `×${format(one, 3)}`]);
+    const sizes = [...new Set(magnify === null ? MAGNIFY : [...MAGNIFY, magnify])].sort((a, b) => a - b).map((times) => [times, `×${format(times, 3)}`]);
     const set = (value) => store.set({ magnify: value === "" ? null : Number(value) });
     parts.push(
       check(t("Predict first"), predict, (on) => store.set({ predict: on, guess: null })),
-      h("button", {
-        type: "button",
-        class: "small",
-        text: kept ? t("Let go what was kept") : t("Keep this one to compare"),
-        onclick: () => store.set({ kept: kept ? null : store.get().result }),
-      }),
+      button(kept ? t("Let go what was kept") : t("Keep this one to compare"), () => store.set({ kept: kept ? null : store.get().result }), { class: "small" }),
       choice({ label: t("Movement"), groups: [["", [["", t("auto")], ...sizes]]], value: magnify ?? "", set }),
     );
   }
@@ -159,11 +147,6 @@ function switches(store) {
     parts.push(h("p", { class: "note", text: t("The measured track is of the whole drop: show that to see it.") }));
   }
   return parts;
-}
-
-function check(text, checked, set) {
-  const box = h("input", { type: "checkbox", checked, onchange: (event) => set(event.target.checked) });
-  return h("label", { class: "check" }, box, text);
 }
 
 let before = 0; // m/s², gravity during the impact, when a whole drop was asked for

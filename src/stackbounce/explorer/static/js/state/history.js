@@ -1,6 +1,6 @@
 /** Undo and redo of the drop's numbers: one movement of a slider is one step. */
 
-import { h } from "../dom.js";
+import { button } from "../dom.js";
 import { t } from "../words/language.js";
 import { FIRST_DROP, withExample } from "./store.js";
 
@@ -13,10 +13,10 @@ const TYPED = "input:not([type]), input[type=text], input[type=search], textarea
 export function mountHistory(root, store) {
   const steps = record(store);
   const anew = () => store.set(withExample(store.get(), FIRST_DROP));
-  const button = (text, key, act) => h("button", { type: "button", class: "small", text, "data-key": key, "aria-keyshortcuts": KEYS[key], onclick: act });
-  const undo = button(t("Undo"), "undo", steps.undo);
-  const redo = button(t("Redo"), "redo", steps.redo);
-  root.replaceChildren(undo, redo, button(t("Reset"), "anew", anew));
+  const named = (key) => ({ class: "small", "data-key": key, "aria-keyshortcuts": KEYS[key] });
+  const undo = button(t("Undo"), steps.undo, named("undo"));
+  const redo = button(t("Redo"), steps.redo, named("redo"));
+  root.replaceChildren(undo, redo, button(t("Reset"), anew, named("anew")));
   const show = () => {
     enable(undo, steps.canUndo(), redo);
     enable(redo, steps.canRedo(), undo);

@@ -1,7 +1,7 @@
 /** Share: the link, the numbers, the pictures, the scenario. */
 
 import { write as addressOf } from "./address.js";
-import { h, write } from "../dom.js";
+import { button, h, write } from "../dom.js";
 import { t, writeTold } from "../words/language.js";
 import { placesBox } from "../views/places.js";
 
@@ -38,14 +38,14 @@ export function mountShare(root, store, api) {
       writeTold(said, error.message);
     }
   };
-  const button = (text, act) => h("button", { type: "button", class: "small", text, onclick: act });
+  const small = (text, act) => button(text, act, { class: "small" });
   const places = placesBox(api);
   const list = h(
     "div",
     { class: "share-list" },
-    button(shared ? t("Copy link") : t("Copy state"), copy),
-    FILES.map(([kind, text, ending]) => button(text, () => save(kind, ending))),
-    button(t("Print"), () => print()),
+    small(shared ? t("Copy link") : t("Copy state"), copy),
+    FILES.map(([kind, text, ending]) => small(text, () => save(kind, ending))),
+    small(t("Print"), () => print()),
     said,
     places.element,
   );

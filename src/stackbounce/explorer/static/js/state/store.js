@@ -61,7 +61,7 @@ export function withExample({ replay, visits }, drop) {
   return { drop, errors: {}, notes: [], ...shown, replay: replay + 1, visits: visits + 1 };
 }
 
-/** Return a store: `get()`, `set(patch)`, `subscribe(listener)`, `derive(follows)`. */
+/** Return a store: `get()`, `set(patch)`, `subscribe(listener)`, `watch(names, listener)`, `derive(follows)`. */
 export function createStore(first = {}) {
   let state = { ...FIRST, ...first };
   const listeners = new Set();
@@ -80,7 +80,12 @@ export function createStore(first = {}) {
     listeners.add(listener);
     return () => listeners.delete(listener);
   };
+  /** Call a listener with (state, before) after each change of some of the state's members. */
+  const watch = (names, listener) =>
+    subscribe((now, before) => {
+      if (names.some((name) => now[name] !== before[name])) listener(now, before);
+    });
   /** Let a function of (state, before) return what else changes with each change, before anybody hears of it. */
   const derive = (follows) => derivations.add(follows);
-  return { get, set, subscribe, derive };
+  return { get, set, subscribe, watch, derive };
 }

@@ -1,6 +1,6 @@
 /** The results: speeds, ratios, heights, collisions and energy, beside those of separate collisions. */
 
-import { d, renew } from "../dom.js";
+import { h } from "../dom.js";
 import { GRAVITY, speedOf } from "../set_up/drops.js";
 import { t, translated } from "../words/language.js";
 import { withSpread } from "../words/quantity.js";
@@ -12,28 +12,26 @@ export function mountNumbers({ root, table }, store) {
   const box = table.closest("details");
   const showIntervals = () => {
     const { result } = store.get();
-    if (result && box.open) renew(table, intervalTable(result));
+    if (result && box.open) table.replaceChildren(intervalTable(result));
   };
   box.addEventListener("toggle", showIntervals);
   const show = () => {
     const { result, until, prediction, kept } = store.get();
     if (!result) return;
-    const compared = kept && until === null ? [d("h3", { class: "kept-title", text: t("Kept to compare") }), ballTable(kept, null, null)] : [];
-    renew(root, ballTable(result, until, prediction), facts(result, until, prediction), ...compared);
+    const compared = kept && until === null ? [h("h3", { class: "kept-title", text: t("Kept to compare") }), ballTable(kept, null, null)] : [];
+    root.replaceChildren(ballTable(result, until, prediction), facts(result, until, prediction), ...compared);
     showIntervals();
   };
-  store.subscribe((state, before) => {
-    if (["result", "prediction", "kept"].some((name) => state[name] !== before[name])) show();
-  });
+  store.watch(["result", "prediction", "kept"], show);
 }
 
 function columns(...names) {
-  return d("tr", {}, names.map((name) => d("th", { scope: "col" }, ...[name].flat())));
+  return h("tr", {}, names.map((name) => h("th", { scope: "col" }, ...[name].flat())));
 }
 
 function row(name, index, ...cells) {
-  const swatch = d("span", { class: "swatch", "aria-hidden": "true", "--ball": `var(--ball-${index % 6})` });
-  return d("tr", {}, d("th", { scope: "row" }, swatch, name), cells.map((cell) => d("td", {}, cell)));
+  const swatch = h("span", { class: "swatch", "aria-hidden": "true", "--ball": `var(--ball-${index % 6})` });
+  return h("tr", {}, h("th", { scope: "row" }, swatch, name), cells.map((cell) => h("td", {}, cell)));
 }
 
 /** Return the separate collisions' numbers, where there are any. */
@@ -49,15 +47,15 @@ function ballTable(result, until, prediction) {
   const theirs = separate && (until === null ? impactColumns(result, separate, null, false).slice(1) : wholeColumns(result, separate.position));
   const all = [...own, ...(theirs ?? [])];
   const when = until === null ? t("After the impact") : t("Within {time} s", { time: format(until) });
-  const groups = [d("td"), d("th", { scope: "colgroup", colspan: own.length, text: when })];
-  if (theirs) groups.push(d("th", { scope: "colgroup", colspan: theirs.length, text: t("Textbook") }));
+  const groups = [h("td"), h("th", { scope: "colgroup", colspan: own.length, text: when })];
+  if (theirs) groups.push(h("th", { scope: "colgroup", colspan: theirs.length, text: t("Textbook") }));
   const rows = drop.balls.map((_, ball) => row(ballName(drop, ball), ball, ...all.map(({ cell }) => cell(ball))));
-  return d(
+  return h(
     "table",
     { class: until === null ? "numbers-table" : "numbers-table whole" },
-    d("caption", { class: "quiet", text: t("Speeds and heights of the balls, the highest ball first") }),
-    d("thead", {}, d("tr", { class: "groups" }, groups), columns(t("Ball"), ...all.map(({ name }) => name))),
-    d("tbody", {}, rows.reverse()),
+    h("caption", { class: "quiet", text: t("Speeds and heights of the balls, the highest ball first") }),
+    h("thead", {}, h("tr", { class: "groups" }, groups), columns(t("Ball"), ...all.map(({ name }) => name))),
+    h("tbody", {}, rows.reverse()),
   );
 }
 
@@ -101,7 +99,7 @@ function times(reached, fallen) {
 
 /** Return a text that is hidden on a phone. */
 function wide(text) {
-  return d("span", { class: "wide-only", text });
+  return h("span", { class: "wide-only", text });
 }
 
 /** Energy, collisions and how the run ended. */
@@ -109,8 +107,8 @@ function facts(result, until, prediction) {
   const { drop } = result;
   const separate = textbook(result);
   const pair = (name, own, other, attributes = {}) => {
-    const beside = other === undefined ? null : d("small", { text: ` ${t("textbook {value}", { value: other })}` });
-    return d("div", attributes, d("dt", { text: name }), d("dd", {}, own, beside));
+    const beside = other === undefined ? null : h("small", { text: ` ${t("textbook {value}", { value: other })}` });
+    return h("div", attributes, h("dt", { text: name }), h("dd", {}, own, beside));
   };
   const list = [pair(t("Impact speed"), `${format(result.reference_speed, 3)} m/s`)];
   if (until === null) {
@@ -132,12 +130,12 @@ function facts(result, until, prediction) {
   if (said) list.push(pair(t("Errors"), said));
   const asked = until !== null && result.status === "TIME_REACHED";
   if (result.status !== "FINISHED" && !asked) list.push(pair(t("Note"), capital(translated(result.advice))));
-  return d("dl", { class: "facts" }, list);
+  return h("dl", { class: "facts" }, list);
 }
 
 /** The whole impulse of each contact. */
 function impulses({ drop, intervals }) {
-  const sums = drop.contacts.map((_, contact) => intervals.filter((one) => one.contact === contact).reduce((sum, one) => sum + one.impulse, 0));
+  const sums = drop.contacts.map((_, contact) => intervals.filter((interval) => interval.contact === contact).reduce((sum, interval) => sum + interval.impulse, 0));
   const met = sums.map((sum, contact) => `${shortContact(drop, contact)}: ${format(sum, 3)} N s`);
   return met.filter((_, contact) => drop.contacts[contact]?.law !== "none").join(", ");
 }
@@ -169,24 +167,24 @@ const HEADS = () => [t("Contact"), t("from ms"), t("to ms"), t("for ms"), t("pea
 /** The table of the contact intervals. */
 function intervalTable({ drop, intervals }) {
   const ms = (time) => (time === null ? "–" : fixed(time * 1e3, 3));
-  const rows = intervals.slice(0, 200).map((one) =>
+  const rows = intervals.slice(0, 200).map((interval) =>
     row(
-      contactName(drop, one.contact),
-      one.contact,
-      ms(one.start),
-      ms(one.end),
-      one.end === null ? "–" : ms(one.end - one.start),
-      one.peak_force === null ? "–" : format(one.peak_force, 4),
-      format(one.peak_compression * 1e3, 4),
-      format(one.impulse, 4),
+      contactName(drop, interval.contact),
+      interval.contact,
+      ms(interval.start),
+      ms(interval.end),
+      interval.end === null ? "–" : ms(interval.end - interval.start),
+      interval.peak_force === null ? "–" : format(interval.peak_force, 4),
+      format(interval.peak_compression * 1e3, 4),
+      format(interval.impulse, 4),
     ),
   );
   const more = intervals.length > rows.length ? ` ${t("The first {some} of {all}.", { some: rows.length, all: intervals.length })}` : "";
-  return d(
+  return h(
     "table",
     {},
-    d("caption", { text: `${t("Each time a contact was closed.")}${more}` }),
-    d("thead", {}, columns(...HEADS())),
-    d("tbody", {}, rows),
+    h("caption", { text: `${t("Each time a contact was closed.")}${more}` }),
+    h("thead", {}, columns(...HEADS())),
+    h("tbody", {}, rows),
   );
 }

@@ -12,8 +12,8 @@ export function mountTabs(store, openers) {
   const opened = new Set();
   const show = () => {
     const { view } = store.get();
-    VIEWS.forEach((one, i) => {
-      const here = one === view;
+    VIEWS.forEach((name, i) => {
+      const here = name === view;
       tabs[i].setAttribute("aria-selected", String(here));
       tabs[i].tabIndex = here ? 0 : -1;
       sections[i].hidden = !here;
@@ -33,8 +33,6 @@ export function mountTabs(store, openers) {
       tabs[place].focus();
     });
   });
-  store.subscribe((state, before) => {
-    if (state.view !== before.view) show();
-  });
+  store.watch(["view"], show);
   show();
 }

@@ -1,23 +1,23 @@
 /** Which language the page is in: that of its address, else the first of the browser's that there is, else English. */
 
-/** The languages, as `[code, own name]`. */
+/** The languages with the names that they have themselves; all but English have a table in `languages/`. */
 export const LANGUAGES = [
-  ["en", "English"],
-  ["de", "Deutsch"],
-  ["fr", "Français"],
-  ["es", "Español"],
+  { code: "en", name: "English", decimal: "." },
+  { code: "de", name: "Deutsch", decimal: "," },
+  { code: "fr", name: "Français", decimal: "," },
+  { code: "es", name: "Español", decimal: "," },
 ];
 
 /** Return whether there is a language of this code. */
 export function isLanguage(code) {
-  return LANGUAGES.some(([own]) => own === code);
+  return LANGUAGES.some((known) => known.code === code);
 }
 
 /** Return the code of the language that an address's fragment and a browser's list of languages ask for. */
 export function chosen(fragment, browser) {
   const asked = /(?:^#?|&)lang=(\w+)/.exec(fragment)?.[1];
   if (isLanguage(asked)) return asked;
-  return browser.map((one) => one.slice(0, 2).toLowerCase()).find(isLanguage) ?? "en";
+  return browser.map((name) => name.slice(0, 2).toLowerCase()).find(isLanguage) ?? "en";
 }
 
 /** The code of the page's language; a worker and node speak English. */

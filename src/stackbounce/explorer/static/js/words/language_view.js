@@ -7,12 +7,12 @@ import { LANGUAGES, language } from "./language_choice.js";
 
 /** Build the choice into `root`; another language shows the page anew, in the state that its address holds. */
 export function mountLanguage(root, store) {
-  const options = LANGUAGES.map(([code, name]) => h("option", { value: code, lang: code, text: name, selected: code === language }));
+  const options = LANGUAGES.map(({ code, name }) => h("option", { value: code, lang: code, text: name, selected: code === language }));
   const set = (event) => store.set({ lang: event.target.value });
   const select = h("select", { "aria-label": t("Language"), "data-key": "language", onchange: set }, options);
   root.replaceChildren(h("span", { class: "language-code", "aria-hidden": "true", text: language.toUpperCase() }), select);
-  store.subscribe(({ lang }, before) => {
-    if (lang === before.lang || lang === language) return;
+  store.watch(["lang"], ({ lang }) => {
+    if (lang === language) return;
     history.replaceState(history.state, "", `#${addressOf(store.get())}`);
     location.reload();
   });

@@ -54,7 +54,7 @@ function wholeOutcome({ drop, frames }, until) {
 }
 
 function textbookOf({ separate }) {
-  return separate && !separate.error && separate.rebound_ratios.every((one) => one !== null) ? separate.rebound_ratios : null;
+  return separate && !separate.error && separate.rebound_ratios.every((ratio) => ratio !== null) ? separate.rebound_ratios : null;
 }
 
 /** Return a sentence without its end: how a ball moves after the impact, in terms of the speed of the impact. */
@@ -116,7 +116,7 @@ function reason({ balls }, together, differs) {
 
 /** Return whether two contacts are closed at the same time. */
 function arePressedTogether({ intervals }) {
-  return intervals.some((one, i) =>
-    intervals.slice(i + 1).some((other) => other.contact !== one.contact && Math.min(one.end, other.end) > Math.max(one.start, other.start)),
+  return intervals.some((interval, i) =>
+    intervals.slice(i + 1).some((other) => other.contact !== interval.contact && Math.min(interval.end, other.end) > Math.max(interval.start, other.start)),
   );
 }

@@ -25,9 +25,7 @@ export function mountSentence(root, live, store) {
     clearTimeout(timer);
     timer = setTimeout(() => write(live, `${said.lead} ${about}${said.more}`), SETTLED);
   };
-  store.subscribe((state, before) => {
-    if (["result", "predict", "guess"].some((name) => state[name] !== before[name])) show();
-  });
+  store.watch(["result", "predict", "guess"], show);
 }
 
 function question({ drop }) {

@@ -1,6 +1,6 @@
 /** Units on screen: numbers are SI everywhere else. */
 
-import { language } from "./language_choice.js";
+import { LANGUAGES, language } from "./language_choice.js";
 
 /** For each SI unit what people use, and how many SI units one of it is. */
 const SHOWN = {
@@ -24,7 +24,7 @@ const WRITTEN = {
 };
 
 /** Whether the page's language has decimal commas. */
-const COMMA = ["de", "es", "fr"].includes(language);
+const COMMA = LANGUAGES.find(({ code }) => code === language).decimal === ",";
 
 const QUANTITY = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;
 

@@ -1,10 +1,10 @@
 /** Draws a line as SVG, which is also the picture that is saved: axes, curves, and names at their ends. */
 
-import { ds, s } from "../../dom.js";
+import { s } from "../../dom.js";
+import { extentOf } from "../../extent.js";
 import { t, translated } from "../../words/language.js";
 import { nameOf } from "./in_words.js";
-import { sideOf, ticks } from "../map/axes.js";
-import { fitting, marks } from "../map/draw.js";
+import { fitting, marks, sideOf, ticks } from "../drawing/axes.js";
 import { colorOf, LETTERS, SMALL } from "../../plots/palette.js";
 import { clean, format, pretty } from "../../words/units.js";
 
@@ -19,7 +19,7 @@ const APART = 55; // px between two marks of the values, about
 const pen = document.createElement("canvas").getContext("2d");
 
 /**
- * Return `{svg, frame, y}`: the drawing's description, where its field lies in px, and the scale of its values.
+ * Return `{svg, frame, y}`: the drawing, where its field lies in px, and the scale of its values.
  * @param {object} answer what was computed @param {object} size `{width, height}` @param {object} colors by name
  * @param {object[]} measured `{value, error}` of each ball; empty for none
  */
@@ -37,7 +37,7 @@ export function drawLine(answer, { width, height }, colors, measured) {
     x: (part) => frame.left + part * frame.width,
     y: (value) => frame.top + (1 - y.part(value)) * frame.height,
   };
-  const svg = ds(
+  const svg = s(
     "svg",
     { width, height, viewBox: `0 0 ${width} ${height}`, "font-size": SMALL, "font-family": FONT, fill: colors.text },
     drawAcross(answer, frame, place, colors),
@@ -54,8 +54,7 @@ function scaleOf({ curves, show }, measured, most) {
   const all = curves.flatMap(({ values, textbook }) => [...values, ...(textbook?.values ?? [])]);
   const known = all.filter((value) => isDrawn(show, value));
   if (show === "rebound_ratio") for (const { value, error } of measured) known.push(value - error, value + error);
-  let low = known.reduce((a, b) => Math.min(a, b), Infinity);
-  let high = known.reduce((a, b) => Math.max(a, b), -Infinity);
+  let [low, high] = extentOf(known);
   if (!known.length || (show === "energy_retained" && high < 1 + NOISE)) [low, high] = [0, 1];
   if (low > 0 && low < 0.6 * high) low = 0;
   if (high < 0 && high > 0.6 * low) high = 0;
@@ -72,10 +71,10 @@ function drawAcross(answer, frame, place, colors) {
   const { title, ticks: found } = marks(answer.x, { ...answer.x, label: translated(answer.x.label) }, Math.max(Math.floor(frame.width / 80), 2));
   const lines = found.flatMap(({ part, text }) => [
     text === null ? rule(place.x(part), bottom, place.x(part), bottom + 3, colors.muted) : rule(place.x(part), frame.top, place.x(part), bottom + 5, colors.line),
-    text === null ? null : ds("text", { x: place.x(part), y: bottom + 19, "text-anchor": "middle", text }),
+    text === null ? null : s("text", { x: place.x(part), y: bottom + 19, "text-anchor": "middle", text }),
   ]);
   const named = fitting(pen, title, frame.width + 40);
-  return [...lines.filter(Boolean), ds("text", { x: frame.left + frame.width / 2, y: bottom + 38, "text-anchor": "middle", text: named })];
+  return [...lines.filter(Boolean), s("text", { x: frame.left + frame.width / 2, y: bottom + 38, "text-anchor": "middle", text: named })];
 }
 
 function drawUp({ show, unit }, all, frame, place, colors) {
@@ -84,7 +83,7 @@ function drawUp({ show, unit }, all, frame, place, colors) {
   const ending = show === "energy_retained" ? " %" : unit ? ` ${pretty(unit)}` : "";
   return found.flatMap(({ value }, i) => [
     rule(frame.left, place.y(value), frame.left + frame.width, place.y(value), value === 0 ? colors.muted : colors.line),
-    ds("text", {
+    s("text", {
       x: frame.left - 8,
       y: place.y(value),
       dy: 4,
@@ -95,7 +94,7 @@ function drawUp({ show, unit }, all, frame, place, colors) {
 }
 
 function rule(x1, y1, x2, y2, stroke) {
-  return ds("line", { x1: x1.toFixed(1), y1: y1.toFixed(1), x2: x2.toFixed(1), y2: y2.toFixed(1), stroke });
+  return s("line", { x1: x1.toFixed(1), y1: y1.toFixed(1), x2: x2.toFixed(1), y2: y2.toFixed(1), stroke });
 }
 
 /** Draw the measured speeds as bands, for they were measured at one drop and at no place of the line. */
@@ -107,8 +106,8 @@ function drawMeasured({ show }, measured, frame, place, colors) {
     const text = t("measured {what}", { what: `${format(value, 3)} ± ${format(error, 2)}` });
     const band = { x: frame.left, width: frame.width, y: top.toFixed(1), height: Math.max(bottom - top, 2).toFixed(1), fill: color, opacity: 0.22 };
     const halo = { stroke: colors.card, "stroke-width": 3, "paint-order": "stroke" };
-    const written = ds("text", { x: frame.left + 8, y: (top - 5).toFixed(1), fill: color, ...halo, text });
-    return [ds("rect", { class: "line-measured", ...band }), written];
+    const written = s("text", { x: frame.left + 8, y: (top - 5).toFixed(1), fill: color, ...halo, text });
+    return [s("rect", { class: "line-measured", ...band }), written];
   });
 }
 
@@ -116,16 +115,16 @@ function drawCurves(answer, place, colors) {
   const side = sideOf(answer.x);
   const parts = answer.x.values.map((value) => side.part(value));
   const above = answer.show === "collisions" ? answer.curves.length - 1 : 0; // counts that are the same lie on each other
-  const drawn = (one, index, dashed) => {
+  const drawn = (curve, index, dashed) => {
     const stroke = colorOfCurve(colors, index);
     const wide = 2.2 + 2.4 * Math.max(above - index, 0);
     const look = dashed ? { "stroke-dasharray": "5 4", "stroke-width": 1.4 } : { "stroke-width": wide, "stroke-linejoin": "round" };
-    const { d, joins } = pathOf(answer, one, parts, place);
-    const jump = joins && ds("path", { d: joins, fill: "none", stroke, "stroke-width": 1, "stroke-dasharray": "1 3" });
-    return [jump, ds("path", { class: dashed ? "line-textbook" : "line-curve", "data-curve": index ?? "all", d, fill: "none", stroke, ...look })];
+    const { d, joins } = pathOf(answer, curve, parts, place);
+    const jump = joins && s("path", { d: joins, fill: "none", stroke, "stroke-width": 1, "stroke-dasharray": "1 3" });
+    return [jump, s("path", { class: dashed ? "line-textbook" : "line-curve", "data-curve": index ?? "all", d, fill: "none", stroke, ...look })];
   };
-  const textbook = answer.curves.flatMap(({ index, textbook: one }) => (one ? drawn(one, index, true) : []));
-  return [...textbook, ...answer.curves.flatMap((one) => drawn(one, one.index, false))].filter(Boolean);
+  const textbook = answer.curves.flatMap(({ index, textbook }) => (textbook ? drawn(textbook, index, true) : []));
+  return [...textbook, ...answer.curves.flatMap((curve) => drawn(curve, curve.index, false))].filter(Boolean);
 }
 
 function colorOfCurve(colors, index) {
@@ -177,18 +176,18 @@ function drawNames(names, frame, place) {
   const [top, bottom] = [frame.top + 6, frame.top + frame.height];
   const ends = names.map((name) => ({ ...name, end: place.y(name.value) })).sort((a, b) => a.end - b.end || a.dashed - b.dashed);
   let least = top;
-  for (const one of ends) {
-    one.y = Math.max(one.end, least);
-    least = one.y + ROW;
+  for (const name of ends) {
+    name.y = Math.max(name.end, least);
+    least = name.y + ROW;
   }
   let most = bottom;
-  for (const one of ends.reverse()) {
-    one.y = Math.min(one.y, most);
-    most = one.y - ROW;
+  for (const name of ends.reverse()) {
+    name.y = Math.min(name.y, most);
+    most = name.y - ROW;
   }
   const x = frame.left + frame.width + 8;
   return ends.map(({ text, color, dashed, y }) =>
-    ds("text", { class: "line-name", x, y: y.toFixed(1), dy: 4, fill: color, "font-weight": dashed ? 400 : 600, text }),
+    s("text", { class: "line-name", x, y: y.toFixed(1), dy: 4, fill: color, "font-weight": dashed ? 400 : 600, text }),
   );
 }
 
@@ -217,8 +216,8 @@ function rowsOf(names, width) {
 function drawRows(rows) {
   return rows.flatMap((row, i) =>
     row.flatMap(({ text, color, dashed, x }) => [
-      ds("line", { x1: 10 + x, x2: 28 + x, y1: 8 + ROW * i, y2: 8 + ROW * i, stroke: color, "stroke-width": dashed ? 1.4 : 2.2, "stroke-dasharray": dashed && "5 4" }),
-      ds("text", { class: "line-name", x: 32 + x, y: 12 + ROW * i, fill: color, text }),
+      s("line", { x1: 10 + x, x2: 28 + x, y1: 8 + ROW * i, y2: 8 + ROW * i, stroke: color, "stroke-width": dashed ? 1.4 : 2.2, "stroke-dasharray": dashed && "5 4" }),
+      s("text", { class: "line-name", x: 32 + x, y: 12 + ROW * i, fill: color, text }),
     ]),
   );
 }

@@ -1,41 +1,32 @@
 /** The choices of a line: a figure of the paper, what lies across, and what is shown. */
 
-import { h, write } from "../../dom.js";
+import { button, h } from "../../dom.js";
 import { choice } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
+import { drawingForm } from "../drawing/form.js";
+import { sideForm } from "../drawing/side_form.js";
 import { SHOWS } from "./in_words.js";
-import { patient, sideForm } from "../side_form.js";
 
 /**
- * Return `{element, update({settings, paths, unfit, figure, notice})}`.
- * @param {object[]} figures the paper's lines @param {object} heard `set(settings)`, `use(figure)` and `save(kind)`
+ * Return the form, as `drawingForm` does.
+ * @param {object[]} figures the paper's lines @param {(answer: object) => object} figureOf which of them an answer is
+ * @param {object} heard `set(settings)`, `use(figure)` and `save(kind)`
  */
-export function lineForm(figures, { set, use, save }) {
-  const element = h("form", { class: "view-form line-form", "aria-label": t("What the line shows"), autocomplete: "off" });
-  const says = h("p", { class: "note" });
-  element.addEventListener("submit", (event) => event.preventDefault());
-  let shown = "";
-  const update = ({ settings, paths, unfit, figure }) => {
-    write(says, [wordsOf(unfit), translated(figure?.says)].filter(Boolean).join(" "));
-    const now = JSON.stringify([settings, paths.map(({ path, label }) => [path, label]), figure?.name]);
-    if (now === shown) return;
-    shown = now;
-    const focused = document.activeElement?.dataset?.key;
-    let latest = settings; // a second choice may come before the first one is answered
-    const change = (patch) => {
-      const other = patch.x && patch.x.path !== latest.x.path;
-      set((latest = { ...latest, ...patch }));
-      if (other) update({ settings: latest, paths, unfit: [] }); // its ends are of another unit
-    };
-    element.replaceChildren(
+export function lineForm(figures, figureOf, { set, use, save }) {
+  const saver = (kind, text) => button(text, () => save(kind), { class: "small", "data-key": `line-save-${kind}` });
+  const figureIn = ({ answer }) => answer && figureOf(answer);
+  const fill = (news, { current, change }) => {
+    const { settings, paths, unfit } = news;
+    const figure = figureIn(news);
+    return [
       choice({
         label: t("Curves of the paper"),
         key: "line-figure",
         groups: [["", [["", t("Choose a figure")], ...figures.map(({ name, title }) => [name, translated(title)])]]],
         value: figure?.name ?? "",
-        set: (name) => use(figures.find((one) => one.name === name)),
+        set: (name) => use(figures.find((known) => known.name === name)),
       }),
-      says,
+      h("p", { class: "note", text: [wordsOf(unfit), translated(figure?.says)].filter(Boolean).join(" ") }),
       choice({
         label: t("Shown"),
         key: "line-show",
@@ -43,12 +34,12 @@ export function lineForm(figures, { set, use, save }) {
         value: settings.show,
         set: (show) => change({ show }),
       }),
-      sideForm("line-x", t("Across"), () => latest.x, paths, (x) => change({ x })),
-      h("div", { class: "line-save", role: "group", "aria-label": t("Save the line") }, KINDS.map(([kind, text]) => saver(kind, text, save))),
-    );
-    if (focused?.startsWith("line-")) element.querySelector(`[data-key="${CSS.escape(focused)}"]`)?.focus();
+      sideForm("line-x", t("Across"), () => current().x, paths, (x) => change({ x })),
+      h("div", { class: "line-save", role: "group", "aria-label": t("Save the line") }, KINDS.map(([kind, text]) => saver(kind, text))),
+    ];
   };
-  return { element, update: patient(element, update) };
+  const extra = (news) => [news.unfit, figureIn(news)?.name];
+  return drawingForm({ name: "line", label: t("What the line shows"), extra, fill }, set);
 }
 
 const KINDS = [
@@ -56,10 +47,6 @@ const KINDS = [
   ["svg", "SVG"],
   ["png", "PNG"],
 ];
-
-function saver(kind, text, save) {
-  return h("button", { type: "button", class: "small", "data-key": `line-save-${kind}`, text, onclick: () => save(kind) });
-}
 
 /** Name what the wanted settings have that this drop has not. */
 function wordsOf(unfit) {

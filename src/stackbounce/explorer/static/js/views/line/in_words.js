@@ -1,8 +1,8 @@
 /** A line in words: what it shows, its values at a place, and as a whole. */
 
 import { t, translated } from "../../words/language.js";
-import { sideOf } from "../map/axes.js";
-import { brief, quantity } from "../map/in_words.js";
+import { sideOf } from "../drawing/axes.js";
+import { brief, extremes, quantity } from "../drawing/numbers.js";
 import { format } from "../../words/units.js";
 import { ballName, capital, contactName, count, height, percent } from "../../words/words.js";
 
@@ -26,7 +26,7 @@ export function nameOf({ drop, show }, { index }) {
 export function valueAt({ x, show }, { values, jumps }, part) {
   const side = sideOf(x);
   const parts = x.values.map((value) => side.part(value));
-  const after = parts.findIndex((one) => one >= part);
+  const after = parts.findIndex((place) => place >= part);
   if (after < 0) return values.at(-1);
   if (after === 0) return values[0];
   const [left, right] = [values[after - 1], values[after]];
@@ -70,7 +70,7 @@ export function summary(answer) {
   const { x, show, curves, unfinished } = answer;
   if (!curves.length) return t("This drop has no contact.");
   const sentences = [...curves].reverse().map((curve) => {
-    const [low, high] = extremes(curve.values, show);
+    const [low, high] = extremes(curve.values, show === "collisions");
     const name = capital(nameOf(answer, curve));
     if (low === null) return t("{name}: no point could be finished.", { name });
     const said = (i) => written(show, curve.values[i]);
@@ -80,16 +80,4 @@ export function summary(answer) {
   });
   const open = unfinished ? ` ${t("{some} of {all} points could not be finished: there the curves have gaps.", { some: unfinished, all: x.values.length })}` : "";
   return `${sentences.join(" ")}${open}`;
-}
-
-/** Return the places of the smallest and the largest value; endless collisions, -1, are the most. */
-function extremes(values, show) {
-  const order = (value) => (show === "collisions" && value < 0 ? Infinity : value);
-  let [low, high] = [null, null];
-  values.forEach((value, i) => {
-    if (value === null) return;
-    if (low === null || order(value) < order(values[low])) low = i;
-    if (high === null || order(value) > order(values[high])) high = i;
-  });
-  return [low, high];
 }

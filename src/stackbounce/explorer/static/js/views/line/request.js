@@ -1,19 +1,19 @@
 /** Asks for lines, from coarse to fine. */
 
-import { firstSide, isSide } from "../map/axes.js";
+import { firstSide, isSide } from "../drawing/axes.js";
 import { SHOWS } from "./in_words.js";
 import { oneAtATime } from "../../asking/questions.js";
 
 /** Which numbers are drawn first. */
 const FIRST = ["gaps", "mass_ratio", "contacts", "balls"];
 
-/** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, unfit, answer} or {problem}. */
+/** Return `{ask(drop, wanted), drop()}`; `tell` hears {drop, settings, paths, unfit, answer} or {problem}. */
 export function liner(api, tell) {
   return oneAtATime(async (told, drop, wanted) => {
     const { paths } = await api.mapPaths(drop);
     const { settings, unfit } = complete(wanted, paths);
     const request = { drop, x: settings.x, show: settings.show };
-    const found = (answer) => answer && { settings, paths, unfit, answer };
+    const found = (answer) => answer && { drop, settings, paths, unfit, answer };
     return found(await api.line(request, (part) => told(found(part))));
   }, tell);
 }

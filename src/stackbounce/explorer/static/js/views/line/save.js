@@ -1,6 +1,6 @@
 /** A line as a file: a table of its numbers, or its picture. */
 
-import { made, s } from "../../dom.js";
+import { s } from "../../dom.js";
 import { WIDTH, plain, rasterised } from "../../plots/export_picture.js";
 import { drawLine } from "./draw.js";
 import { paperPalette } from "../../plots/palette.js";
@@ -11,9 +11,8 @@ const HEIGHT = 440;
 export async function fileOf(kind, answer, measured) {
   if (kind === "csv") return new Blob([tableOf(answer)], { type: "text/csv; charset=utf-8" });
   const { svg } = drawLine(answer, { width: WIDTH, height: HEIGHT }, paperPalette(), measured);
-  const picture = made(svg);
-  picture.prepend(s("rect", { width: WIDTH, height: HEIGHT, fill: "white" }));
-  const blob = new Blob([plain(new XMLSerializer().serializeToString(picture))], { type: "image/svg+xml" });
+  svg.prepend(s("rect", { width: WIDTH, height: HEIGHT, fill: "white" }));
+  const blob = new Blob([plain(new XMLSerializer().serializeToString(svg))], { type: "image/svg+xml" });
   return kind === "svg" ? blob : rasterised(blob, HEIGHT);
 }
 

@@ -2,21 +2,21 @@
 
 import { MANY, colorAt, css, isLight } from "../../plots/colors.js";
 import { contour, labelPlace } from "../../plots/contours.js";
-import { sideOf, ticks } from "./axes.js";
+import { fitting, marks, ticks } from "../drawing/axes.js";
 import { LETTERS } from "../../plots/palette.js";
-import { clean, format, pretty, shownUnit } from "../../words/units.js";
+import { format, pretty } from "../../words/units.js";
 
 const KEY = { top: 4, height: 12 }; // of the colours
 const LABEL_ROOM = 26; // px around the label of a line
 
 /** Return where the field lies in a canvas of this size, in px. */
-export function frameOf(width, height) {
+function frameOf(width, height) {
   const [left, right, top, bottom] = [58, 14, 48, 44];
   return { left, top, width: Math.max(width - left - right, 20), height: Math.max(height - top - bottom, 20) };
 }
 
 /** Return a canvas's context, cleared and in CSS px, sized to what it fills. */
-export function prepared(canvas) {
+function prepared(canvas) {
   const { clientWidth: width, clientHeight: height } = canvas;
   const ratio = devicePixelRatio || 1;
   canvas.width = Math.round(width * ratio);
@@ -27,7 +27,7 @@ export function prepared(canvas) {
   return { ctx, width, height };
 }
 
-/** Draw an answer of the server, with the colours of the page. */
+/** Draw a map with the colours of the page; returns where its field lies. */
 export function drawMap(canvas, answer, sides, scale, colors) {
   const { ctx, width, height } = prepared(canvas);
   const frame = frameOf(width, height);
@@ -41,6 +41,7 @@ export function drawMap(canvas, answer, sides, scale, colors) {
   drawBottom(ctx, frame, sides.x, answer.x);
   drawLeft(ctx, frame, sides.y, answer.y);
   drawKey(ctx, frame, scale, answer.unit);
+  return frame;
 }
 
 /** Draw hatching below the field; it shows through where a run did not finish. */
@@ -119,20 +120,6 @@ function drawLabel(ctx, text, x, y, color, light) {
   ctx.fillText(text, x, y);
 }
 
-/** Return a side's ticks in the units that people read, and its title. */
-export function marks(side, { label, unit }, most) {
-  const { unit: name, size } = shownUnit(unit, unit === "m" && Math.max(Math.abs(side.low), Math.abs(side.high)) > 0.2);
-  const places = sideOf(side);
-  const found = ticks(clean(side.low / size), clean(side.high / size), side.log, most);
-  return {
-    title: name ? `${label} (${pretty(name)})` : label,
-    ticks: found.map(({ value, named }) => ({
-      part: places.part(value * size),
-      text: named ? format(value, 4) : null,
-    })),
-  };
-}
-
 function drawBottom(ctx, { left, top, width, height }, side, axis) {
   const { title, ticks: found } = marks(side, axis, Math.max(Math.floor(width / 70), 2));
   const bottom = top + height;
@@ -162,11 +149,6 @@ function drawLeft(ctx, { left, top, width, height }, side, axis) {
   ctx.textAlign = "center";
   ctx.fillText(fitting(ctx, title, height + 20), 0, 0);
   ctx.restore();
-}
-
-/** Return a title, shortened where there is no room. */
-export function fitting(ctx, title, width) {
-  return ctx.measureText(title).width <= width ? title : title.replace(/, .*?(?= \(|$)/, "");
 }
 
 function drawKey(ctx, { left, width }, scale, unit) {

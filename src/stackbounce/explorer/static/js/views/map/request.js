@@ -1,8 +1,8 @@
 /** Asks for maps, from coarse to fine. */
 
 import { lawOf } from "../../set_up/laws.js";
-import { firstSide, isSide } from "./axes.js";
-import { depends } from "./in_words.js";
+import { firstSide, isSide } from "../drawing/axes.js";
+import { depends } from "../drawing/numbers.js";
 import { oneAtATime } from "../../asking/questions.js";
 
 const COARSE = [24, 18];
@@ -15,7 +15,7 @@ function steps(drop, laws) {
   return exact && drop.balls.length <= 2 ? [FINE] : [COARSE, MEDIUM, FINE];
 }
 
-/** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, with an {answer} as well, or {problem}. */
+/** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, with {drop, answer} as well, or {problem}. */
 export function mapper(api, tell) {
   let laws = null;
   return oneAtATime(async (told, drop, wanted) => {
@@ -27,7 +27,7 @@ export function mapper(api, tell) {
       const [x, y] = [{ ...settings.x, count: across }, { ...settings.y, count: up }];
       return { drop, x, y, show: settings.show };
     });
-    const found = (answer) => answer && { settings, paths, shows, answer };
+    const found = (answer) => answer && { drop, settings, paths, shows, answer };
     return found(await api.maps(requests, (part) => told(found(part))));
   }, tell);
 }
@@ -43,7 +43,7 @@ function complete(wanted, paths, shows, drop) {
   const x = known(wanted?.x) ?? best(known(wanted?.y));
   const y = known(wanted?.y) && !depends(wanted.y.path, x.path) ? wanted.y : best(x);
   const last = `rebound_ratio.${drop.balls.length - 1}`;
-  const show = shows.some((one) => one.show === wanted?.show) ? wanted.show : last;
+  const show = shows.some((known) => known.show === wanted?.show) ? wanted.show : last;
   return { x, y, show };
 }
 

@@ -1,67 +1,58 @@
 /** "Use this as a ball's bounce": what a file tells of one ball goes into that ball's contact. */
 
-import { h, write } from "../../dom.js";
+import { button, h, write } from "../../dom.js";
 import { withValue } from "../../set_up/drops.js";
-import { choice } from "../../set_up/fields.js";
-import { t, translated, writeTold } from "../../words/language.js";
+import { problemLine } from "../../set_up/fields.js";
+import { t, translated } from "../../words/language.js";
 import { asBounced } from "../../set_up/laws.js";
 import { formatMeasured } from "../../words/quantity.js";
 import { ballName, capital, contactName, lawName } from "../../words/words.js";
+import { whichBall } from "./which_ball.js";
 
 /** Return `{element, offer(answer), follow()}`: `offer` takes the answer to a file, or null. */
 export function bounceUse(store, api) {
   const says = h("p");
-  const choose = h("div");
   const status = h("p", { class: "note", role: "status" });
-  const problem = h("p", { class: "field-error", role: "alert", hidden: true });
-  const use = h("button", { type: "button", class: "primary", text: t("Use this as the ball’s bounce"), onclick: () => apply() });
-  const see = h("button", { type: "button", text: t("See it in Play"), hidden: true, onclick: () => play() });
+  const problem = problemLine();
+  const use = button(t("Use this as the ball’s bounce"), () => apply(), { class: "primary" });
+  const see = button(t("See it in Play"), () => store.set({ view: "play", t: null, replay: store.get().replay + 1 }), { hidden: true });
+  const which = whichBall(t("Which ball bounced?"), "bounced", use);
   const element = h(
     "section",
     { class: "measure-card bounce-use", "aria-labelledby": "bounce-title", hidden: true },
     h("h2", { id: "bounce-title", text: t("Put it into the stack") }),
     says,
-    choose,
+    which.element,
     h("div", { class: "fit-buttons" }, use, see),
     status,
-    problem,
+    problem.element,
   );
   let answer = null;
-  let chosen = "";
   let names = "";
+  const namesOf = (drop) => JSON.stringify(drop.balls.map((_, ball) => ballName(drop, ball)));
 
   const offer = (next) => {
     answer = next?.bounce ? next : null;
     element.hidden = !answer;
     see.hidden = true;
-    problem.hidden = true;
+    problem.show();
     write(status, "");
     if (!answer) return;
     write(says, known(answer));
     offerBalls();
   };
-  /** Offer the balls of the stack; of several none is guessed. */
   const offerBalls = () => {
     const { drop } = store.get();
-    names = JSON.stringify(drop.balls.map((_, ball) => ballName(drop, ball)));
-    const balls = drop.balls.map((_, ball) => [String(ball), capital(ballName(drop, ball))]);
-    chosen = balls.length === 1 ? "0" : "";
-    use.disabled = chosen === "";
-    const set = (value) => {
-      chosen = value;
-      use.disabled = value === "";
-    };
-    const none = balls.length === 1 ? [] : [["", t("Choose a ball")]];
-    choose.replaceChildren(choice({ label: t("Which ball bounced?"), key: "bounced", groups: [["", [...none, ...balls]]], value: chosen, set }));
+    names = namesOf(drop);
+    which.ask(drop);
   };
   const follow = () => {
-    const { drop } = store.get();
-    if (answer && names !== JSON.stringify(drop.balls.map((_, ball) => ballName(drop, ball)))) offerBalls();
+    if (answer && names !== namesOf(store.get().drop)) offerBalls();
   };
   const apply = async () => {
-    problem.hidden = true;
+    problem.show();
     write(status, "");
-    const ball = Number(chosen);
+    const ball = which.ball();
     const { drop } = store.get();
     try {
       const contact = await asBounced(api, await api.catalogue(), drop, ball, answer.bounce);
@@ -72,13 +63,8 @@ export function bounceUse(store, api) {
       write(status, `${t("{contact} is set: {law}.", values)} ${ball > 0 ? ALONE : ""}`.trim());
       see.hidden = false;
     } catch (error) {
-      writeTold(problem, error.message);
-      problem.hidden = false;
+      problem.show(error.message);
     }
-  };
-  const play = () => {
-    const { replay } = store.get();
-    store.set({ view: "play", t: null, replay: replay + 1 });
   };
   return { element, offer, follow };
 }

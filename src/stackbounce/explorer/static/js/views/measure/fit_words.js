@@ -15,7 +15,7 @@ export function describeFit(answer, labels) {
   const parts = [table(t("Found"), [t("Number"), t("Value")], rows), h("p", { text: describeQuality(answer) })];
   if (residuals.length) {
     const heads = [t("Quantity"), t("Measured"), t("Fitted"), t("Apart, in errors")];
-    parts.push(table(t("Measured and fitted"), heads, residuals.map((one) => compareRow(one, labels))));
+    parts.push(table(t("Measured and fitted"), heads, residuals.map((residual) => compareRow(residual, labels))));
   }
   if (notes.length) parts.push(h("ul", { class: "notes" }, notes.map((text) => h("li", { text }))));
   return parts;
@@ -39,6 +39,15 @@ export function table(caption, heads, rows) {
   );
 }
 
+const UNLIKELY = 1e-3; // the p-value below which a fit is called poor
+
+/** Return one sentence on how well the fitted drop describes the measurement. */
+export function describeVerdict({ probability, chi_squared: squared, degrees_of_freedom: freedom }) {
+  const isPoor = freedom < 1 ? squared > 1 : probability !== null && probability <= UNLIKELY;
+  if (!isPoor) return t("Fitted: the drop is now the best one.");
+  return t("Fitted, but not well: the drop is now the nearest one, and it does not describe what was measured.");
+}
+
 /** Return in words how well the drop describes what was measured. */
 function describeQuality({ chi_squared: squared, degrees_of_freedom: freedom, probability }) {
   if (freedom < 1 && squared > 1) return t("No values of the varied parameters reproduce what was measured.");
@@ -48,7 +57,7 @@ function describeQuality({ chi_squared: squared, degrees_of_freedom: freedom, pr
   const sentence =
     freedom === 1 ? t("Chi squared is {value} for {freedom} degree of freedom", values) : t("Chi squared is {value} for {freedom} degrees of freedom", values);
   const chance = probability === null ? (ratio < 2 ? 1 : 0) : probability;
-  if (ratio > 1 && chance < 1e-3) return t("{sentence}: more than the errors allow. The model misses something, or the errors are larger.", { sentence });
+  if (ratio > 1 && chance < UNLIKELY) return t("{sentence}: more than the errors allow. The model misses something, or the errors are larger.", { sentence });
   if (ratio < 1 && chance > 0.999) return t("{sentence}: less than expected. The errors are probably smaller than stated.", { sentence });
   return t("{sentence}: as good as the errors allow.", { sentence });
 }

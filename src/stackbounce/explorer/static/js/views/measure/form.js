@@ -15,10 +15,9 @@ export function measureForm(options, changed) {
       values[option.name] = value;
       changed();
     };
-    if (option.choices) return chooseField(option, set);
-    return (FIELDS[option.form] ?? textField)(option, set);
+    return option.choices ? chooseField(option, set) : inputField(option, set);
   };
-  const fieldsOf = (rare) => options.filter((one) => one.rare === rare).map(field);
+  const fieldsOf = (rare) => options.filter((option) => option.rare === rare).map(field);
   const element = h(
     "form",
     { class: "measure-options", "aria-label": t("What the file does not say"), autocomplete: "off" },
@@ -31,26 +30,20 @@ export function measureForm(options, changed) {
   return { element, options: () => given(false), files: () => given(true) };
 }
 
-const FIELDS = { flag: checkField, file: fileField };
+/** The inputs by the form of an option: their attributes, and what they give. */
+const INPUTS = {
+  flag: [{ type: "checkbox" }, ({ checked }) => checked],
+  file: [{ type: "file" }, ({ files }) => files[0] ?? ""],
+};
 
 function chooseField({ name, label, example, choices }, set) {
-  const others = choices.filter((one) => one !== example).map((one) => [one, translated(one)]);
+  const others = choices.filter((value) => value !== example).map((value) => [value, translated(value)]);
   return choice({ label: translated(label), groups: [["", [["", translated(example)], ...others]]], value: "", set, key: `option-${name}` });
 }
 
-function textField(option, set) {
-  const text = { type: "text", placeholder: option.example, spellcheck: "false" };
-  return labelledInput(option, { ...text, onchange: (event) => set(event.target.value.trim()) });
-}
-
-function checkField(option, set) {
-  return labelledInput(option, { type: "checkbox", onchange: (event) => set(event.target.checked) });
-}
-
-function fileField(option, set) {
-  return labelledInput(option, { type: "file", onchange: (event) => set(event.target.files[0] ?? "") });
-}
-
-function labelledInput({ name, label, says }, attributes) {
-  return h("label", { class: "option", title: translated(says) }, h("span", { text: translated(label) }), h("input", { name, ...attributes }));
+function inputField({ name, form, label, says, example }, set) {
+  const text = [{ type: "text", placeholder: example, spellcheck: "false" }, ({ value }) => value.trim()];
+  const [attributes, valueOf] = INPUTS[form] ?? text;
+  const input = h("input", { name, ...attributes, onchange: () => set(valueOf(input)) });
+  return h("label", { class: "option", title: translated(says) }, h("span", { text: translated(label) }), input);
 }

@@ -1,6 +1,6 @@
 /** What a file is, and what was found in it, in words and as a table. */
 
-import { h } from "../../dom.js";
+import { button, h } from "../../dom.js";
 import { table } from "./fit_words.js";
 import { t, translated } from "../../words/language.js";
 import { withError } from "../../asking/prediction.js";
@@ -30,7 +30,7 @@ export function listFindings({ found, notes }, store) {
   if (notes.length) parts.push(h("ul", { class: "notes" }, notes.map((note) => h("li", { text: sentence(translated(note)) }))));
   if (speed) {
     const text = t("Drop at the {name}, {speed}", { name: translated(speed.name), speed: formatMeasured(speed.value, speed.error, "m/s") });
-    parts.push(h("button", { type: "button", text, onclick: take }));
+    parts.push(button(text, take));
   }
   return parts;
 }

@@ -1,6 +1,7 @@
 /** The microphone as a source of a measurement: at most 30 s, which become a WAV file in the page. */
 
-import { h, write } from "../../dom.js";
+import { button, h, write } from "../../dom.js";
+import { problemLine } from "../../set_up/fields.js";
 import { t } from "../../words/language.js";
 import { download } from "../../state/share.js";
 import { wavOf } from "./wav.js";
@@ -18,27 +19,26 @@ export function microphone(take) {
     });
   }
   const said = h("p", { class: "note", role: "status" });
-  const problem = h("p", { class: "field-error", role: "alert", hidden: true });
+  const problem = problemLine(write);
   const level = h("meter", { class: "level", min: 0, max: 1, high: CLIPPED, value: 0, "aria-label": t("Loudness"), hidden: true });
-  const button = h("button", { type: "button", text: t("Record a bounce"), onclick: () => (recording ? stop() : start()) });
-  const save = h("button", { type: "button", class: "small", text: t("Save the recording"), hidden: true, onclick: () => download(file, file.name) });
+  const turn = button(t("Record a bounce"), () => (recording ? stop() : start()));
+  const save = button(t("Save the recording"), () => download(file, file.name), { class: "small", hidden: true });
   let recording = null;
   let file = null;
 
   const start = async () => {
-    button.disabled = true;
-    problem.hidden = true;
+    turn.disabled = true;
+    problem.show();
     try {
       recording = await record(heard);
-      write(button, t("Stop"));
+      write(turn, t("Stop"));
       level.hidden = false;
       save.hidden = true;
       write(said, t("Recording, for {seconds} s at most: let the ball bounce near the microphone.", { seconds: LONGEST }));
     } catch (error) {
-      write(problem, whyNot(error));
-      problem.hidden = false;
+      problem.show(whyNot(error));
     }
-    button.disabled = false;
+    turn.disabled = false;
   };
   const heard = (peak, seconds) => {
     level.value = peak;
@@ -47,7 +47,7 @@ export function microphone(take) {
   const stop = () => {
     const { samples, rate, loudest } = recording.end();
     recording = null;
-    write(button, t("Record a bounce"));
+    write(turn, t("Record a bounce"));
     level.hidden = true;
     const clipped = loudest >= CLIPPED;
     write(said, clipped ? t("The recording was too loud, so that its peaks are cut off. Record it again from further away.") : t("The recording stays on this machine."));
@@ -55,7 +55,7 @@ export function microphone(take) {
     save.hidden = false;
     take(file);
   };
-  return h("div", { class: "microphone" }, h("div", { class: "microphone-row" }, button, level, save), said, problem);
+  return h("div", { class: "microphone" }, h("div", { class: "microphone-row" }, turn, level, save), said, problem.element);
 }
 
 /** Begin to record; `heard` is told the peak of each part, and how many seconds there are. */

@@ -1,13 +1,13 @@
 /** A record beside the simulated drop: keeps both, the shift between their clocks, and the plots in step. */
 
-import { h, write } from "../../dom.js";
+import { h } from "../../dom.js";
+import { GRAVITY } from "../../set_up/drops.js";
 import { choice } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
 import { bestShift, laid, lines, matched, shifted } from "./record.js";
 import { recordPlot } from "../../plots/record_plot.js";
 import { ballName, capital, contactName } from "../../words/words.js";
 
-const GRAVITY = 9.80665;
 const ASK = { force: t("The record is of one contact. Which?"), position: t("The record is of one ball. Which?") };
 const LONGEST = 10; // s of a track that are simulated
 
@@ -86,9 +86,8 @@ export class Overlay {
       return;
     }
     this.asking = "";
-    const said = h("p", { class: "note" });
-    write(said, t("It lies over {places}.", { places: curves.map(({ what, index }) => this.place(what, index)).join(", ") }));
-    this.over.replaceChildren(said);
+    const named = curves.map(({ what, index }) => this.place(what, index)).join(", ");
+    this.over.replaceChildren(h("p", { class: "note", text: t("It lies over {places}.", { places: named }) }));
   }
 
   /** Return what a curve of a record can lie over, in words. */
@@ -129,7 +128,7 @@ export class Overlay {
       record: this.record,
       curves: put.curves,
       simulated: this.lines,
-      names: put.curves.map((one) => this.name(one)),
+      names: put.curves.map((curve) => this.name(curve)),
       window: result ? [result.impact[0] - 0.25 * this.reach, result.impact[1] + 0.5 * this.reach] : null,
       whole: put.curves[0].what === "position",
       shift,
@@ -139,7 +138,7 @@ export class Overlay {
     });
     this.notes.replaceChildren(...put.notes.map((text) => h("p", { text: capital(text) })));
     if (settled && result) {
-      this.store.set({ overlays: put.curves.map((one) => ({ ...one, label: t("measured {what}", { what: translated(one.label) }) })) });
+      this.store.set({ overlays: put.curves.map((curve) => ({ ...curve, label: t("measured {what}", { what: translated(curve.label) }) })) });
     }
   }
 

@@ -1,8 +1,9 @@
 /** A record laid over a simulated drop: the same clock, the same zero of height, the same unit. */
 
+import { extentOf } from "../../extent.js";
+import { GRAVITY } from "../../set_up/drops.js";
 import { t, translated } from "../../words/language.js";
 
-const GRAVITY = 9.80665;
 const TRIES = 160; // shifts of the clock that are tried
 const FALLING = 60; // points of the fall before the impact
 
@@ -10,13 +11,13 @@ const FALLING = 60; // points of the fall before the impact
 export function laid({ series, zero }, drop) {
   return series
     .filter(({ what, index }) => what !== "other" && index < drop.balls.length)
-    .map((one) => ({ ...one, time: one.time.map((time) => time - (zero ?? 0)) }));
+    .map((curve) => ({ ...curve, time: curve.time.map((time) => time - (zero ?? 0)) }));
 }
 
 /** Return curves later by a shift in s. */
 export function shifted(curves, shift) {
   if (shift === 0) return curves;
-  return curves.map((one) => ({ ...one, time: one.time.map((time) => time + shift) }));
+  return curves.map((curve) => ({ ...curve, time: curve.time.map((time) => time + shift) }));
 }
 
 /** Return the simulated lines `[{index, time, values}]` of a result that belong to curves. */
@@ -45,24 +46,24 @@ function falling(end, place, velocity, gravity) {
  */
 export function matched(curves, simulated) {
   const notes = [];
-  const found = curves.map((one, i) => {
+  const found = curves.map((curve, i) => {
     const line = simulated[i];
-    if (one.what === "force" && one.unit !== "N") {
-      const scale = most(line.values) / (most(one.values) || 1);
-      const values = { what: translated(one.label), unit: one.unit || t("no unit") };
+    if (curve.what === "force" && curve.unit !== "N") {
+      const scale = most(line.values) / (most(curve.values) || 1);
+      const values = { what: translated(curve.label), unit: curve.unit || t("no unit") };
       notes.push(t("{what} is in {unit}: its scale is chosen so that its peak is the simulated one.", values));
-      return { ...one, unit: "N", values: one.values.map((value) => value * scale) };
+      return { ...curve, unit: "N", values: curve.values.map((value) => value * scale) };
     }
-    if (one.what !== "position") return one;
-    const offset = mean(differences(one, line, { until: 0 }));
-    if (!Number.isFinite(offset)) return one;
-    const values = { what: translated(one.label), size: (Math.abs(offset) * 1e3).toFixed(0) };
+    if (curve.what !== "position") return curve;
+    const offset = mean(differences(curve, line, { until: 0 }));
+    if (!Number.isFinite(offset)) return curve;
+    const values = { what: translated(curve.label), size: (Math.abs(offset) * 1e3).toFixed(0) };
     const [lower, higher] = [
       t("{what} is drawn {size} mm lower than tracked, to lie on the simulated ball.", values),
       t("{what} is drawn {size} mm higher than tracked, to lie on the simulated ball.", values),
     ];
     if (Math.abs(offset) > 5e-4) notes.push(offset > 0 ? lower : higher);
-    return { ...one, values: one.values.map((value) => value - offset) };
+    return { ...curve, values: curve.values.map((value) => value - offset) };
   });
   return { curves: found, notes };
 }
@@ -72,7 +73,7 @@ export function matched(curves, simulated) {
  * are compared until a time, as later on they go apart if the drop is not yet the right one.
  */
 export function bestShift(curves, simulated, reach, until) {
-  const cost = (shift) => shifted(curves, shift).reduce((sum, one, i) => sum + distance(one, simulated[i], until), 0);
+  const cost = (shift) => shifted(curves, shift).reduce((sum, curve, i) => sum + distance(curve, simulated[i], until), 0);
   let [best, least] = [0, cost(0)];
   for (let wide = reach, middle = 0; wide > reach / 1000; wide /= 20, middle = best) {
     for (let i = -TRIES / 4; i <= TRIES / 4; i += 1) {
@@ -89,7 +90,7 @@ function distance(curve, line, until) {
   if (curve.what === "position") {
     const apart = differences(curve, line, { until });
     const middle = mean(differences(curve, line, { until: 0 }));
-    return apart.reduce((sum, one) => sum + (one - middle) ** 2, 0) / Math.max(apart.length, 1);
+    return apart.reduce((sum, difference) => sum + (difference - middle) ** 2, 0) / Math.max(apart.length, 1);
   }
   const scale = curve.unit === "N" ? 1 : most(line.values) / (most(curve.values) || 1);
   const apart = differences({ ...curve, values: curve.values.map((value) => value * scale) }, line, { beyond: 0 });
@@ -119,5 +120,5 @@ function mean(values) {
 }
 
 function most(values) {
-  return values.reduce((high, value) => Math.max(high, value ?? 0), 0);
+  return extentOf([0, ...values])[1];
 }

@@ -1,6 +1,6 @@
-/** The axes of a map: scales, ticks, and the initial range of each number. */
+/** The axes of a line or a map: scales, ticks, titles, and the initial range of each number. */
 
-import { clean } from "../../words/units.js";
+import { clean, format, pretty, shownUnit } from "../../words/units.js";
 
 /** Return `{part(value), value(part)}`: a side's places from 0 to 1. */
 export function sideOf({ low, high, log }) {
@@ -42,6 +42,25 @@ function decades(low, high, most) {
   return found;
 }
 
+/** Return a side's ticks in the units that people read, and its title. */
+export function marks(side, { label, unit }, most) {
+  const { unit: name, size } = shownUnit(unit, unit === "m" && Math.max(Math.abs(side.low), Math.abs(side.high)) > 0.2);
+  const places = sideOf(side);
+  const found = ticks(clean(side.low / size), clean(side.high / size), side.log, most);
+  return {
+    title: name ? `${label} (${pretty(name)})` : label,
+    ticks: found.map(({ value, named }) => ({
+      part: places.part(value * size),
+      text: named ? format(value, 4) : null,
+    })),
+  };
+}
+
+/** Return a title, shortened where there is no room. */
+export function fitting(ctx, title, width) {
+  return ctx.measureText(title).width <= width ? title : title.replace(/, .*?(?= \(|$)/, "");
+}
+
 /** The first ends of each kind of number, in SI units, even in ratios or not. */
 const ENDS = {
   mass_ratio: { low: 0.1, high: 100, log: true },
@@ -55,7 +74,7 @@ const ENDS = {
   velocities: { low: -5, high: 5, log: false },
 };
 
-/** Return the side of a map over a number: `{path, low, high, log}`, with its present value inside. */
+/** Return the side over a number: `{path, low, high, log}`, with its present value inside. */
 export function firstSide({ path, value }) {
   const parts = path.split(".");
   const kind = ENDS[parts[0]] ?? ENDS[parts.at(-1)];

@@ -1,11 +1,11 @@
 /** The choice of a number that varies, between which ends: for the sides of a map, and for a line. */
 
-import { h, write } from "../dom.js";
-import { choice } from "../set_up/fields.js";
-import { t, translated } from "../words/language.js";
-import { firstSide, isSide } from "./map/axes.js";
-import { clean, format, pretty, read, shownUnit } from "../words/units.js";
-import { capital } from "../words/words.js";
+import { h, write } from "../../dom.js";
+import { check, choice, problemLine } from "../../set_up/fields.js";
+import { t, translated } from "../../words/language.js";
+import { firstSide, isSide } from "./axes.js";
+import { clean, format, pretty, read, shownUnit } from "../../words/units.js";
+import { capital } from "../../words/words.js";
 
 /**
  * Return the fields of a side: which number, between which ends, logarithmic or not.
@@ -13,15 +13,14 @@ import { capital } from "../words/words.js";
  */
 export function sideForm(key, title, current, paths, set) {
   const side = current();
-  const error = h("p", { class: "field-error", id: `${key}-error`, role: "alert", hidden: true });
+  const problem = problemLine(write, { id: `${key}-error` });
   const { unit } = paths.find(({ path }) => path === side.path);
   const shown = shownUnit(unit);
   const change = (patch) => {
     const next = { ...current(), ...patch };
-    const problem = problemOf(next);
-    error.hidden = !problem;
-    write(error, problem ?? "");
-    if (!problem) set(next);
+    const message = problemOf(next);
+    problem.show(message);
+    if (!message) set(next);
   };
   const end = (which, label) => {
     const input = h("input", {
@@ -29,18 +28,12 @@ export function sideForm(key, title, current, paths, set) {
       inputmode: "decimal",
       class: "field-number",
       "data-key": `${key}-${which}`,
-      "aria-describedby": error.id,
+      "aria-describedby": problem.element.id,
       value: format(clean(side[which] / shown.size), 6),
       onchange: () => change({ [which]: read(input.value, unit, shown) }),
     });
     return h("label", { class: "side-end" }, h("span", { text: label }), input);
   };
-  const log = h("input", {
-    type: "checkbox",
-    checked: side.log,
-    "data-key": `${key}-log`,
-    onchange: (event) => change({ log: event.target.checked }),
-  });
   return h(
     "fieldset",
     {},
@@ -51,7 +44,7 @@ export function sideForm(key, title, current, paths, set) {
       key,
       groups: [["", paths.map(({ path, label }) => [path, capital(translated(label))])]],
       value: side.path,
-      set: (path) => set(firstSide(paths.find((one) => one.path === path))),
+      set: (path) => set(firstSide(paths.find((number) => number.path === path))),
     }),
     h(
       "div",
@@ -59,22 +52,10 @@ export function sideForm(key, title, current, paths, set) {
       end("low", t("from")),
       end("high", t("to")),
       h("span", { class: "unit", text: pretty(shown.unit) }),
-      h("label", { class: "check" }, log, t("logarithmic")),
+      check(t("logarithmic"), side.log, (log) => change({ log }), { "data-key": `${key}-log` }),
     ),
-    error,
+    problem.element,
   );
-}
-
-/** Return a function that updates a form, but not while somebody types into it: what is typed would be lost. */
-export function patient(form, update) {
-  let late = null;
-  form.addEventListener("change", () => (late = null)); // what was typed is taken, and brings news of its own
-  form.addEventListener("focusout", () => late && update(late));
-  return (news) => {
-    const typing = [...form.querySelectorAll("input[type=text]")].some((one) => one === document.activeElement && one.value !== one.defaultValue);
-    late = typing ? news : null;
-    if (!typing) update(news);
-  };
 }
 
 function problemOf(side) {

@@ -1,0 +1,133 @@
+/** A view of one drawing over numbers of the drop, a line or a map: asks for it, draws it, and marks the present drop in it. */
+
+import { h, write } from "../../dom.js";
+import { sideOf } from "./axes.js";
+import { drawingParts } from "./elements.js";
+import { haveSameDrawing, numberIn, withNumbers } from "./numbers.js";
+import { isInside, point } from "./pointing.js";
+import { t, writeTold } from "../../words/language.js";
+import { onRepaint } from "../../plots/palette.js";
+import { storyOf } from "../../words/sentence.js";
+import { mountStage } from "../../stage/stage.js";
+
+const hovers = matchMedia("(hover: hover)"); // a mouse, which can drag; a finger scrolls
+const LEAST = 20; // px, below which nothing is drawn
+
+export class DrawingView {
+  /**
+   * Build a view into `root`.
+   * @param {object} kind `name`, of the view and of its settings in the store; `keys`, what they do; `sides`, `margin` and
+   * `step`, as `point` takes them; the elements `drawing` and `marks`; `form`; `requests(tell)`, which asks for drawings;
+   * `sidesOf(news)`; `draw(size, news)`, which returns `{frame, title, label, summary}`; `mark(news, present, pointed)`;
+   * `told(news, place)`; and the sentences `here` and `outside` on the present drop
+   */
+  constructor(root, store, clock, kind) {
+    Object.assign(this, { store, kind, parts: drawingParts(kind) });
+    this.news = null; // the answer that is shown, with its settings and the numbers of its drop
+    this.frame = null; // where the field lies in the drawing, in px
+    this.due = 0; // a frame of the screen in which to draw
+    this.asked = {}; // the drop and the settings that are shown, or will be
+    const { parts } = this;
+    const side = h("div", { class: `${kind.name}-side` }, kind.form.element, parts.stage, parts.told, parts.summary);
+    root.replaceChildren(parts.figure, side, h("div", { class: "set-up-place" }));
+    mountStage(parts.stage, store, clock);
+    this.requests = kind.requests((news) => this.hear(news));
+    this.pointed = point(parts, kind, this, clock);
+    parts.again.addEventListener("click", () => this.refresh());
+    new ResizeObserver(() => this.drawSoon()).observe(parts.board);
+    onRepaint(() => this.draw());
+    store.watch(["result"], (state) => this.tell(state));
+    store.watch(["view", "drop", kind.name], (state, before) => this.follow(state, before));
+    this.tell(store.get());
+    this.refresh();
+  }
+
+  /** Ask for the drawing of the present drop. */
+  refresh() {
+    const { drop, [this.kind.name]: settings } = this.store.get();
+    this.asked = { drop, settings };
+    if (!this.news) write(this.parts.message, t("Computing …"));
+    this.requests.ask(drop, settings);
+  }
+
+  hear(news) {
+    const { figure, message, again } = this.parts;
+    if (news.settings) this.kind.form.update(news);
+    figure.classList.toggle("stale", Boolean(news.problem));
+    if (!news.answer && !news.problem) return;
+    writeTold(message, news.problem ?? "");
+    again.hidden = !news.problem;
+    if (news.problem) return;
+    this.news = news;
+    this.drawSoon();
+  }
+
+  drawSoon() {
+    this.due ||= requestAnimationFrame(() => {
+      this.due = 0;
+      this.draw();
+    });
+  }
+
+  draw() {
+    const { board, title, summary } = this.parts;
+    const { width, height } = board.getBoundingClientRect();
+    if (!this.news || width < LEAST || height < LEAST) return;
+    const drawn = this.kind.draw({ width, height }, this.news);
+    this.frame = drawn.frame;
+    write(title, drawn.title);
+    write(summary, drawn.summary);
+    board.setAttribute("aria-label", drawn.label);
+    this.mark();
+  }
+
+  /** Mark the present drop and the place that is pointed at, and say which that is. */
+  mark() {
+    if (!this.frame) return;
+    const { kind, news } = this;
+    const [present, pointed] = [this.present(), this.pointed()];
+    const isHere = isInside(present);
+    kind.mark(news, isHere ? present : null, pointed);
+    const how = hovers.matches ? t("Drag to move it; choose a point to play its drop.") : t("Choose a point to play its drop.");
+    write(this.parts.readout, pointed ? kind.told(news, pointed) : `${isHere ? kind.here : kind.outside} ${how}`);
+  }
+
+  /** Return the place of the present drop. */
+  present() {
+    const { kind, news, store } = this;
+    const valueOf = (path) => numberIn(store.get().drop, path) ?? news.paths.find((known) => known.path === path).value;
+    return kind.sidesOf(news).map((side) => sideOf(side).part(valueOf(side.path)));
+  }
+
+  /** Return the drop of a place. */
+  dropAt(place) {
+    const numbers = this.kind.sidesOf(this.news).map((side, i) => [side.path, sideOf(side).value(place[i])]);
+    return withNumbers(this.news.answer.drop, Object.fromEntries(numbers));
+  }
+
+  play(place) {
+    this.store.set({ drop: this.dropAt(place), view: "play", t: null, replay: this.store.get().replay + 1 });
+    document.getElementById("tab-play")?.focus();
+  }
+
+  tell({ result, until }) {
+    write(this.parts.told, result ? storyOf(result, until).lead : "");
+  }
+
+  /** Follow the store: another drop of the same drawing is only marked in it. */
+  follow(state, before) {
+    const { name, sidesOf } = this.kind;
+    if (state.view !== name) {
+      if (before.view === name) this.requests.drop();
+      this.asked = {};
+    } else if (state[name] !== this.asked.settings || state.drop !== this.asked.drop) {
+      if (!this.news) return this.refresh();
+      const paths = sidesOf(this.news).map(({ path }) => path);
+      const shown = this.news?.drop === this.asked.drop ? [this.news.answer.drop] : []; // as the engine writes it
+      const isSame = state[name] === this.asked.settings && [this.asked.drop, ...shown].some((drop) => haveSameDrawing(state.drop, drop, paths));
+      if (!isSame) return this.refresh();
+      this.asked.drop = state.drop;
+      this.mark();
+    }
+  }
+}

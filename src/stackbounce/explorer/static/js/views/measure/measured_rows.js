@@ -1,0 +1,97 @@
+/** The measured values that a drop is fitted to: a row each, of a quantity and its value. */
+
+import { button, h } from "../../dom.js";
+import { choice } from "../../set_up/fields.js";
+import { t } from "../../words/language.js";
+import { pointed } from "../../words/units.js";
+import { ballName, capital, contactName } from "../../words/words.js";
+
+const BY_BALL = {
+  rebound_ratios: t("rebound speed over v₀"),
+  rebound_speeds: t("rebound speed"),
+  rebound_heights: t("rebound height"),
+};
+const BY_CONTACT = {
+  durations: t("contact time"),
+  first_touch: t("first touch"),
+  last_release: t("last release"),
+  collisions: t("collisions"),
+};
+const EXAMPLES = {
+  rebound_ratios: "1.64 ± 0.02",
+  rebound_speeds: "5.8 ± 0.1 m/s",
+  rebound_heights: "1.72 ± 0.03 m",
+  durations: "30.0 ± 0.2 ms",
+  first_touch: "1.2 ± 0.1 ms",
+  last_release: "34.0 ± 0.2 ms",
+  energy_retained: "0.85 ± 0.02",
+  collisions: "1",
+};
+
+/** Return `{element, add(), fill(measured), values(), haveClocks()}`; `fill` takes texts by quantity, `values` returns them. */
+export function measuredRows(store) {
+  const element = h("ul", { class: "fit-rows" });
+  const add = (name = null, value = "") => {
+    const row = rowOf(store.get().drop, name, value);
+    element.append(row);
+    return row;
+  };
+  const fill = (measured) => {
+    element.replaceChildren();
+    for (const [name, value] of Object.entries(measured)) add(name, value);
+    if (!element.hasChildNodes()) add();
+  };
+  const values = () => {
+    const typed = (row) => [row.querySelector("select").value, pointed(row.querySelector("input").value.trim())];
+    const used = [...element.children].map(typed).filter(([, value]) => value !== "");
+    if (used.length === 0) throw new Error(t("Type what was measured, with its error, such as 1.72 ± 0.03 m."));
+    const twice = used.find(([name], i) => used.findIndex(([other]) => other === name) < i);
+    if (twice) throw new Error(t("Two values are of the same quantity, {name}.", { name: twice[0] }));
+    return Object.fromEntries(used);
+  };
+  const haveClocks = () => [...element.querySelectorAll("select")].some(({ value }) => /^(force|dur|first|last)/.test(value));
+  return { element, add, fill, values, haveClocks };
+}
+
+/** Return a row; a force is a channel of the file. */
+function rowOf(drop, name, value) {
+  const isChannel = Boolean(name?.startsWith("force."));
+  const names = isChannel ? forces(drop) : quantities(drop);
+  const own = name ?? names[0][0];
+  const example = (quantity) => EXAMPLES[quantity.split(".")[0]];
+  const text = h("input", {
+    type: "text",
+    class: "fit-value",
+    value,
+    readonly: isChannel,
+    spellcheck: "false",
+    placeholder: example(own),
+    "aria-label": isChannel ? t("Channel of the file") : t("Value with its error"),
+  });
+  const set = (chosen) => (text.placeholder = example(chosen) ?? "");
+  const row = h(
+    "li",
+    { class: "fit-row" },
+    choice({ label: t("Quantity"), quiet: true, groups: [["", names]], value: own, set }),
+    text,
+    button("×", () => row.remove(), { class: "icon", "aria-label": t("Leave this out") }),
+  );
+  return row;
+}
+
+/** Return the names of all that can be measured of a drop, by quantity. */
+export function quantityNames(drop) {
+  return Object.fromEntries([...forces(drop), ...quantities(drop)]);
+}
+
+function forces(drop) {
+  return drop.balls.map((_, i) => [`force.${i}`, t("Force of {contact}", { contact: contactName(drop, i) })]);
+}
+
+function quantities(drop) {
+  const each = (names, placeOf) =>
+    Object.entries(names).flatMap(([name, number]) =>
+      drop.balls.map((_, i) => [`${name}.${i}`, capital(t("{number} of {place}", { number, place: placeOf(drop, i) }))]),
+    );
+  return [...each(BY_BALL, ballName), ...each(BY_CONTACT, contactName), ["energy_retained", t("Kinetic energy retained")]];
+}
