@@ -12,8 +12,6 @@ TYPE_CHECKING = False  # importing typing takes longer than all else before `mai
 if TYPE_CHECKING:
     from typing import Any, NoReturn
 
-__all__ = ["interrupt_again", "main"]
-
 _SOON = 0.02  # s, after which the object is finalised
 
 

@@ -10,26 +10,6 @@ from collections.abc import Callable, Iterable
 from numbers import Integral, Real
 from typing import TypeVar
 
-__all__ = [
-    "FileError",
-    "InvalidType",
-    "InvalidValue",
-    "MissingExtra",
-    "ScenarioError",
-    "StackbounceError",
-    "UnitError",
-    "a_or_an",
-    "between",
-    "finite",
-    "fraction",
-    "nearest",
-    "non_negative",
-    "positive",
-    "shown",
-    "unmasked",
-    "whole",
-]
-
 _Given = TypeVar("_Given")
 
 

@@ -4,8 +4,6 @@ from importlib.util import find_spec
 
 from stackbounce.errors import MissingExtra
 
-__all__ = ["EXTRAS", "need"]
-
 _MEASURE = ("pandas", "scipy", "uncertainties")
 _FIT = (*_MEASURE, "emcee", "lmfit")
 _PLOTS = ("corner", "matplotlib")

@@ -18,16 +18,6 @@ from pathlib import Path
 
 from stackbounce.errors import FileError, InvalidType, shown
 
-__all__ = [
-    "check_own",
-    "check_place",
-    "content_of",
-    "prepare_folder",
-    "write_file",
-    "write_files",
-    "write_folder",
-]
-
 _SUMS = "stackbounce.sha256"
 _COMMENTS = {
     ".toml": (b"# ", b"\n"),

@@ -6,8 +6,6 @@ import math
 from pathlib import Path
 from typing import Any
 
-__all__ = ["as_json", "plain"]
-
 
 def as_json(value: object, *, indent: int | None = None) -> str:
     """Return `value` as JSON.

@@ -12,19 +12,6 @@ from stackbounce.errors import InvalidType, UnitError, finite, shown
 if TYPE_CHECKING:
     import pint
 
-__all__ = [
-    "Unit",
-    "count_written",
-    "examples",
-    "factor",
-    "handy",
-    "in_si",
-    "quantity",
-    "rounded",
-    "unit_of",
-    "unit_written",
-]
-
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?"
 _WRITTEN = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
 # What pint may parse: names with small powers, so that no input causes a long computation.

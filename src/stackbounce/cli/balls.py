@@ -12,8 +12,6 @@ if TYPE_CHECKING:
 
     from stackbounce.model.catalogue import CatalogueBall
 
-__all__ = ["run"]
-
 
 def run(as_json: AsJson = False) -> None:
     """List the catalogue: the paper's balls and a class's, each figure with its source."""

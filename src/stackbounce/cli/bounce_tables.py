@@ -20,8 +20,6 @@ from stackbounce.run.result import Result
 if TYPE_CHECKING:
     from stackbounce.prediction import Prediction
 
-__all__ = ["Bounce"]
-
 _BALLS = ("before\nm/s", "after\nm/s", "ratio\nv/v0", "bounce\n/drop", "height\nm")
 _CONTACTS = ("touch\nms", "release\nms", "longest\nms", "peak\nN", "peak\nmm", "impulse\nN s")
 _TIMES = _CONTACTS[:3]

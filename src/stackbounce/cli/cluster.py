@@ -9,8 +9,6 @@ from typing import Any
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.extras import need
 
-__all__ = ["connect"]
-
 
 @contextlib.contextmanager
 def connect(address: str | None) -> Iterator[Any]:

@@ -7,8 +7,6 @@ from rich.console import Console
 from stackbounce.cli.tables import new_table, number
 from stackbounce.fitting import Comparison
 
-__all__ = ["comparison_as_dict", "print_comparison"]
-
 _CRITERIA = {"aicc": "AICc", "bic": "BIC"}
 _MANY = 8  # more data are not printed in a column each
 

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     from stackbounce.datasets import Column, Description
 
-__all__ = ["EPILOG", "run"]
-
 EPILOG = "Example: stackbounce datasets golf-marble-heights"
 
 _FACTS = ("measured", "ball", "surface", "mass", "diameter", "source", "doi", "address", "seen")

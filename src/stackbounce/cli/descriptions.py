@@ -5,8 +5,6 @@ from stackbounce.cli.tables import number
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw
 
-__all__ = ["incidence", "label", "law_text", "meeting"]
-
 
 def label(name: str | None, i: int) -> str:
     """Return the name of ball `i` in tables: printable, and at most 16 characters.

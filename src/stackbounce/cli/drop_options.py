@@ -9,8 +9,6 @@ from stackbounce.model.laws import ContactLaw
 from stackbounce.model.schema import read_law
 from stackbounce.units import quantity
 
-__all__ = ["read_changes", "read_contact", "read_fall", "read_until"]
-
 
 def read_contact(text: str, path: str) -> ContactLaw | None:
     """Return the contact law of a text such as ``"Spring stiffness=2.5kN/m"``.

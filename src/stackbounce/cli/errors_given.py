@@ -10,8 +10,6 @@ from stackbounce.errors import InvalidValue, shown
 if TYPE_CHECKING:
     from stackbounce.model import Drop
 
-__all__ = ["read_errors", "split_errors"]
-
 _PATHS = {"height": "height", "speed": "impact_speed", "gravity": "gravity"}
 _RIGHT = "PATH=ERROR, such as balls.1.mass=1g"
 

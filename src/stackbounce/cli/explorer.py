@@ -12,8 +12,6 @@ from stackbounce.cli.output import json_text
 if TYPE_CHECKING:
     from stackbounce.explorer.addresses import Place
 
-__all__ = ["EPILOG", "run"]
-
 EPILOG = "For a class: stackbounce app --host 0.0.0.0, or --export explorer.html, a file to mail"
 
 

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from stackbounce.cli.fit_tables import Fitted
     from stackbounce.fitting import Comparison, FitProblem
 
-__all__ = ["EPILOG", "run"]
-
 EPILOG = (
     "For example: stackbounce fit basketball tennis --height 63cm --measured "
     "'rebound_ratios.1=1.64 ± 0.02' --vary 'contacts.1.stiffness=0.7kN/m:2.5kN/m' --interval"

@@ -15,8 +15,6 @@ from stackbounce.sweeps.draws import draws_text
 if TYPE_CHECKING:
     from stackbounce.fitting import Fit, FitProblem, Posterior
 
-__all__ = ["check_save", "read_parts_of", "save", "save_draws"]
-
 
 def read_parts_of(what: Sequence[str], changes: Mapping[str, Any]) -> Parts:
     """Return the parts of a fit problem: from a data set, from a file, or a drop without data."""

@@ -8,8 +8,6 @@ import typer
 from stackbounce.cli.options import RARE, ball_names, option
 from stackbounce.model.laws import usual_laws
 
-__all__ = ["QUESTION", "RESULTS", "What"]
-
 _PROBLEM: Any = {"rich_help_panel": "The problem"}
 _SEARCH: Any = {"rich_help_panel": "The search and its results"}
 _RARE: Any = {"rich_help_panel": RARE}

@@ -15,8 +15,6 @@ from stackbounce.units import handy, rounded
 if TYPE_CHECKING:
     from rich.table import Table
 
-__all__ = ["Fitted", "as_dict", "print_fit"]
-
 _STRONG = 0.5  # a correlation above it is printed
 _QUANTILES = (0.159, 0.5, 0.841)
 

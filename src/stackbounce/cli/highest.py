@@ -21,8 +21,6 @@ from stackbounce.cli.options import (
 )
 from stackbounce.errors import InvalidValue, positive, shown
 
-__all__ = ["EPILOG", "run"]
-
 EPILOG = "For example: stackbounce highest B1 B2 B3 tennis --gap 0 --gap 2mm --masses"
 
 

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from stackbounce.measure.constants import LawConstants
     from stackbounce.measure.measurement import Measurement
 
-__all__ = ["EPILOG", "run"]
-
 EPILOG = (
     "For example: stackbounce measure bounces.wav --mass 57g --height 1m --save ball.toml, "
     "then: stackbounce simulate ball.toml"

@@ -10,8 +10,6 @@ from stackbounce.measure.constants import LawConstants
 from stackbounce.measure.measurement import Measurement, row_mapping
 from stackbounce.version import __version__
 
-__all__ = ["print_measured", "summary"]
-
 
 def summary(
     done: Sequence[Measurement], law: LawConstants | None, ball: Mapping[str, Any]

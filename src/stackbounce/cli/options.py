@@ -9,22 +9,6 @@ import typer
 
 from stackbounce.model.laws import LAWS
 
-__all__ = [
-    "DROP",
-    "RARE",
-    "AsJson",
-    "Overwrite",
-    "Plot",
-    "Save",
-    "Tolerance",
-    "Until",
-    "What",
-    "add_options",
-    "ball_names",
-    "law_names",
-    "option",
-]
-
 RARE = "Rarely needed"
 """The last panel of a command's help."""
 

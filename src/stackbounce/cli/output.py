@@ -17,22 +17,6 @@ from stackbounce.files import check_own, check_place, write_file
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = [
-    "SUFFIXES",
-    "Unsolved",
-    "check_file",
-    "check_picture",
-    "check_scenario",
-    "check_solved",
-    "console",
-    "draw_picture",
-    "json_text",
-    "print_files",
-    "print_json",
-    "progress_bar",
-    "write_scenario",
-]
-
 SUFFIXES = (".svg", ".png", ".pdf")
 """The kinds of picture."""
 

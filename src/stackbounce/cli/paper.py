@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from stackbounce.cross2007 import Audit
 
-__all__ = ["run"]
-
 
 def run(out: Out, as_json: AsJson = False) -> None:
     """Recompute the paper: its figures, its tables, and an audit of every number in it."""

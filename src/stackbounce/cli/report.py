@@ -9,8 +9,6 @@ import typer
 from stackbounce.cli.output import console, print_json
 from stackbounce.errors import InvalidValue
 
-__all__ = ["Out", "write_report"]
-
 Out = Annotated[str, typer.Option(metavar="DIR", help="Folder to write to.", show_default=False)]
 
 

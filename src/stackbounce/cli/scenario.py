@@ -12,8 +12,6 @@ from stackbounce.model.catalogue import stack
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw
 
-__all__ = ["DEFAULT_HEIGHT", "Scenario", "change", "is_file", "read"]
-
 DEFAULT_HEIGHT = 1.0
 """The height in m from which balls of the catalogue fall without --height and --speed."""
 

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from stackbounce.prediction import Prediction
     from stackbounce.run.result import Result
 
-__all__ = ["EPILOG", "run"]
-
 EPILOG = "For example: stackbounce simulate basketball tennis --height 0.63m --gap 2mm"
 
 

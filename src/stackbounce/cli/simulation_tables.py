@@ -15,8 +15,6 @@ from stackbounce.run.result import Result, Status
 if TYPE_CHECKING:
     from stackbounce.prediction import Prediction
 
-__all__ = ["print_simulation"]
-
 _LONG = 5_000_000  # work of a run that is not repeated to find its conditioning
 
 

@@ -10,8 +10,6 @@ from stackbounce.cli.tables import new_table, number, percent
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["print_stacks", "summary"]
-
 _NAMES = ("place", "rebound_ratio", "height_ratio", "energy_share", "energy_retained", "collisions")
 
 

@@ -25,8 +25,6 @@ from stackbounce.files import check_place
 if TYPE_CHECKING:
     from stackbounce.model import Drop
 
-__all__ = ["EPILOG", "run"]
-
 EPILOG = (
     "For example: stackbounce sweep basketball tennis --over balls.0.mass=50g:500g:100:log "
     "--over gaps.0=0mm:5mm:50 --out map.zarr --plot map.png"

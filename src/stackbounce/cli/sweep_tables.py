@@ -11,8 +11,6 @@ from rich.console import Console
 from stackbounce.run.blocks import blocks, sides
 from stackbounce.run.result import Status
 
-__all__ = ["print_sweep", "summary"]
-
 _BLOCK = 2**18  # drops that are summarised together
 _SPOKEN = ("rebound_ratio", "collisions", "energy_retained")
 

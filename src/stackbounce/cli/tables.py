@@ -7,16 +7,6 @@ from typing import Any
 from rich import box
 from rich.table import Table
 
-__all__ = [
-    "add_columns",
-    "new_table",
-    "number",
-    "percent",
-    "table_of_rows",
-    "with_error",
-    "write_count",
-]
-
 
 def new_table(title: str | None, texts: Sequence[str] = (), numbers: Sequence[str] = ()) -> Table:
     """Return a table in the style of all of them, with columns of texts, then of numbers."""

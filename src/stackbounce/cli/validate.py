@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from stackbounce.fitting.validation import Validation
 
-__all__ = ["run"]
-
 
 def run(out: Out, as_json: AsJson = False) -> None:
     """Try each contact law on published measurements: which law for which ball."""

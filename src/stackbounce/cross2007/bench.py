@@ -18,8 +18,6 @@ from stackbounce.run.result import Result
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
-__all__ = ["Bench", "propagate_error", "write_call"]
-
 
 class Bench:
     """The paper's numbers by key, and the solver.

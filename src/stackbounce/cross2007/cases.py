@@ -9,8 +9,6 @@ from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.drops import rigid_pair, spring_pair
 from stackbounce.model import Drop
 
-__all__ = ["Case", "list_cases"]
-
 
 @dataclass(frozen=True)
 class Case:

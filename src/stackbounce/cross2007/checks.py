@@ -18,20 +18,6 @@ from typing import Any, TypeAlias
 from stackbounce.cross2007.bench import Bench, propagate_error, write_call
 from stackbounce.cross2007.data import Data
 
-__all__ = [
-    "AGREES",
-    "DIFFERS",
-    "WITHIN_ERROR",
-    "Attempt",
-    "Check",
-    "Number",
-    "Row",
-    "Section",
-    "half_unit",
-    "run_check",
-    "source_of",
-]
-
 AGREES = "agrees"
 WITHIN_ERROR = "agrees within error"
 DIFFERS = "differs"

@@ -23,8 +23,6 @@ from stackbounce.cross2007.stacks import (
 from stackbounce.model.drop import STANDARD_GRAVITY, Drop
 from stackbounce.run.result import Result
 
-__all__ = ["BASKETBALL", "better_fit", "other_fit", "stack_masses"]
-
 BASKETBALL = Section("Sec. III")
 
 

@@ -11,8 +11,6 @@ from stackbounce.model.drop import Drop
 from stackbounce.model.laws import Hysteretic
 from stackbounce.run.collision import restitution
 
-__all__ = ["CONCLUSION", "FITS"]
-
 FITS = Section("Sec. V")
 CONCLUSION = Section("Sec. VI")
 

@@ -18,8 +18,6 @@ from stackbounce.model.drop import Drop
 from stackbounce.run.collision import separate
 from stackbounce.run.result import Result
 
-__all__ = ["INTRODUCTION", "MODELS"]
-
 INTRODUCTION = Section("Sec. I")
 MODELS = Section("Sec. II")
 

@@ -23,8 +23,6 @@ from stackbounce.cross2007.stacks import (
 )
 from stackbounce.model.drop import Drop
 
-__all__ = ["RECORDS"]
-
 RECORDS = Section("Sec. IV")
 
 

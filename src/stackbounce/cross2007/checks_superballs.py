@@ -14,8 +14,6 @@ from stackbounce.model.laws import Hertz
 from stackbounce.run.collision import contact_time
 from stackbounce.run.result import Result
 
-__all__ = ["STEEL", "SUPERBALLS"]
-
 STEEL = Section("Sec. IV")
 SUPERBALLS = Section("Sec. IV")
 

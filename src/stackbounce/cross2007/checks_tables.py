@@ -7,8 +7,6 @@ from stackbounce.cross2007.checks import Number, Section
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.cross2007.stacks import heavier_b1, hollow_pair
 
-__all__ = ["HEIGHTS", "RATIOS", "TABLE_ONE", "TABLE_TWO", "WITH_105"]
-
 TABLE_ONE = Section("Table I")
 TABLE_TWO = Section("Table II")
 

@@ -7,8 +7,6 @@ from stackbounce.cross2007.drops import Array, after_meeting, rigid_pair, spring
 from stackbounce.model.drop import Drop
 from stackbounce.run.result import Result
 
-__all__ = ["Array", "after_collision", "rebound_by_mass", "rebound_by_stiffness", "sample_forces"]
-
 
 def after_collision(bench: Bench, ratios: Array, restitution: float, count: int) -> Array:
     """Return both velocities right after the balls' `count`-th separate collision, over v0.

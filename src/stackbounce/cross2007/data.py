@@ -14,8 +14,6 @@ from dataclasses import dataclass, replace
 from importlib.resources import files
 from types import MappingProxyType
 
-__all__ = ["PAPER", "Data", "Input", "changed"]
-
 
 @dataclass(frozen=True)
 class Input:

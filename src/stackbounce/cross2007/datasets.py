@@ -16,8 +16,6 @@ from stackbounce.errors import InvalidValue, nearest
 from stackbounce.model import Ball, ContactLaw, Drop, Hysteretic, Spring
 from stackbounce.run.calibration import calibrate
 
-__all__ = ["NAMES", "PREFIX", "DataSet", "dataset", "load_dataset", "load_pair"]
-
 PREFIX = "cross2007/"
 """What a data set's name begins with on the command line."""
 

@@ -14,22 +14,6 @@ from stackbounce.model.drop import STANDARD_GRAVITY, Drop
 from stackbounce.model.laws import ContactLaw, Rigid, Spring
 from stackbounce.run.result import Result
 
-__all__ = [
-    "Array",
-    "Two",
-    "after_meeting",
-    "bisect",
-    "fallen_speed",
-    "force_above",
-    "newton",
-    "pair",
-    "peak_times",
-    "rigid_pair",
-    "risen_height",
-    "spring_pair",
-    "truncate",
-]
-
 Two = tuple[float, float]
 Array = NDArray[np.float64]
 

@@ -26,8 +26,6 @@ from stackbounce.model.laws import HollowBall, Spring
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["draw_figure_7", "draw_figure_8", "draw_figure_8_hollow", "draw_figure_9"]
-
 _TIMES = np.linspace(0.0, 0.040, 401)  # s
 
 

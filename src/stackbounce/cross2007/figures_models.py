@@ -6,13 +6,12 @@ import numpy as np
 
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.curves import (
-    Array,
     after_collision,
     rebound_by_mass,
     rebound_by_stiffness,
     sample_forces,
 )
-from stackbounce.cross2007.drops import spring_pair
+from stackbounce.cross2007.drops import Array, spring_pair
 from stackbounce.cross2007.lines import AFTER_FIRST, AFTER_SECOND, STIFFNESS, pair_mass_ratios
 from stackbounce.cross2007.style import (
     BLACK,
@@ -27,15 +26,6 @@ from stackbounce.cross2007.style import (
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-__all__ = [
-    "draw_figure_2a",
-    "draw_figure_2b",
-    "draw_figure_4a",
-    "draw_figure_4b",
-    "draw_figure_5",
-    "draw_figure_6",
-]
 
 _POINTS = 241
 

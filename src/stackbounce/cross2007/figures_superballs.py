@@ -29,15 +29,6 @@ from stackbounce.run.result import Result
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = [
-    "draw_figure_10a",
-    "draw_figure_10b",
-    "draw_figure_11a",
-    "draw_figure_11b",
-    "draw_figure_12",
-    "draw_figure_13",
-]
-
 _POINTS = 401
 _HEAVIER = "Mass of B1: 105 g, which Table II's ratios ask for; Table I has 101 g."
 

@@ -5,15 +5,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.curves import Array, sample_forces
+from stackbounce.cross2007.curves import sample_forces
+from stackbounce.cross2007.drops import Array
 from stackbounce.cross2007.style import FLOOR, GREY, UPPER
 from stackbounce.model.drop import Drop
 from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-__all__ = ["draw_one_panel", "draw_two_panels", "format_ms", "number_contacts"]
 
 _LABELS = ("floor (P1)", "between the balls (P2)")
 

@@ -9,16 +9,6 @@ from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.drops import rigid_pair, spring_pair
 from stackbounce.model import Drop
 
-__all__ = [
-    "AFTER_FIRST",
-    "AFTER_SECOND",
-    "STIFFNESS",
-    "Line",
-    "Range",
-    "list_lines",
-    "pair_mass_ratios",
-]
-
 
 @dataclass(frozen=True)
 class Range:

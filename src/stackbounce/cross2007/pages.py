@@ -8,8 +8,6 @@ if TYPE_CHECKING:
     import jinja2
     from markupsafe import Markup
 
-__all__ = ["data_uri", "make_environment", "typeset"]
-
 _SIGNS = (
     (r"\b([mvekhrF])_?([0-4]|(?<=r_)[mk])\b", r"\1<sub>\2</sub>"),
     (r"\b1e(\d+)\b", r"10<sup>\1</sup>"),

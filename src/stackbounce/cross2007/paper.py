@@ -22,8 +22,6 @@ from stackbounce.cross2007.style import Picture, use_style
 from stackbounce.extras import need
 from stackbounce.version import __version__
 
-__all__ = ["FIGURES", "SECTIONS", "Audit", "audit", "draw_figures"]
-
 SECTIONS = (
     checks_models.INTRODUCTION,
     checks_models.MODELS,

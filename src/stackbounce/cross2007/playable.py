@@ -11,8 +11,6 @@ from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.lines import list_lines
 from stackbounce.model import Drop
 
-__all__ = ["Link", "explorer_address", "link_figures"]
-
 _CASES = {  # of a figure, by the names of the explorer's examples
     "5": ("figure-5",),
     "8": ("figure-8", "figure-8-gap"),

@@ -20,8 +20,6 @@ from stackbounce.extras import need
 from stackbounce.files import prepare_folder, write_folder
 from stackbounce.version import __version__
 
-__all__ = ["write"]
-
 _NAMES = ("index.html", "audit.csv", "audit.json")
 _COLUMNS = (
     "id", "where", "what", "printed", "unit", "computed", "tolerance", "error", "verdict", "reason",

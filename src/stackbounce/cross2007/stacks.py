@@ -13,29 +13,6 @@ from stackbounce.model.drop import Drop
 from stackbounce.model.laws import HollowBall, Hysteretic, Spring
 from stackbounce.run.calibration import calibrate
 
-__all__ = [
-    "better_fit",
-    "early_pair",
-    "early_twins",
-    "gap_for_delay",
-    "heavier_b1",
-    "hollow_pair",
-    "hollow_record",
-    "late_pair",
-    "late_twins",
-    "other_fit",
-    "parted_twins",
-    "reversed_pair",
-    "section_two",
-    "small_fit",
-    "smallest_fit",
-    "spring_record",
-    "stack_masses",
-    "stiffen",
-    "superball_speed",
-    "twin_pair",
-]
-
 _HOLLOW = 0.026, 700.0  # s and N/m, where the search for the hollow ball's numbers begins
 
 

@@ -14,22 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from stackbounce.cross2007.curves import Array
-
-__all__ = [
-    "BLACK",
-    "FLOOR",
-    "GREY",
-    "UPPER",
-    "Feature",
-    "Picture",
-    "bracket",
-    "make_axes",
-    "note",
-    "render",
-    "tag",
-    "use_style",
-]
+    from stackbounce.cross2007.drops import Array
 
 BLACK = "#000000"
 FLOOR = "#0072B2"

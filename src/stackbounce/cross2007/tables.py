@@ -10,8 +10,6 @@ from stackbounce.measure.constants import dynamic_stiffness
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
-__all__ = ["Table", "make_table_one", "make_table_two"]
-
 
 @dataclass(frozen=True)
 class Table:

@@ -6,8 +6,6 @@ from typing import Any, TypeAlias, TypeVar
 
 from stackbounce.errors import InvalidValue, finite, nearest, non_negative, shown
 
-__all__ = ["KINDS", "SEEN", "TEXT", "Column", "Description", "Value", "read_description"]
-
 SEEN = ("full text", "excerpt", "abstract", "quoted")
 """What was read of a source: all of it, a part, its abstract, or a text that quotes it."""
 

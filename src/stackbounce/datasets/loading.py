@@ -14,8 +14,6 @@ from stackbounce.units import in_si, quantity
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["describe", "load", "names", "published", "si_unit"]
-
 _OFFSETS = {"degC": (273.15, "K")}  # units whose zero is shifted
 
 

@@ -3,8 +3,6 @@
 from stackbounce.cross2007.data import PAPER
 from stackbounce.datasets.description import TEXT, Column, Description
 
-__all__ = ["paper_datasets"]
-
 _PLACES = {  # those that have measurements; the other sections have what is computed or chosen
     "Sec. III": ("cross2007-section-3", "A tennis ball on a basketball, and each of them alone"),
     "Fig. 7, text": ("cross2007-figure-7", "Balls that are pressed slowly"),

@@ -5,8 +5,6 @@ import ipaddress
 import socket
 from typing import NamedTuple
 
-__all__ = ["Place", "code_text", "list_places", "url"]
-
 _ALL = ("0.0.0.0", "::")
 _OUTSIDE = ("192.0.2.1", "2001:db8::1")  # RFC 5737 and 3849; nothing is sent there
 

@@ -23,8 +23,6 @@ from stackbounce.explorer.paper_pages import Papers
 from stackbounce.explorer.workers import AGAIN_SECONDS, Busy, Workers
 from stackbounce.version import __version__
 
-__all__ = ["create_app"]
-
 _STATIC = Path(__file__).parent / "static"
 _PROBLEMS: dict[int | str, dict[str, Any]] = {
     status: {"model": schema.Problem, "description": meaning}

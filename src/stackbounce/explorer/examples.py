@@ -6,8 +6,6 @@ from stackbounce.cross2007.cases import Case
 from stackbounce.model import Drop
 from stackbounce.model.catalogue import stack
 
-__all__ = ["list_examples"]
-
 _PAIRS = "Two balls a class owns"
 _TOWERS = "Three balls and more"
 _HEIGHT = 1.0  # m

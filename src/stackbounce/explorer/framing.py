@@ -5,8 +5,6 @@ from collections.abc import Sequence
 
 from stackbounce.errors import InvalidValue, shown
 
-__all__ = ["frame_rule", "read_origin"]
-
 _LABEL = r"[a-z0-9_]([a-z0-9_-]*[a-z0-9_])?"
 _ORIGIN = re.compile(rf"https?://{_LABEL}(\.{_LABEL})*(:(?P<port>\d{{1,5}}))?", re.ASCII)
 _ANY = "*"

@@ -17,8 +17,6 @@ from stackbounce.explorer.framing import frame_rule
 from stackbounce.explorer.limits import Limits
 from stackbounce.explorer.page.policy import PAGE
 
-__all__ = ["HEADERS", "UPLOADS", "add_guard"]
-
 HEADERS = {
     "x-content-type-options": "nosniff",
     "referrer-policy": "no-referrer",

@@ -2,8 +2,6 @@
 
 import dataclasses
 
-__all__ = ["LIMITS", "Limits"]
-
 
 @dataclasses.dataclass(frozen=True)
 class Limits:

@@ -13,8 +13,6 @@ from stackbounce import cross2007
 from stackbounce.explorer.page.assembly import digest
 from stackbounce.explorer.workers import Workers
 
-__all__ = ["Papers"]
-
 _STATIC = Path(__file__).parent / "static"
 _SCRIPT = re.compile(rb"<script>(.*?)</script>", re.DOTALL)
 _AGAIN = "2"  # s, after which the waiting page reloads itself

@@ -14,8 +14,6 @@ from stackbounce.errors import FileError, InvalidValue, whole
 from stackbounce.explorer.addresses import Place, list_places, url
 from stackbounce.explorer.limits import Limits
 
-__all__ = ["HOST", "PORT", "serve"]
-
 HOST = "127.0.0.1"
 """The default address: it can be reached from this machine only."""
 

@@ -16,8 +16,6 @@ from pebble import ProcessExpired, ProcessPool
 from stackbounce.errors import StackbounceError
 from stackbounce.explorer.limits import Limits
 
-__all__ = ["AGAIN_SECONDS", "Busy", "TooMuch", "Workers"]
-
 AGAIN_SECONDS = 5
 """Time in s after which a client that was sent away may try again."""
 

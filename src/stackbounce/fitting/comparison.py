@@ -19,8 +19,6 @@ from stackbounce.version import __version__
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Comparison", "Score", "compare"]
-
 _DRAWS = 256  # of the parameters, for the spread of a prediction
 _FOLLOWED = 3  # descents of a fit to part of the data, besides that from the best with all
 

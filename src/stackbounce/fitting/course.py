@@ -11,8 +11,6 @@ import numpy as np
 from stackbounce.errors import InvalidValue
 from stackbounce.fitting.quantities import Array
 
-__all__ = ["Course", "Progress", "announce"]
-
 _SECOND = 5e7  # work of a second, in the unit of `engine.work`: it is between 3e7 and 2e8
 _LONG, _LONGEST = 60.0, 86_400.0  # s, from which on a computation is announced, and refused
 _UNITS = {"days": 86_400.0, "h": 3600.0, "min": 60.0}

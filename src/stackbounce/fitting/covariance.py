@@ -6,8 +6,6 @@ from numpy.typing import NDArray
 from stackbounce.fitting.objective import Objective
 from stackbounce.fitting.quantities import Array
 
-__all__ = ["OPEN", "estimate_covariance", "find_directions", "find_leverages"]
-
 OPEN = 1.0
 """Root of chi squared's change between the bounds below which a direction is undetermined."""
 

@@ -25,8 +25,6 @@ from stackbounce.units import count_written, quantity
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Parts", "convert_measured", "read_force_record", "read_parts", "read_question"]
-
 _DROP = tuple(field.name for field in fields(Drop))
 _OWN = ("measured", "vary", "tie", "drops")
 _INCIDENCE = ("impact_speed", "height", "velocities")

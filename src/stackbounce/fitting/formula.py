@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 
-__all__ = ["OWN_WORDS", "Formula", "read_formula"]
-
 Values: TypeAlias = Mapping[str, NDArray[np.float64]]
 Formula: TypeAlias = Callable[[Values], Any]
 

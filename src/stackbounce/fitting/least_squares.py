@@ -10,16 +10,6 @@ from stackbounce.fitting.covariance import OPEN, find_directions
 from stackbounce.fitting.objective import Objective
 from stackbounce.fitting.quantities import Array
 
-__all__ = [
-    "EQUAL",
-    "Minimum",
-    "descend",
-    "expected_trials",
-    "find_minima",
-    "spread",
-    "spread_trials",
-]
-
 EQUAL = 1e-3
 """Minima whose chi squared differs by less are equally good."""
 

@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, shown, unmasked, whole
-from stackbounce.fitting.quantities import QUANTITIES, find_quantity, read_with_error
+from stackbounce.fitting.quantities import find_quantity, read_with_error
 from stackbounce.fitting.waveforms import Waveform, read_waveform
 from stackbounce.model import Drop
-
-__all__ = ["Count", "Datum", "Measured", "read_measured"]
+from stackbounce.run.quantities import QUANTITIES
 
 
 @dataclass(frozen=True)

@@ -10,14 +10,6 @@ from stackbounce.fitting.objective import ABSENT, Objective
 from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.residuals import Residual
 
-__all__ = [
-    "describe_freedom",
-    "describe_undetermined",
-    "note_bounds",
-    "note_misfits",
-    "note_search",
-]
-
 _CLOSE = 4.0  # chi squared above the best up to which another minimum is worth a note
 _UNLIKELY = 1e-3  # probability of chi squared below which the model is doubted
 _BAD = 0.05  # probability of chi squared below which an outlier is looked for

@@ -16,7 +16,7 @@ from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fitting.course import Course
 from stackbounce.fitting.measurements import Measured
 from stackbounce.fitting.parameters import Parameter, find_numbers
-from stackbounce.fitting.quantities import QUANTITIES, Array
+from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.ties import Tie, evaluate_ties
 from stackbounce.fitting.waveforms import Waveform
 from stackbounce.model import Drop
@@ -25,9 +25,8 @@ from stackbounce.run.columns import Rows, check, incidence
 from stackbounce.run.driver import forces_at
 from stackbounce.run.options import Options
 from stackbounce.run.paths import Number, drop_at, numbers_of, value_in
+from stackbounce.run.quantities import QUANTITIES
 from stackbounce.run.result import Status
-
-__all__ = ["ABSENT", "Objective", "differences", "touch_name"]
 
 ABSENT = 1e4
 """The residual, in errors, of a number that a trial does not have, such as a missing touch."""

@@ -16,8 +16,6 @@ from stackbounce.model import Drop
 from stackbounce.run.paths import Number, drop_at, numbers_of, value_in
 from stackbounce.units import quantity
 
-__all__ = ["Parameter", "Range", "read_parameters"]
-
 _WIDE = 100.0  # default bounds: the drop's own number divided and multiplied by this
 _MOST_GAP = 0.02  # m: default upper bound of a gap, or ten times the drop's own if larger
 _LOG = 5.0  # a ratio of positive bounds above this makes the search coordinate logarithmic

@@ -15,8 +15,6 @@ from stackbounce.run.options import check_room
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
-__all__ = ["Posterior", "sample"]
-
 _WALKERS = 32  # walkers, at least; also at least four per parameter
 _STEPS = 1000  # of a walker: more draws mean more walkers
 _BURNT = 0.25  # share of the draws discarded as burn-in

@@ -19,8 +19,6 @@ from stackbounce.fitting.ties import read_ties
 from stackbounce.model import Drop
 from stackbounce.run.paths import value_in
 
-__all__ = ["FitProblem", "Interrupted", "Model", "TooFewData", "fit"]
-
 _MOST_STARTS = 1_000_000
 _RTOL = 1e-9
 _PROBES = 7  # trials besides the first one, by which it is known how long a search takes

@@ -12,8 +12,6 @@ from stackbounce.fitting.objective import Objective
 from stackbounce.fitting.parameters import Parameter
 from stackbounce.fitting.quantities import Array
 
-__all__ = ["Interval", "Profile"]
-
 _FIRST = 0.2  # of the expected distance of the limit: the first step
 _GROWTH = 1.6  # of each step over the one before
 _MOST = 60  # steps outwards, and inwards

@@ -12,8 +12,6 @@ from stackbounce.model import Drop
 from stackbounce.run.quantities import QUANTITIES
 from stackbounce.units import quantity
 
-__all__ = ["QUANTITIES", "Array", "find_quantity", "read_index", "read_with_error"]
-
 Array: TypeAlias = NDArray[np.float64]
 
 

@@ -7,11 +7,9 @@ from typing import Any
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.fitting.files import Parts, convert_measured
 from stackbounce.fitting.problem import FitProblem
-from stackbounce.fitting.quantities import QUANTITIES
 from stackbounce.fitting.tables import read_drops
 from stackbounce.run.paths import numbers_of
-
-__all__ = ["build_problem", "has_times"]
+from stackbounce.run.quantities import QUANTITIES
 
 
 def build_problem(

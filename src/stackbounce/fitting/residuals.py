@@ -7,8 +7,6 @@ import numpy as np
 from stackbounce.fitting.objective import Objective, touch_name
 from stackbounce.fitting.quantities import Array
 
-__all__ = ["Record", "Residual", "list_records", "list_residuals"]
-
 
 class Residual(NamedTuple):
     """A measured number beside the fitted one.

@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     import xarray as xr
     from uncertainties import UFloat
 
-__all__ = ["Fit"]
-
 _LINEARISED = 60  # evaluations with derivatives for an interval, about
 _GOODNESS = ("chi_squared", "degrees_of_freedom", "probability", "aicc", "bic")
 

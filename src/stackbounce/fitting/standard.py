@@ -10,8 +10,6 @@ from stackbounce.model import LAWS, ContactLaw, Drop, Rigid
 from stackbounce.run.calibration import calibrate
 from stackbounce.run.collision import contact_time
 
-__all__ = ["standard_models"]
-
 _LOSSY = 0.8  # the restitution that a search begins with
 _FACTOR = 30.0  # by which a stiffness may differ from its start value
 _FLIGHTS = 4.0  # contact times at the impact speed: the widest gap that is looked at

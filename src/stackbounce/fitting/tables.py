@@ -11,16 +11,15 @@ from typing import Any, NamedTuple
 from stackbounce.errors import FileError, InvalidType, InvalidValue, nearest, positive, shown
 from stackbounce.files import content_of
 from stackbounce.fitting.files import read_force_record
-from stackbounce.fitting.quantities import QUANTITIES, find_quantity
+from stackbounce.fitting.quantities import find_quantity
 from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.limits import BYTES, COLUMNS, LINE, refuse_others
 from stackbounce.measure.reading.text import decode, split
 from stackbounce.model import Drop
 from stackbounce.run.paths import drop_at, numbers_of
+from stackbounce.run.quantities import QUANTITIES
 from stackbounce.units import count_written, quantity
-
-__all__ = ["read_drops"]
 
 _MOST = 1000  # drops
 _ERROR = "error of "

@@ -14,8 +14,6 @@ from stackbounce.fitting.quantities import Array
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, numbers_of, value_in
 
-__all__ = ["Tie", "evaluate_ties", "read_ties"]
-
 
 @dataclass(frozen=True)
 class Tie:

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
     from stackbounce.measure.kinds.waveform.result import Waveform as Analysed
 
-__all__ = ["Waveform", "read_waveform"]
-
 # The fit seeks the touch this far from where the analysis finds it: the largest of the three.
 _NEAR = 0.1  # of the first contact's duration
 _SIGMAS = 5.0  # of the standard error

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     from stackbounce.measure.finding import Finding
 
-__all__ = ["analyse"]
-
 
 def analyse(
     data: "xr.Dataset",

@@ -9,8 +9,6 @@ from stackbounce.measure.constants import LawConstants, law_constants
 from stackbounce.model import Drop
 from stackbounce.model.laws import ContactLaw, law_named
 
-__all__ = ["one_ball", "one_law"]
-
 _HEIGHT = 1.0  # m: from where a ball falls whose drop height is not known
 _SOURCES = {
     "contact_time": "a force waveform",

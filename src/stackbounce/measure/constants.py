@@ -12,8 +12,6 @@ from stackbounce.measure.statistics.propagation import propagate
 from stackbounce.model.laws import STEEPEST, ContactLaw, law_named
 from stackbounce.run.calibration import calibrate
 
-__all__ = ["LawConstants", "dynamic_stiffness", "law_constants"]
-
 _BOUNDS = {"restitution": (0.0, 1.0), "exponent": (1.0, math.inf)}
 _UNITS = {"mass": "kilograms", "contact_time": "seconds", "impact_speed": "m/s"}
 

@@ -13,8 +13,6 @@ from stackbounce.model import drag
 from stackbounce.model.air import Air
 from stackbounce.model.drop import STANDARD_GRAVITY
 
-__all__ = ["Drag", "drag_of", "speed_after_fall", "with_error_of_drag"]
-
 Found = TypeVar("Found")
 
 _THINNEST, _THICKEST = 1e-15, 1e6  # 1/m, of what is called a ball in air

@@ -9,16 +9,6 @@ from stackbounce.measure.quantities import Array, Number, Row, nominal
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = [
-    "Branch",
-    "Curve",
-    "Finding",
-    "as_ratios",
-    "channels",
-    "force_channels",
-    "rigid_contact",
-]
-
 
 class Curve(NamedTuple):
     """A curve over time, to be drawn: a position, a force or anything else, in SI units."""

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from stackbounce.measure.reading.roles import Column
     from stackbounce.measure.setup import Setup
 
-__all__ = ["IN_AIR", "Kind"]
-
 IN_AIR = ("mass", "diameter", "drag_coefficient", "air_density")
 """The options that tell the drag of the air."""
 

@@ -17,8 +17,6 @@ from stackbounce.measure.quantities import Row, nominal
 from stackbounce.measure.reading import read, read_content
 from stackbounce.measure.setup import Setup
 
-__all__ = ["File", "Measurement", "measure_file", "measure_numbers", "row_mapping"]
-
 _LOG = logging.getLogger(__name__)
 _CALCULATING = r"(numpy|scipy|pandas|xarray|uncertainties|stackbounce\.measure)\b"
 """Modules whose warnings are no user's: of numbers that an analysis refuses or leaves out."""

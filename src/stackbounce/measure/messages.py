@@ -6,8 +6,6 @@ from typing import Any, TypeAlias
 
 from stackbounce.errors import StackbounceError
 
-__all__ = ["Message", "OptionHint", "Wording", "about_option", "python_wording"]
-
 
 @dataclass(frozen=True)
 class OptionHint:

@@ -11,8 +11,6 @@ from stackbounce.measure.quantities import nominal, quantity_with_error, unit_of
 from stackbounce.model.laws import law_named
 from stackbounce.units import quantity
 
-__all__ = ["read_options"]
-
 
 def read_options(
     given: Mapping[str, Any],

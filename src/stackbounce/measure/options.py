@@ -15,8 +15,6 @@ from stackbounce.measure.kinds import KINDS, TYPED
 from stackbounce.model.laws import LAWS
 from stackbounce.units import examples
 
-__all__ = ["OPTIONS", "Option", "options_for", "taken_by"]
-
 Form: TypeAlias = Literal[
     "number", "measured", "lengths", "flag", "points", "law", "file", "columns", "text"
 ]

@@ -10,22 +10,6 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.units import quantity, unit_written
 
-__all__ = [
-    "LARGEST",
-    "Array",
-    "Number",
-    "Row",
-    "deviation",
-    "known_rows",
-    "known_to",
-    "measured",
-    "measured_if_given",
-    "nominal",
-    "quantity_with_error",
-    "unit_of_both",
-    "without_error",
-]
-
 # 1.64(2)e3 m: the number, its decimals, the error of its last digits, the power of ten, the unit.
 _SHORT = re.compile(
     r"([-+]?[0-9]+)(?:\.([0-9]*))?\s*\(([0-9]+\.?[0-9]*)\)(?:[eE]([-+]?[0-9]{1,3}))?\s*([^±]*)"

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidType, InvalidValue, shown, unmasked
 from stackbounce.measure.quantities import Array
 
-__all__ = ["columns", "quantisation_error", "resolution", "runs", "trapezoid"]
-
 # Set by hand on records of oscilloscopes and rulers (`tests/measure/test_samples.py`).
 _MOST_NUMBERS = 2**18  # of which the step is looked for
 _REPEATED = 0.8  # share of different numbers among rounded ones, unless these change quickly

@@ -13,8 +13,6 @@ from stackbounce.model.laws import ContactLaw
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Place", "Setup", "above_bottom", "lowest_point", "places"]
-
 Place: TypeAlias = Literal["bottom", "centre", "top"]
 """The point of the ball that a height was read at."""
 

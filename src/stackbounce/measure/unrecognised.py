@@ -12,8 +12,6 @@ from stackbounce.measure.quantities import Array
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["unrecognised"]
-
 _LISTED = 6  # columns that are described
 _EVENLY = "rises evenly, like times"
 _FILMED = 2e-3  # s between frames, at least; steps below are a sensor's

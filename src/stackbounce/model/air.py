@@ -10,8 +10,6 @@ from stackbounce.model import drag
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import STANDARD_GRAVITY, Drop
 
-__all__ = ["Air", "Flight"]
-
 _SPHERE = 0.5
 
 

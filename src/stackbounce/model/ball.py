@@ -6,8 +6,6 @@ from typing import Annotated
 from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown
 from stackbounce.units import Unit
 
-__all__ = ["Ball"]
-
 
 @dataclass(frozen=True)
 class Ball:

@@ -18,21 +18,6 @@ drag loses no digits. k is in 1/m, g in m/s**2.
 
 import math
 
-__all__ = [
-    "fall_height",
-    "fall_time",
-    "fallen",
-    "fallen_speed",
-    "flight_speed",
-    "flown",
-    "landing_speed",
-    "launch_speed",
-    "rise_time",
-    "risen",
-    "speed_after",
-    "sphere_drag",
-]
-
 _LARGE = 50.0  # from here on exp(-x) is nothing beside 1
 
 

@@ -12,8 +12,6 @@ from stackbounce.model.ball import Ball
 from stackbounce.model.laws import LAWS, ContactLaw
 from stackbounce.units import Unit
 
-__all__ = ["STANDARD_GRAVITY", "Drop"]
-
 STANDARD_GRAVITY = 9.80665
 """Standard gravity in m/s**2, for the fall from `height` if `gravity` is 0."""
 

@@ -14,8 +14,6 @@ from stackbounce.model.ball import Ball
 from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw, law_named
 from stackbounce.units import Unit, quantity, unit_of
 
-__all__ = ["NO_FLOOR", "read_ball", "read_law", "read_mapping", "write_law", "write_mapping"]
-
 NO_FLOOR = "none"
 """The ``law`` of the lowest contact where there is no floor."""
 

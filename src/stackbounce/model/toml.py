@@ -11,8 +11,6 @@ from stackbounce.errors import ScenarioError
 from stackbounce.files import content_of
 from stackbounce.model.schema import read_mapping
 
-__all__ = ["load_toml", "read_toml", "write_toml"]
-
 _T = TypeVar("_T")
 
 _BYTES = 2**19  # of a file, at most: room for 5000 balls, and read in about a second

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import SubFigure
 
-__all__ = ["draw_map", "draw_profile"]
-
 Array: TypeAlias = NDArray[np.float64]
 
 _REACH = 4.0  # standard errors drawn on both sides

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["fitted"]
-
 _MEASURED, _FITTED = "#4d4d4d", COLORS[1]
 _MOST_PULLS, _MOST_RECORDS = 40, 4
 _ROW = 0.26  # inches of a pull

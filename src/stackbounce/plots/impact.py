@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from stackbounce.prediction import Prediction
 
-__all__ = ["bounce"]
-
 _SAMPLES = 1200
 _LABEL = 0.13  # height of a label in its axes
 _LARGEST = 1e290  # m or N; matplotlib multiplies numbers

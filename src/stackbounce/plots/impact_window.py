@@ -10,8 +10,6 @@ from stackbounce.run.result import Result
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["choose_window", "sample_with_approach"]
-
 _BEFORE, _AFTER = 0.15, 0.35  # margins, over the duration of the impact
 _INSTANT = 0.010  # s: used as the duration of an instantaneous impact
 

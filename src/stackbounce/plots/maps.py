@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.contour import ContourSet
 
-__all__ = ["draw_counts", "draw_levels", "group_counts", "hatch"]
-
 _LEVELS = 7  # approximate number of contours
 _LEAST = 5  # values in each direction that contours need
 _BELOW = 0.05  # a smaller share of the other sign does not make a map signed

@@ -8,8 +8,6 @@ from stackbounce.errors import InvalidType, shown
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["measured"]
-
 
 def measured(data: Any, found: Any) -> "Figure":
     """Draw the result of a measurement analysis together with the data.

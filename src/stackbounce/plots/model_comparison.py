@@ -10,8 +10,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["compared"]
-
 _NAMES = {"aicc": "AICc", "bic": "BIC"}
 _MOST = 4.0  # errors: the strongest colour of a pull
 _WIDEST = 40  # for more data, the pulls are not written into the cells

@@ -10,8 +10,6 @@ from stackbounce.units import handy, rounded
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["corner"]
-
 _OWN_STYLE = {"axes.grid": False, "figure.constrained_layout.use": False, "lines.linewidth": 1.2}
 _SIDE = 2.5  # inches of a panel
 _MOST = 20_000  # draws; more are thinned evenly

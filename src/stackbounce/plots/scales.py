@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
 
-__all__ = ["Scale", "is_flat", "label", "read_scale", "show_in_handy_unit"]
-
 _ROUND_OFF = 1e-9  # relative; smaller differences are none
 
 

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-__all__ = ["highest"]
-
 _BARS = 12  # stacks that are drawn at most
 _MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 

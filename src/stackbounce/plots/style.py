@@ -9,21 +9,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = [
-    "COLORS",
-    "FORCES",
-    "STYLE",
-    "WIDTH",
-    "annotate",
-    "color_of",
-    "file_of",
-    "render",
-    "styled_figure",
-    "two_panels",
-    "with_error",
-    "written",
-]
-
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """The palette of Okabe and Ito, which colour-blind readers can tell apart."""
 

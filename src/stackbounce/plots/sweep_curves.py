@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["IN_A_ROW", "TITLES", "check_source", "draw_legend", "heatmap", "lines", "name_of"]
-
 TITLES = {
     "rebound_ratio": "rebound ratio",
     "collisions": "collisions",

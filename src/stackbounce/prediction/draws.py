@@ -11,17 +11,6 @@ from stackbounce.run.options import Options
 from stackbounce.run.quantities import QUANTITIES, Solved
 from stackbounce.run.result import Status
 
-__all__ = [
-    "DRAWS",
-    "ROUND_OFF",
-    "STEP",
-    "Progress",
-    "Slopes",
-    "budget",
-    "differentiate",
-    "solve_draws",
-]
-
 DRAWS = 10_000
 """The number of draws by default."""
 

@@ -23,16 +23,6 @@ from stackbounce.run.quantities import Solved, solve_quantities
 from stackbounce.sweeps.dataset import check_together
 from stackbounce.units import quantity
 
-__all__ = [
-    "FEWEST",
-    "Array",
-    "Inputs",
-    "add_value",
-    "error_of_deviation",
-    "of_draws",
-    "read_inputs",
-]
-
 Array: TypeAlias = NDArray[np.float64]
 
 FEWEST = 100

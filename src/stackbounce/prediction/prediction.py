@@ -15,8 +15,6 @@ from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options, run_options
 from stackbounce.run.result import ROUND_OFF
 
-__all__ = ["predict"]
-
 _MOST = 10_000_000  # draws
 _EVENTS, _NONLINEAR_EVENTS = 1_000_000, 200_000  # of all draws together, by default
 _FEW = 1e-3  # share of draws that are not possible, which derivatives do without

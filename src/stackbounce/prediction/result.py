@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     import xarray as xr
     from uncertainties import UFloat
 
-__all__ = ["Apex", "Prediction"]
-
 _CURVES = ("position", "velocity", "force", "compression")
 _ROUGH = 0.02  # the relative error of a standard deviation above which a note says so
 _RUNS = 1000  # single runs of draws, at most

@@ -13,8 +13,6 @@ from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options
 from stackbounce.run.result import Result
 
-__all__ = ["Runs"]
-
 _ONE_SIGMA = (0.159, 0.841)
 
 

@@ -11,8 +11,6 @@ from stackbounce.model import Drop
 from stackbounce.model.toml import load_toml, write_toml
 from stackbounce.prediction.inputs import read_inputs
 
-__all__ = ["read_scenario", "split_error", "split_errors", "write_scenario"]
-
 _WORDS = ("law", "name")
 
 

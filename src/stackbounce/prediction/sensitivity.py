@@ -9,8 +9,6 @@ from stackbounce.prediction.inputs import Array
 
 _ROUND_OFF = 1e-10  # relative: a standard deviation of this size is none
 
-__all__ = ["Sensitivity", "fit_slopes", "linear_shares", "sobol_indices"]
-
 
 class Sensitivity(NamedTuple):
     """Shares of the numbers in the variance of a quantity.

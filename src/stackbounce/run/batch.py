@@ -41,8 +41,6 @@ from stackbounce.run.engines import (
 from stackbounce.run.options import Options, check_room
 from stackbounce.run.parameters import drop_pieces
 
-__all__ = ["new_outcomes", "solve"]
-
 _BLOCKS = range(1024, 16384)  # drops in a block: enough for the lanes, few enough for the caches
 _EACH = 8  # blocks per thread of a large grid, so that all threads end at about the same time
 

@@ -5,8 +5,6 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
-__all__ = ["Block", "blocks", "sides", "size"]
-
 Block: TypeAlias = tuple[slice, ...]
 """A range of each dimension."""
 

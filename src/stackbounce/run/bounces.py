@@ -13,8 +13,6 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Status
 
-__all__ = ["bounces_in_air"]
-
 BOUNCE = np.dtype(
     [
         ("time", "f8"),

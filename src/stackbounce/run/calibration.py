@@ -7,8 +7,6 @@ from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw
 from stackbounce.model.laws.registry import UNLISTED
 from stackbounce.run.collision import Mass, reduced
 
-__all__ = ["calibrate"]
-
 _UNITS = {
     "contact_time": "seconds",
     "impact_speed": "m/s",

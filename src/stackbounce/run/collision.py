@@ -10,8 +10,6 @@ from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw, Rigid
 
-__all__ = ["Mass", "contact_time", "reduced", "restitution", "separate"]
-
 Mass: TypeAlias = float | Sequence[float]
 """In kg: the mass of a ball on a floor, or the reduced mass or both masses of a pair."""
 

@@ -15,8 +15,6 @@ from stackbounce.model.laws import contact_numbers
 from stackbounce.run.parameters import drop_numbers
 from stackbounce.run.paths import Number, drop_at
 
-__all__ = ["Rows", "base_rows", "check", "fill", "incidence"]
-
 Rows: TypeAlias = Mapping[Number, NDArray[np.float64]]
 """The numbers that vary, in SI units: arrays that broadcast with each other."""
 

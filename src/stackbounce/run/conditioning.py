@@ -16,8 +16,6 @@ from stackbounce.engine.records import Drops
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["amplification", "disturbed", "known_until"]
-
 _RUNS = 20  # the standard deviation of so many is known to a sixth
 _ERRORS = (1e-10, 1e-13)  # the second one where the first one grows too far
 _PROPORTIONAL = 1e-3  # of the reference speed: smaller differences are proportional to the error

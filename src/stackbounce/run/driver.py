@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["forces_at", "simulate", "solve_one"]
-
 
 def simulate(
     drop: Drop,

@@ -28,8 +28,6 @@ from stackbounce.run.options import Options
 if TYPE_CHECKING:
     from stackbounce.run.paths import Number
 
-__all__ = ["TWO_SPRINGS_EVENTS", "choose_compiled", "choose_engine", "suits_two_springs"]
-
 TWO_SPRINGS_EVENTS = 10_000
 """An event limit that two springs never reach where their own engine gives an answer."""
 

@@ -8,8 +8,6 @@ from stackbounce.engine.work import EVENT_LIMIT, WORK_LIMIT
 from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown, whole
 from stackbounce.model import Drop
 
-__all__ = ["Options", "check_room", "run_options"]
-
 _MOST_BALLS = 2000  # the arrays for normal modes and queues grow with the number of balls
 _MOST_EVENTS = 10**18  # the range of a 64-bit counter
 _USUAL = 16 * 10**9  # bytes of memory, where it is not known

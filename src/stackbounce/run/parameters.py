@@ -4,8 +4,6 @@ from stackbounce.engine.records import Drops
 from stackbounce.model import Drop
 from stackbounce.model.laws import contact_numbers
 
-__all__ = ["drop_numbers", "drop_pieces"]
-
 
 def drop_numbers(drop: Drop) -> Drops:
     """Return the parameters of a drop in the form that `prepare` takes, as lists."""

@@ -11,8 +11,6 @@ from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.model import Ball, ContactLaw, Drop
 from stackbounce.units import Unit
 
-__all__ = ["Number", "drop_at", "number_at", "numbers_of", "value_in"]
-
 
 @dataclass(frozen=True)
 class Number:

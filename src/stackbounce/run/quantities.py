@@ -13,8 +13,6 @@ from stackbounce.run.columns import Rows, incidence
 from stackbounce.run.options import Options
 from stackbounce.run.result import Status
 
-__all__ = ["QUANTITIES", "Quantity", "Solved", "solve_quantities"]
-
 Array: TypeAlias = NDArray[np.float64]
 
 

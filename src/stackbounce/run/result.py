@@ -20,8 +20,6 @@ from stackbounce.version import __version__
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Cause", "Result", "Status"]
-
 INTERVAL = np.dtype(
     [
         ("contact", "i8"),

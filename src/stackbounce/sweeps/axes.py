@@ -10,8 +10,6 @@ from stackbounce.model import Drop
 from stackbounce.run.paths import Number, number_at, numbers_of
 from stackbounce.units import count_written, quantity
 
-__all__ = ["axis", "grid"]
-
 _MOST = 10**9
 _RIGHT = "PATH=START:STOP:COUNT, with :log for logarithmic spacing, or PATH=VALUE,VALUE,…"
 

@@ -20,8 +20,6 @@ from stackbounce.version import __version__
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["sweep"]
-
 _OUTPUTS = {  # name in `Outcomes`: (dimension of its own, type, unit, meaning)
     "rebound_ratio": ("ball", float, "1", "velocity after the impact over the impact speed v0"),
     "collisions": ("contact", np.int64, "1", "contact intervals; -1 where infinitely many"),

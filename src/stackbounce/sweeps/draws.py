@@ -14,8 +14,6 @@ from stackbounce.model import Drop
 from stackbounce.run.paths import number_at
 from stackbounce.units import factor
 
-__all__ = ["draws_text", "read_draws"]
-
 _DRAW = "draw"  # the dimension of draws in a sweep
 _BYTES = 2**27  # of a table, at most
 _HEADING = re.compile(r"([^\s(\[]+)\s*(?:[(\[](.*)[)\]])?")

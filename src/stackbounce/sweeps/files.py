@@ -23,8 +23,6 @@ from stackbounce.run.blocks import Block, blocks
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Form", "check_name", "create", "lost", "opened", "writer"]
-
 _UNFINISHED = re.compile(r"\.[0-9a-f]{32}\.partial$")  # a chunk that zarr was writing
 Writer: TypeAlias = Callable[[Block, "xr.Dataset"], None]
 

@@ -22,8 +22,6 @@ from typing import BinaryIO
 
 from stackbounce.errors import FileError, shown
 
-__all__ = ["Progress", "only_writer", "tidy"]
-
 _WRITER, _READY = "# ", "ready"
 _PATIENCE = 2.0  # s, for a writer to say who it is
 _PAUSE = 0.01  # s

@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
 
-__all__ = ["opened", "write"]
-
 BLOCK = 2**16
 """Drops in a block, at most."""
 

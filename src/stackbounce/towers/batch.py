@@ -14,8 +14,6 @@ from stackbounce.sweeps import sweep
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["solve_drops"]
-
 
 def solve_drops(drops: Sequence[Drop], gaps: Sequence[float] | None = None) -> "xr.Dataset":
     """Solve many drops and return their results as `sweep` does.

@@ -13,8 +13,6 @@ from stackbounce.model import Ball, ContactLaw, Drop
 from stackbounce.run.options import run_options
 from stackbounce.towers.batch import solve_drops
 
-__all__ = ["Contacts", "best_masses", "geometric_means", "mass_range"]
-
 Contacts: TypeAlias = Callable[[Sequence[Ball]], Sequence[ContactLaw | None]]
 """A function of the balls that returns their contacts, the lowest first."""
 

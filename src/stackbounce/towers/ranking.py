@@ -29,8 +29,6 @@ from stackbounce.version import __version__
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["highest", "join_contacts"]
-
 _GAPS = (0.0, 0.001, 0.005)
 _HEIGHT = 1.0  # m
 _MOST = 100_000  # drops

@@ -13,8 +13,6 @@ from stackbounce.run.driver import simulate
 from stackbounce.run.options import run_options
 from stackbounce.run.result import Status
 
-__all__ = ["replace_gaps", "separation_limit"]
-
 _TRIES, _WIDER = 10, 4.0  # up to 250 000 times the distance fallen during the touching impact
 _STEADY = 1e-6  # relative; durations that do not depend on the gap differ by less
 _SAME_PACE = 1e-9  # over 1/v0; collisions that keep their distance in time have the same pace

@@ -17,8 +17,6 @@ from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
 from stackbounce.version import __version__
 
-__all__ = ["RTOL", "choose_times", "play_drop", "run_drop"]
-
 RTOL = 1e-10
 """The tolerance of nonlinear contacts, which a picture does not show."""
 

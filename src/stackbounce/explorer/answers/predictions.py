@@ -11,8 +11,6 @@ from stackbounce.prediction import predict
 from stackbounce.prediction.inputs import add_value
 from stackbounce.version import __version__
 
-__all__ = ["add_values", "predict_drop"]
-
 _TIMES = 300  # of a band
 _DRAWS = 300  # where derivatives do not do: each is a run, for its curves
 

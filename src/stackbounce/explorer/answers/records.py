@@ -25,8 +25,6 @@ if TYPE_CHECKING:
 
     from stackbounce.fitting.residuals import Record
 
-__all__ = ["fit_record", "list_options", "measure_record"]
-
 _Array = NDArray[np.float64]
 _Series = dict[str, Any]
 

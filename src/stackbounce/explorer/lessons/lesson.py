@@ -6,8 +6,6 @@ from dataclasses import dataclass, field
 from importlib.resources import files
 from typing import Any
 
-__all__ = ["LANGUAGES", "NAMES", "Item", "Lesson", "Step", "read_lesson"]
-
 NAMES = ("three-times", "stiffness", "gap", "own-ball")
 """Of the lessons, in their order."""
 

@@ -15,8 +15,6 @@ from stackbounce.model import Drop
 from stackbounce.model.catalogue import stack
 from stackbounce.units import quantity
 
-__all__ = ["Link", "explorer_fragment", "split_links"]
-
 _LINK = re.compile(r"\[([^\]]+)\]\((explorer|lesson): ([^)]+)\)")
 
 

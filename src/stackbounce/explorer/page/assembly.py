@@ -11,8 +11,6 @@ from typing import NamedTuple
 from stackbounce.explorer.page.bundle import bundle
 from stackbounce.explorer.page.parts import made_file
 
-__all__ = ["Texts", "assemble", "digest", "icon", "service_worker", "with_policy"]
-
 _STATIC = Path(__file__).parent.parent / "static"
 _SERVED = "js/origin/served.js"
 _LANGUAGES = "made/languages.js"  # a server has a file of each instead

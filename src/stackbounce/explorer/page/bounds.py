@@ -7,8 +7,6 @@ from typing import Any
 
 from stackbounce.errors import InvalidType, InvalidValue
 
-__all__ = ["limits_of"]
-
 
 def limits_of(check: Callable[[str, object], float]) -> dict[str, Any]:
     """Return the least and the largest number that a check lets through, and its words.

@@ -11,8 +11,6 @@ from collections.abc import Callable
 
 from stackbounce.errors import InvalidValue
 
-__all__ = ["bundle"]
-
 _IMPORT = re.compile(r'^import\s+(\w+|\*\s*as\s+\w+|\{[^}]*\})\s*from\s*"([^"]+)";$', re.MULTILINE)
 _LATER = re.compile(r'\bimport\("([^"]+)"\)')
 _PASSED = re.compile(r'^export\s*\{([^}]*)\}(?:\s*from\s*"([^"]+)")?;$', re.MULTILINE)

@@ -10,8 +10,6 @@ from stackbounce.model import LAWS, ContactLaw, Hysteretic
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS
 from stackbounce.version import __version__
 
-__all__ = ["list_choices"]
-
 _WORDS = {
     "stiffness": (
         "how stiff",

@@ -17,8 +17,6 @@ from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stack
 from stackbounce.run.result import Cause, Status
 from stackbounce.units import examples
 
-__all__ = ["MAP_RTOL", "OUTCOMES", "RATIOS", "model_json"]
-
 MAP_RTOL = 1e-8
 """The tolerance of nonlinear contacts in maps and lines, far finer than their colours."""
 

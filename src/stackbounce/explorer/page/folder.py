@@ -7,8 +7,6 @@ from stackbounce.explorer.page.assembly import assemble, digest, icon, service_w
 from stackbounce.explorer.page.parts import made_file
 from stackbounce.explorer.page.policy import PAGE
 
-__all__ = ["folder_files"]
-
 _MADE = ("engine.wasm", "layout.json", "model.json")
 _HEAD = """\
   <link rel="stylesheet" href="explorer.css">

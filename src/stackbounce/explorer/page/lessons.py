@@ -12,8 +12,6 @@ from stackbounce.explorer.lessons import (
 )
 from stackbounce.json_values import plain
 
-__all__ = ["list_lessons"]
-
 
 def list_lessons() -> dict[str, list[dict[str, Any]]]:
     """Return the lessons by language. A text with links is the list of its parts.

@@ -6,8 +6,6 @@ import json
 from stackbounce.explorer.page.assembly import assemble, digest, with_policy
 from stackbounce.explorer.page.parts import made_file
 
-__all__ = ["one_file"]
-
 _POLICY = (
     "default-src 'none'; script-src '{script}' 'wasm-unsafe-eval'; style-src '{style}'; "
     "worker-src blob:; img-src data: blob:; base-uri 'none'; form-action 'none'"

@@ -8,8 +8,6 @@ from stackbounce.errors import FileError
 from stackbounce.explorer.page.data import model_json
 from stackbounce.model.laws import LAWS
 
-__all__ = ["KINDS", "made_file"]
-
 KINDS = {
     "engine.wasm": "application/wasm",
     "layout.json": "application/json",

@@ -1,7 +1,5 @@
 """The content security policy of the page where its files come from a server."""
 
-__all__ = ["PAGE"]
-
 PAGE = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; "
     "style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; manifest-src 'self'; "

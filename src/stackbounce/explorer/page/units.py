@@ -6,8 +6,6 @@ The page reads units as `stackbounce.units.quantity` does, which asks pint. A na
 import re
 from typing import Any
 
-__all__ = ["list_units"]
-
 _NAME = re.compile(r"[^\W\d_]+")
 
 

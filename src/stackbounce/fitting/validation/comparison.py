@@ -11,18 +11,6 @@ from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.validation.family import Family, families, reason_to_skip
 from stackbounce.fitting.validation.series import RESTITUTION, Series
 
-__all__ = [
-    "AGREES",
-    "DOUBTFUL",
-    "REFUTED",
-    "REFUTED_BELOW",
-    "Comparison",
-    "Outcome",
-    "compare_laws",
-    "format_p",
-    "verdict",
-]
-
 AGREES, DOUBTFUL, REFUTED = "agrees", "doubtful", "refuted"
 REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05
 """The p values of the verdicts."""

@@ -12,8 +12,6 @@ from stackbounce.model.laws import LAWS, ContactLaw
 from stackbounce.run.calibration import calibrate
 from stackbounce.run.collision import contact_time, restitution
 
-__all__ = ["Family", "families", "predicted", "reason_to_skip"]
-
 _MASS = 0.1  # kg; on its own it does not change how a calibrated law depends on the speed
 _TIMES = (5e-3, 0.5e-3)  # s: two contact times, where a source gives none
 _SAME = 1e-3  # relative, of curves that should not depend on how a law was calibrated

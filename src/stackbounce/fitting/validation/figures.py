@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["draw", "draw_on"]
-
 _POINTS = 40  # of a curve
 _STYLES = ("-", "--", "-.", ":")
 

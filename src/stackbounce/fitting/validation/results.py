@@ -24,8 +24,6 @@ from stackbounce.fitting.validation.series import make_series, why_not
 from stackbounce.json_values import plain
 from stackbounce.version import __version__
 
-__all__ = ["Validation", "validate", "write"]
-
 _NAMES = ("index.html", "validation.csv", "validation.json")
 _COLUMNS = (
     "law", "verdict", "p", "p_calibrated", "p_half", "p_twice", "p_without_air", "steady",

@@ -23,8 +23,6 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["CONTACT_TIME", "RESTITUTION", "Series", "make_series", "why_not"]
-
 RESTITUTION, CONTACT_TIME = "restitution", "contact time"
 
 _AIR_DENSITY = 1.2  # kg/m**3

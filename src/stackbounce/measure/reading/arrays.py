@@ -15,8 +15,6 @@ from stackbounce.measure.reading.layouts import Layout, columns_of
 from stackbounce.measure.reading.limits import CELLS, COLUMNS
 from stackbounce.measure.reading.numbers import Table
 
-__all__ = ["array_in", "is_array", "joined", "layout_of_array", "rows_of_array"]
-
 _NUMBERS = "biuf"
 _BROKEN = (ValueError, TypeError, LookupError, SyntaxError, EOFError, RecursionError, TokenError)
 

@@ -9,8 +9,6 @@ from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.roles import Column, column
 
-__all__ = ["NOT_NAMED", "Guess", "guess"]
-
 _LEAST_ROWS = 5  # that tell times
 _MANY_ROWS = 20  # that tell frames, or samples of a scope
 _UNEVEN = 0.1  # of a step, by which rounding may move times

@@ -13,8 +13,6 @@ from stackbounce.measure.reading.roles import Column
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["INFERRED", "bounces"]
-
 INFERRED = (
     "height 0, of the drop, was not measured: phyphox infers it from the bounces that followed"
 )

@@ -12,8 +12,6 @@ from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.roles import Column
 
-__all__ = ["on_the_clock", "without_counts"]
-
 _UNITS = {"s": (1.0, "seconds"), "ms": (1e-3, "milliseconds"), "µs": (1e-6, "microseconds"),
           "ns": (1e-9, "nanoseconds")}  # fmt: skip
 _EPOCH = (631152000.0, 4102444800.0)  # s since 1970, from 1990 to 2100

@@ -22,8 +22,6 @@ from stackbounce.measure.reading.video import rows_by_frame
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["assemble", "holds_of"]
-
 Values = Array
 _ASSUMED = {"time": "s", "knock_time": "s", "force": "N", "compression": "m", "x": "m", "y": "m"}
 _OTHER_UNITS = {"s": "ms", "N": "kN", "m": "cm"}  # examples in doubts

@@ -5,8 +5,6 @@ from dataclasses import dataclass
 
 from stackbounce.units import in_si
 
-__all__ = ["Heading", "heading", "is_unit", "slug"]
-
 _BEFORE = re.compile(r"(Latest|(?:Run|Data Set|Durchgang|Lauf)\b[^:]{0,40}|[^:(\[]{1,40}):\s*(.+)")
 _AFTER = re.compile(r"(.+?)[\s,]+((?:Run|Durchgang|Lauf|Ensayo|Essai)\s+#?\d{1,6})")
 _BRACKETS = re.compile(r"(.*?)\s*(?:\(([^()]*(?:\([^()]*\)[^()]*)?)\)|\[([^\[\]]*)\])")

@@ -19,8 +19,6 @@ from stackbounce.measure.reading.headings import heading, is_unit
 from stackbounce.measure.reading.roles import Column, column
 from stackbounce.measure.reading.text import Text, count_numbers, number
 
-__all__ = ["LAYOUTS", "Layout", "columns_of", "first_row", "general", "layout"]
-
 
 @dataclass(frozen=True)
 class Layout:

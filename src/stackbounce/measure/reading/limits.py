@@ -2,8 +2,6 @@
 
 from stackbounce.errors import FileError
 
-__all__ = ["BYTES", "CELLS", "COLUMNS", "LINE", "refuse_others"]
-
 BYTES = 2**28
 """Bytes of a file, and of the tables in a zip archive together, at most."""
 

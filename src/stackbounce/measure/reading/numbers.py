@@ -14,8 +14,6 @@ from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.limits import CELLS, LINE
 from stackbounce.measure.reading.text import MISSING, Text, number, split
 
-__all__ = ["Table", "rows_of"]
-
 _CHUNK = LINE  # characters that are parsed at once, so that no line in them is too long
 _ODD = 2**23  # characters that are parsed cell by cell in Python, at most: some seconds
 _BLANKS = sorted({word for one in MISSING for word in (one, one.upper(), one.title(), "NaN")})

@@ -11,8 +11,6 @@ from stackbounce.measure.reading.headings import slug
 from stackbounce.measure.reading.roles import ROLES, Column
 from stackbounce.units import in_si
 
-__all__ = ["ReadOptions", "apply_options", "of_run"]
-
 _Key = str | int
 _KINDS: dict[str, tuple[Any, str]] = {
     "table": (str, "a name"),

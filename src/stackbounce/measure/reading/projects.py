@@ -12,8 +12,6 @@ from stackbounce.errors import FileError
 from stackbounce.measure.reading.tables import Tables, as_text
 from stackbounce.measure.reading.text import decode
 
-__all__ = ["tables"]
-
 _BYTES = 2**25
 """Bytes of XML, at most: its tree takes some ten times as much memory."""
 

@@ -30,8 +30,6 @@ from stackbounce.measure.reading.video import on_frames
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["read", "read_content"]
-
 
 def read(
     path: str | os.PathLike[str],

@@ -6,8 +6,6 @@ from dataclasses import dataclass, replace
 from stackbounce.measure.reading.headings import Heading, slug
 from stackbounce.units import in_si
 
-__all__ = ["ACCELERATIONS", "FRAME", "PIXEL", "POINT", "ROLES", "Column", "column"]
-
 FRAME, PIXEL = "frame", "px"
 """The units of time and of length in a video whose frame rate and scale are not known."""
 

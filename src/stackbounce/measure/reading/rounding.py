@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from stackbounce.measure.quantities import Array
 
-__all__ = ["Rounding", "even_times", "rounding_of", "spread"]
-
 _COUNTED = 2000  # numbers whose digits are counted: nearly none of them may end in zeros
 _SINGLE_DIGITS = 8  # that a float of 32 bits does not have, but that programs write of it
 _NINTH_DIGIT = 5.1e-9  # relative: how far nine digits may be off the float they were written of

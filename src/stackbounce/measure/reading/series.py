@@ -11,8 +11,6 @@ from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.roles import Column
 from stackbounce.measure.reading.rounding import Rounding, even_times, rounding_of, spread
 
-__all__ = ["Series", "in_time", "step_of"]
-
 _RUNS = 50
 """Runs below each other, at most: with more, the column does not hold times."""
 

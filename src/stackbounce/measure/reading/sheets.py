@@ -10,8 +10,6 @@ from stackbounce.errors import FileError, shown
 from stackbounce.extras import need
 from stackbounce.measure.reading.tables import Tables, as_text
 
-__all__ = ["from_xlsx"]
-
 _CELLS = 2**19
 """Cells of a spreadsheet, at most: some seconds."""
 

@@ -9,8 +9,6 @@ import numpy as np
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.measure.messages import about_option
 
-__all__ = ["Tables", "as_text", "chosen"]
-
 
 @dataclass(frozen=True)
 class Tables:

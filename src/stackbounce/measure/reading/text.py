@@ -9,8 +9,6 @@ from stackbounce.errors import FileError, InvalidValue, shown
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.reading.limits import COLUMNS, LINE
 
-__all__ = ["MISSING", "Text", "count_numbers", "decode", "number", "split", "tabulate"]
-
 HEAD = 200
 """Lines from which the layout of a table is recognised."""
 

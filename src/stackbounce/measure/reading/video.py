@@ -10,8 +10,6 @@ from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.roles import FRAME, PIXEL, POINT, Column, column
 
-__all__ = ["on_frames", "rows_by_frame"]
-
 _TRACKS = 12
 """Tracks below each other that are read, at most: the longest ones."""
 

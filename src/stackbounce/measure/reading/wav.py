@@ -15,8 +15,6 @@ from stackbounce.measure.reading.limits import CELLS
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["is_wav", "read_wav"]
-
 _STREAMED = (0, 0xFFFFFFFF)  # sizes that recorders write before they know the end
 
 

@@ -9,8 +9,6 @@ from stackbounce.measure.reading import arrays
 from stackbounce.measure.reading.limits import BYTES
 from stackbounce.measure.reading.tables import Tables
 
-__all__ = ["is_xlsx", "members"]
-
 _MEMBERS = 1000  # of an archive, at most
 _RATIO = 400  # of bytes to packed bytes; numbers as text come to about 10
 _BROKEN = (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, RuntimeError)

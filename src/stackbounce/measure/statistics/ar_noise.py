@@ -12,13 +12,6 @@ from numpy.typing import NDArray
 
 from stackbounce.measure.quantities import Array
 
-__all__ = [
-    "Noise",
-    "correlation_factor",
-    "difference_noise",
-    "linear_prediction_residual",
-]
-
 _SHARES = (0.2, 0.6, 0.9, 1.0)  # of the variance that is AR(1) noise, on the grid
 _TIMES = 7  # correlation times on the grid, from one point on
 _LONGEST_TIME = 0.5  # of the record: the longest correlation time on the grid

@@ -7,8 +7,6 @@ import numpy as np
 
 from stackbounce.measure.quantities import Array
 
-__all__ = ["Kink", "find_kink"]
-
 _AVERAGED = 0.06  # of the contact time alone: averages before a slope or a maximum is taken
 _END = 0.6  # of the largest departure: where it is reached the fit ends
 _LATEST_END = 0.9  # of the contact time alone: later forces are too small

@@ -5,8 +5,6 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["propagate"]
-
 _STEP = 1e-4  # relative, of the central differences; runs repeat to about 1e-10
 _ANY = (-np.inf, np.inf)
 

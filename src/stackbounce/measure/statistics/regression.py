@@ -7,15 +7,6 @@ import numpy as np
 
 from stackbounce.measure.quantities import Array, Number
 
-__all__ = [
-    "Fit",
-    "covariance_of",
-    "fit_with_excess_scatter",
-    "half_width",
-    "least_squares",
-    "widening",
-]
-
 _REPORTED_BELOW = 0.01  # p-value of chi squared: then an excess scatter is reported
 _LEAST_SCATTER = 0.1  # of the smallest error: the smallest excess scatter on the grid
 _SCATTERS = 20  # excess scatters on the grid

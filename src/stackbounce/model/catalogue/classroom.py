@@ -16,8 +16,6 @@ from stackbounce.model.ball import Ball
 from stackbounce.model.catalogue.entry import ESTIMATE, MEASURED, RULE, CatalogueBall
 from stackbounce.model.laws import Hysteretic
 
-__all__ = ["CLASS_BALLS", "Figure"]
-
 
 @dataclass(frozen=True)
 class Figure:

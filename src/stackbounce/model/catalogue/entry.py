@@ -7,8 +7,6 @@ from stackbounce.model.ball import Ball
 from stackbounce.model.laws import ContactLaw, Hysteretic, Spring
 from stackbounce.units import Unit
 
-__all__ = ["ESTIMATE", "KINDS", "MEASURED", "RULE", "CatalogueBall"]
-
 MEASURED, RULE, ESTIMATE = KINDS = ("measured", "rule", "estimate")
 """What a figure is: measured, set by the rules of a game, or estimated."""
 

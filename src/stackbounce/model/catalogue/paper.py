@@ -8,8 +8,6 @@ from stackbounce.model.ball import Ball
 from stackbounce.model.catalogue.entry import CatalogueBall
 from stackbounce.units import Unit
 
-__all__ = ["BALLS", "PAIRS", "Pair"]
-
 _TABLE_I = "Cross 2007, Table I"
 _SECTION_III = "Cross 2007, section III"
 

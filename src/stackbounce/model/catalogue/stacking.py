@@ -11,8 +11,6 @@ from stackbounce.model.catalogue.entry import CatalogueBall
 from stackbounce.model.catalogue.paper import BALLS, PAIRS, Pair
 from stackbounce.model.laws import ContactLaw, Spring
 
-__all__ = ["Stack", "catalogue_ball", "pressed", "stack"]
-
 
 @dataclass(frozen=True)
 class Stack:

@@ -7,8 +7,6 @@ collision at the speed v reaches a larger compression. Contact times are given i
 import math
 from collections.abc import Mapping
 
-__all__ = ["duration", "hysteretic_duration", "measured_stiffness", "peak_compression"]
-
 
 def duration(p: float) -> float:
     """Return the contact time on a lossless power law, in units of C/v: π for a linear spring.

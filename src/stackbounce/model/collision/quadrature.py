@@ -4,8 +4,6 @@ import functools
 import math
 from collections.abc import Callable
 
-__all__ = ["integral"]
-
 _STEP = 1.0 / 32.0
 _REACH = 116  # steps to either side, where the weights are below 1e-17 of the largest
 

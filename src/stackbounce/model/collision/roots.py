@@ -4,8 +4,6 @@ import math
 import sys
 from collections.abc import Callable
 
-__all__ = ["rising_root", "root"]
-
 _MARGIN = 1e-3  # round-off at an end of a bracket must not hide the change of sign
 _CLOSEST = 1e-15  # relative
 _LEAST = 5e-324

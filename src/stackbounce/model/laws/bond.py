@@ -8,8 +8,6 @@ from stackbounce.errors import InvalidValue, non_negative
 from stackbounce.model.laws.law import ContactLaw, Given, Quantity, stiffness_in
 from stackbounce.model.laws.registry import register_unlisted
 
-__all__ = ["Bond"]
-
 
 @register_unlisted
 @dataclass(frozen=True)

@@ -25,8 +25,6 @@ from stackbounce.model.collision.roots import root
 from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Given, Quantity, stiffness_in
 from stackbounce.model.laws.registry import register
 
-__all__ = ["Dashpot", "damping_ratio", "duration", "restitution"]
-
 
 @register
 @dataclass(frozen=True)

@@ -8,8 +8,6 @@ from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Given
 if TYPE_CHECKING:
     from stackbounce.model.laws.hysteretic import Hysteretic
 
-__all__ = ["ElasticLaw"]
-
 _STEEPEST_FLANK = 2.5  # the largest exponent that a force record of an unknown power law may have
 
 

@@ -9,8 +9,6 @@ from stackbounce.model.laws.elastic import ElasticLaw
 from stackbounce.model.laws.law import stiffness_in
 from stackbounce.model.laws.registry import register
 
-__all__ = ["Hertz"]
-
 
 @register
 @dataclass(frozen=True)

@@ -26,8 +26,6 @@ from stackbounce.model.laws.law import (
 )
 from stackbounce.model.laws.registry import register
 
-__all__ = ["HollowBall"]
-
 _BUCKLING_TIME = 0.04  # of the contact time
 _BUCKLING_SHARE = 0.5  # of the peak force
 _SOFTEST = 6.0  # exponent of a release

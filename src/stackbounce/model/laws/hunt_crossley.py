@@ -37,8 +37,6 @@ from stackbounce.model.laws.law import (
 )
 from stackbounce.model.laws.registry import register
 
-__all__ = ["LARGEST", "HuntCrossley", "dissipation", "duration", "restitution"]
-
 LARGEST = 1e300
 """The largest d that the functions of this module accept."""
 _SMALL = 1.0  # the size up to which E(x) is summed

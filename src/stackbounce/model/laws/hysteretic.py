@@ -21,8 +21,6 @@ from stackbounce.model.laws.law import (
 )
 from stackbounce.model.laws.registry import register
 
-__all__ = ["Hysteretic"]
-
 _STIFFNESS = stiffness_in("N/m**exponent")
 _SOFTEST, _STEEPEST_FLANK = 6.0, 100.0  # exponents of a release that is not known, and that is
 

@@ -23,20 +23,6 @@ from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import rising_root
 from stackbounce.units import Unit, unit_of
 
-__all__ = [
-    "EXPONENT",
-    "RESTITUTION",
-    "STEEPEST",
-    "ContactLaw",
-    "EngineNumbers",
-    "Flank",
-    "Flanks",
-    "Given",
-    "Quantity",
-    "contact_numbers",
-    "stiffness_in",
-]
-
 STEEPEST = 1e6
 """The largest exponent of a loading or unloading curve; above it the curve is almost a step."""
 

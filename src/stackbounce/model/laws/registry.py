@@ -6,8 +6,6 @@ from stackbounce.engine.codes import FORMS
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model.laws.law import ContactLaw
 
-__all__ = ["LAWS", "UNLISTED", "law_named", "register", "register_unlisted", "usual_laws"]
-
 _Law = TypeVar("_Law", bound=ContactLaw)
 
 LAWS: dict[str, type[ContactLaw]] = {}

@@ -7,8 +7,6 @@ from stackbounce.errors import fraction
 from stackbounce.model.laws.law import ContactLaw, Given, Quantity
 from stackbounce.model.laws.registry import register
 
-__all__ = ["Rigid"]
-
 
 @register
 @dataclass(frozen=True)

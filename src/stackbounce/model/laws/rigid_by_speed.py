@@ -12,8 +12,6 @@ from stackbounce.model.laws.law import EngineNumbers, Given, Quantity
 from stackbounce.model.laws.registry import register
 from stackbounce.model.laws.rigid import Rigid
 
-__all__ = ["RigidBySpeed", "RigidLossBySpeed"]
-
 _HUGE = 700.0  # the logarithm of a number that is nearly the largest one
 _RESTITUTION = Quantity("", lambda n, v: fraction(n, v, zero=False), (0.8, 0.05, 1.0))
 _SPEED = Quantity("m/s", lambda n, v: between(n, v, 1e-9, 1e9, "m/s"), (1.0, 0.01, 10.0))

@@ -6,8 +6,6 @@ from typing import Any, TypeVar
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.model.laws.law import ContactLaw
 
-__all__ = ["between", "series"]
-
 _Law = TypeVar("_Law", bound=ContactLaw)
 _AGREE = 1e-12  # numbers that agree so well differ by round-off
 

@@ -7,8 +7,6 @@ from stackbounce.model.laws.elastic import ElasticLaw
 from stackbounce.model.laws.law import stiffness_in
 from stackbounce.model.laws.registry import register
 
-__all__ = ["Spring"]
-
 
 @register
 @dataclass(frozen=True)

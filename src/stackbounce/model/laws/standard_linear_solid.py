@@ -28,8 +28,6 @@ from stackbounce.model.collision.roots import root
 from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Given, Quantity, stiffness_in
 from stackbounce.model.laws.registry import register
 
-__all__ = ["StandardLinearSolid", "collision"]
-
 _CLOSE = 1e-3
 """N over y**2 below which the three exponents are so close that the closed form loses digits."""
 

@@ -28,8 +28,6 @@ from stackbounce.model.laws.law import (
 from stackbounce.model.laws.registry import register_unlisted
 from stackbounce.units import Unit
 
-__all__ = ["MOST_POINTS", "Tabulated", "monotone_spline"]
-
 MOST_POINTS = 16
 """The largest number of points of a curve, with the one at 0: two pieces for each interval."""
 

@@ -20,8 +20,6 @@ from stackbounce.model.collision.roots import root
 from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Given, Quantity, stiffness_in
 from stackbounce.model.laws.registry import register
 
-__all__ = ["Viscoelastic", "duration", "restitution", "squared_speed"]
-
 _WEAK = 1e-5
 """Up to this v*² the loss is computed by its power series: a simulation has too much round-off."""
 

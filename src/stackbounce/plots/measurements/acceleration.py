@@ -9,8 +9,6 @@ from stackbounce.plots.style import COLORS, annotate, styled_figure
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["draw"]
-
 _BESIDE = 0.15  # of the series' duration, shown on each side
 
 

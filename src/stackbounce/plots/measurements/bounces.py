@@ -9,8 +9,6 @@ from stackbounce.plots.style import COLORS, annotate, styled_figure
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["draw"]
-
 _LINES = {"linear": "-", "power law": "--"}
 _FIRST_NUMBERS = 6  # further ones would be written on each other
 

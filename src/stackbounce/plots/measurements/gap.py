@@ -9,8 +9,6 @@ from stackbounce.plots.style import COLORS, FORCES, two_panels
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["draw"]
-
 
 def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     """Draw both forces, below them their difference, and the time of the second ball's touch.

@@ -10,8 +10,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-__all__ = ["draw"]
-
 
 def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     """Draw the measured heights of the ball's lowest point, and those at the mean restitution.

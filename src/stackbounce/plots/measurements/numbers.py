@@ -7,8 +7,6 @@ from stackbounce.plots.style import file_of, styled_figure, with_error
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["draw"]
-
 _MOST = 24  # rows that fit
 
 

@@ -10,8 +10,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["draw"]
-
 _IN, _OUT, _LINE = COLORS[0], COLORS[1], "#606060"
 _MANY = 1500  # points of a branch that are drawn, about
 

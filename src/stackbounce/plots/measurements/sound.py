@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["draw"]
-
 _COLUMNS = 2400  # of the envelope
 _MARGIN = 0.06
 _WORDS = {"echo": "echoes", "second sound of one impact": "second sounds of one impact"}

@@ -10,8 +10,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["draw"]
-
 _SAMPLES = 60  # of a parabola
 _LINES = 2  # on which restitutions are written in turn
 

@@ -10,8 +10,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["draw"]
-
 _RECORD, _SHADE, _FLANK, _PEAK = "#4d4d4d", COLORS[0], COLORS[1], COLORS[2]
 _TINY = 0.03  # of the whole extent: a contact too narrow to be seen
 _MOST = 6  # contacts that are labelled one by one

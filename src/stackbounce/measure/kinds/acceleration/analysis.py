@@ -19,8 +19,6 @@ from stackbounce.measure.kinds.acceleration.series import (
 from stackbounce.measure.quantities import Array
 from stackbounce.model.drop import STANDARD_GRAVITY
 
-__all__ = ["accelerometer"]
-
 _CONTACT_SAMPLES = 6  # of a contact whose duration is given
 
 

@@ -6,8 +6,6 @@ from stackbounce.measure.kinds.acceleration.analysis import accelerometer
 from stackbounce.measure.kinds.acceleration.result import Accelerometer
 from stackbounce.measure.setup import Setup
 
-__all__ = ["analyse"]
-
 
 def analyse(data: Any, setup: Setup) -> Accelerometer:
     """Return the flights and bounces of a falling sensor."""

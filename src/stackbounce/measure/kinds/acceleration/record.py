@@ -8,8 +8,6 @@ from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns
 
-__all__ = ["FEWEST", "Record", "record_of"]
-
 FEWEST = 4  # samples of a flight
 _CLIPPED = 3  # samples of exactly the largest value: the range of the sensor ended
 _AXES = ("acceleration_x", "acceleration_y", "acceleration_z")

@@ -6,8 +6,6 @@ from typing import Any, ClassVar
 from stackbounce.measure.finding import Finding, rigid_contact
 from stackbounce.measure.quantities import Array, Number, Row, known_rows, nominal
 
-__all__ = ["Accelerometer"]
-
 
 @dataclass(frozen=True, eq=False)
 class Accelerometer(Finding):

@@ -8,8 +8,6 @@ import numpy as np
 from stackbounce.measure.kinds.acceleration.record import FEWEST, Record
 from stackbounce.measure.samples import runs, trapezoid
 
-__all__ = ["WANTED", "Flight", "is_held", "no_gain", "series_of", "what_is_seen"]
-
 WANTED = "data must hold a free fall and a bounce, got "
 
 # Set by hand on the records of `tests/synthetic/accelerometer.py`, and on swings, jumps and rides

@@ -21,8 +21,6 @@ from stackbounce.measure.samples import columns
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
-__all__ = ["bounces"]
-
 _MOST_BOUNCES = 200  # of one drop
 _ROUNDING = 1e-5  # of an interval: a clock in single precision makes equal ones differ by less
 _INSTANT = 1e-6  # s: no ball bounces twice in so short a time

@@ -6,8 +6,6 @@ from stackbounce.measure.kinds.bounces.analysis import bounces
 from stackbounce.measure.kinds.bounces.result import Bounces
 from stackbounce.measure.setup import Setup
 
-__all__ = ["analyse"]
-
 
 def analyse(data: Any, setup: Setup) -> Bounces:
     """Return the restitutions that times of bounces tell."""

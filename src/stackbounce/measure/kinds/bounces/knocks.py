@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from stackbounce.measure.finding import Finding
 from stackbounce.measure.quantities import Array, Number, Row
 
-__all__ = ["SHRINKS", "Dropped", "Knocks", "missed_between"]
-
 SHRINKS = (0.15, 1.03)
 """The range of the ratio of neighbouring flights."""
 

@@ -10,8 +10,6 @@ from stackbounce.errors import InvalidValue
 from stackbounce.measure.quantities import Array, Number, nominal
 from stackbounce.measure.statistics.regression import Fit, covariance_of, fit_with_excess_scatter
 
-__all__ = ["RestitutionLaw", "fit_line", "laws_of"]
-
 _MOST_SCATTER = 0.3  # excess scatter of restitutions that the fits allow for
 _STEEPEST = 30.0  # logarithm of a power law's restitution at 1 m/s: beyond, all speeds are far off
 _ALIKE = 1e-5  # of a speed: a line through closer ones is singular in double precision

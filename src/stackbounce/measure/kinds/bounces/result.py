@@ -8,8 +8,6 @@ from stackbounce.measure.finding import Finding, rigid_contact
 from stackbounce.measure.kinds.bounces.restitution_law import RestitutionLaw
 from stackbounce.measure.quantities import Number, Row, nominal
 
-__all__ = ["Bounces"]
-
 
 @dataclass(frozen=True)
 class Bounces(Finding):

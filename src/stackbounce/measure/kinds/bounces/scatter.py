@@ -9,8 +9,6 @@ import numpy as np
 from stackbounce.measure.quantities import Array, nominal
 from stackbounce.measure.statistics.regression import covariance_of, least_squares
 
-__all__ = ["Scatter", "meaning_of_excess", "meaning_of_explained", "scatter_of"]
-
 # Set by hand on the drops of `tests/synthetic/falls.py` with errors of the times or uneven floors.
 _FEWEST = 6  # restitutions that tell anything
 _CLEAR = 2.0  # standard deviations, or log-likelihood, by which a cause is told

@@ -9,8 +9,6 @@ from stackbounce.measure.finding import Finding
 from stackbounce.measure.quantities import Number, Row, known_rows, measured_if_given, nominal
 from stackbounce.measure.setup import Setup
 
-__all__ = ["Known", "of_numbers"]
-
 
 @dataclass(frozen=True)
 class Known(Finding):

@@ -14,8 +14,6 @@ from stackbounce.measure.quantities import Number, deviation
 from stackbounce.measure.setup import Place, lowest_point, places
 from stackbounce.measure.statistics.regression import widening
 
-__all__ = ["heights"]
-
 
 def heights(
     drop_height: float | Number,

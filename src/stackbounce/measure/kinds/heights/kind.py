@@ -11,8 +11,6 @@ from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.setup import Setup
 from stackbounce.measure.unrecognised import unrecognised
 
-__all__ = ["analyse", "of_numbers"]
-
 _MANY = 100  # heights of one drop
 
 

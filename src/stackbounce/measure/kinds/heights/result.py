@@ -8,8 +8,6 @@ from stackbounce.measure.finding import Finding, rigid_contact
 from stackbounce.measure.quantities import Number, Row, nominal
 from stackbounce.model.drop import STANDARD_GRAVITY
 
-__all__ = ["Heights"]
-
 
 @dataclass(frozen=True)
 class Heights(Finding):

@@ -13,8 +13,6 @@ from stackbounce.measure.quantities import measured
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["press"]
-
 
 def press(
     data: "xr.Dataset | Any",

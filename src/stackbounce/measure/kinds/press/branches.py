@@ -15,8 +15,6 @@ from stackbounce.measure.statistics.ar_noise import difference_noise
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Cycle", "Record", "cycles", "record_of"]
-
 _LEAST_POINTS = 6  # of a branch that is fitted, which has three parameters
 _LEAST_REVERSAL = 0.15  # of the range of compressions: smaller reversals belong to a branch
 _HELD_WITHIN = 1e-3  # of the range of compressions, by which one that is held may change

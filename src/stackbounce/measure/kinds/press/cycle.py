@@ -20,8 +20,6 @@ from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import quantisation_error, trapezoid
 from stackbounce.measure.statistics.ar_noise import Noise
 
-__all__ = ["result_of"]
-
 # Limits that were set by what recovered the truth in simulated records (benchmarks/coverage/press).
 _MOST_POINTS = 4000  # of a branch; a longer one is averaged in groups
 _SHARED_NOISE = 1.5  # largest ratio of the residuals of two branches that share one noise model

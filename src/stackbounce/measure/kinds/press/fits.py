@@ -11,8 +11,6 @@ import numpy as np
 
 from stackbounce.measure.quantities import Array
 
-__all__ = ["PowerFit", "fit_power_law", "power", "power_law", "rough_contact"]
-
 _FIRST_EXPONENTS = (0.7, 1.0, 1.5, 2.0, 3.0)  # of the grid on which the fit's start is sought
 _FIRST_CONTACTS = 48  # places of the contact on the same grid
 _GRID_POINTS = 300  # of the curve that are compared on that grid, for speed

@@ -6,8 +6,6 @@ from stackbounce.measure.kinds.press.analysis import press
 from stackbounce.measure.kinds.press.result import Press
 from stackbounce.measure.setup import Setup
 
-__all__ = ["analyse"]
-
 
 def analyse(data: Any, setup: Setup) -> Press:
     """Return the contact that a press curve tells."""

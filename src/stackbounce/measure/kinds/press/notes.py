@@ -4,8 +4,6 @@ from typing import Any
 
 from stackbounce.measure.kinds.press.result import Press
 
-__all__ = ["sentences"]
-
 _CLEAR = 3.0  # standard errors
 _WORTH = 0.02  # of a number, below which a difference gets no note
 

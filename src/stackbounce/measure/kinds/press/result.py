@@ -5,11 +5,10 @@ from typing import Any, ClassVar
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.finding import Branch, Finding
-from stackbounce.measure.kinds.press.table import MOST_POINTS, fitted_table
+from stackbounce.measure.kinds.press.table import fitted_table
 from stackbounce.measure.quantities import Array, Number, Row, known_rows, measured
 from stackbounce.model import Tabulated
-
-__all__ = ["Curve", "Press"]
+from stackbounce.model.laws.tabulated import MOST_POINTS
 
 _AGREES = 2.0  # standard errors
 

@@ -9,8 +9,6 @@ from stackbounce.measure.kinds.press.result import Press
 from stackbounce.measure.quantities import Number, Row, measured
 from stackbounce.model.laws import STEEPEST, PowerLaw, series
 
-__all__ = ["Split", "series_stiffness", "split_series"]
-
 
 @dataclass(frozen=True)
 class Split:

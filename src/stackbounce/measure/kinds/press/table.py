@@ -9,8 +9,6 @@ from stackbounce.errors import InvalidValue, whole
 from stackbounce.model import Tabulated
 from stackbounce.model.laws.tabulated import MOST_POINTS, monotone_spline
 
-__all__ = ["MOST_POINTS", "fitted_table"]
-
 _FEWEST = 6
 _ROUNDS = 3  # each fits what the spline of the last one leaves over
 _STEEP = 1e-6  # of the mean rise: the smallest rise of the loading from point to point

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 from stackbounce.measure.kinds.sound.bands import Bands, band_powers
 from stackbounce.measure.quantities import Array
 
-__all__ = ["aligned"]
-
 # Set by hand on the synthetic recordings of `benchmarks/coverage/sound.py`, so that the error bars
 # hold the truth as often as they claim; `tests/measure/test_coverage_measure.py` guards it.
 _SECONDS_BEFORE, _SECONDS_AFTER = 2e-3, 3e-3  # s of a knock, around its onset, that are compared

@@ -16,8 +16,6 @@ from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import runs
 
-__all__ = ["knocks"]
-
 _LEAST_RATE = 400  # samples per second: with fewer an onset lies between two samples
 _DEAD_SECONDS = 8e-3  # s: two knocks closer than that are one impact
 _SAME_DELAY = 1.5e-3  # s by which the delays of one echo differ at most

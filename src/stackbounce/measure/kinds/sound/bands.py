@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from stackbounce.measure.quantities import Array
 
-__all__ = ["Bands", "band_powers"]
-
 # Set by hand on the synthetic recordings of `benchmarks/coverage/sound.py`, as in `alignment.py`.
 _LOWEST_HERTZ = 350.0  # below are wind, hum and steps
 _HIGHEST_SHARE = 0.46  # of the sampling rate

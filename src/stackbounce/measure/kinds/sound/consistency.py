@@ -7,8 +7,6 @@ import numpy as np
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.statistics.regression import half_width, widening
 
-__all__ = ["misjudgement"]
-
 # The priors: set by hand on the synthetic recordings of `benchmarks/coverage/sound.py`.
 _USUAL_FACTOR, _FACTOR_SPREAD = 2.2, 1.0  # median, and standard deviation of the logarithm
 _SCATTERS = (2e-5, 0.1)  # of restitutions from bounce to bounce, log-uniform

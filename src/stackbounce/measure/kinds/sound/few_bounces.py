@@ -9,8 +9,6 @@ from stackbounce.measure.kinds.bounces.knocks import Knocks
 from stackbounce.measure.quantities import Number, Row
 from stackbounce.model.drop import STANDARD_GRAVITY
 
-__all__ = ["FewBounces", "few_bounces"]
-
 
 @dataclass(frozen=True)
 class FewBounces(Finding):

@@ -9,8 +9,6 @@ from stackbounce.measure.kinds.sound.analysis import knocks
 from stackbounce.measure.kinds.sound.few_bounces import few_bounces
 from stackbounce.measure.setup import Setup
 
-__all__ = ["analyse"]
-
 
 def analyse(data: Any, setup: Setup) -> tuple[Finding, ...]:
     """Return the restitutions, or else the flights, that a sound tells, and its knocks."""

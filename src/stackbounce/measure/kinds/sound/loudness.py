@@ -9,8 +9,6 @@ from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import resolution
 from stackbounce.measure.statistics.ar_noise import linear_prediction_residual
 
-__all__ = ["Rises", "find_rises", "rounding", "whitened"]
-
 # Set by hand on the recordings of `benchmarks/coverage/sound.py` and `docs/lab`.
 _HOP_SECONDS = 0.5e-3  # s, step of the search
 _HOPS_AFTER, _HOPS_BEFORE, _HOPS_BETWEEN = 4, 16, 1  # whose loudness is compared, and between them

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from stackbounce.measure.quantities import Array
 
-__all__ = ["clearest", "onsets"]
-
 # Set by hand on the synthetic recordings of `benchmarks/coverage/sound.py`, as in `alignment.py`.
 _RISE_TIMES = (0.0, 0.05e-3, 0.1e-3, 0.2e-3, 0.5e-3, 1e-3)  # s in which a knock may rise
 _FAR, _NEAR = 1.5e-3, 0.65e-3  # s to both sides of the presumed onset: at first, and to refine it

@@ -7,8 +7,6 @@ from stackbounce.measure.kinds.sound.loudness import Rises
 from stackbounce.measure.kinds.sound.sequence import Chain
 from stackbounce.measure.quantities import Array
 
-__all__ = ["refuse_other_series"]
-
 # Set by hand on one sound with echoes and on metronomes (`tests/measure/test_sound_alignment.py`).
 _FAINT = 0.1  # of the loudest amplitude: what is fainter is an echo
 _SLIGHT = 1.5  # times the least amplitude of a rise, which an echo does not reach

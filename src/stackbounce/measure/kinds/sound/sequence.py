@@ -8,8 +8,6 @@ import numpy as np
 from stackbounce.measure.kinds.bounces.knocks import SHRINKS
 from stackbounce.measure.quantities import Array
 
-__all__ = ["Chain", "find_chain"]
-
 # Weights of a series' score, in which a clear knock counts 1 to 3: set by hand on the synthetic
 # recordings of `benchmarks/coverage/sound.py` and those in `docs/lab`.
 _LONGEST_FLIGHT = 3.0  # s: a bounce of 11 m

@@ -33,8 +33,6 @@ from stackbounce.measure.quantities import Array, nominal
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
-__all__ = ["track"]
-
 _TOGETHER = 0.15  # of the time of fall, within which two balls' impacts are one drop's
 _LEAST_TILT = math.radians(0.5)  # that is corrected
 _WANTED = "data must hold a ball that falls and bounces, got "

@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from stackbounce.measure.quantities import Array
 
-__all__ = ["Flight", "find_flights", "unexplained"]
-
 _PIECE_PENALTY = 14.0  # variances, of each piece
 _SPEED_PENALTY = 9.0  # variances, of a flight's speed, a parameter that a rest does not have
 _STRAY_PENALTY = 9.0  # variances, of a point that belongs to no piece: 3 standard deviations

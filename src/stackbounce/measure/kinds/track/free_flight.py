@@ -19,8 +19,6 @@ from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import resolution
 
-__all__ = ["comparable", "no_flight", "no_gain", "what_is_seen"]
-
 _GRAVITY_RATIO = (0.6, 1.6)  # of the flights' acceleration to gravity, by a wrong scale or clock
 _UNSCALED = 30.0  # the same ratio, from which on only another unit of length explains it
 _KNOWN_WITHIN = 0.05  # relative error of an acceleration that tells a slow motion

@@ -8,8 +8,6 @@ from stackbounce.measure.kinds.track.result import Tracks
 from stackbounce.measure.quantities import nominal
 from stackbounce.measure.setup import Setup, above_bottom, places
 
-__all__ = ["analyse"]
-
 
 def analyse(data: Any, setup: Setup) -> Tracks:
     """Analyse a track; the floor's level becomes that of the point that was followed."""

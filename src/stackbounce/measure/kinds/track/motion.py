@@ -14,17 +14,6 @@ from stackbounce.measure.quantities import Array, Number, nominal
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drag import flown
 
-__all__ = [
-    "curve",
-    "fall_at",
-    "fallen",
-    "flight_numbers",
-    "meeting",
-    "risen",
-    "state",
-    "straightened",
-]
-
 _MOST_ROUNDS = 30  # of taking the drag away; each leaves a tenth of the change or less
 _SETTLED = 1e-10  # relative change of all numbers of the flights in the last of these rounds
 _STRANGE = 7.0  # times the median residual, 4.7 standard deviations: a point of another flight

@@ -9,8 +9,6 @@ from stackbounce.measure.kinds.track.shape import Shape
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 
-__all__ = ["notes_of", "stays_long", "uneven"]
-
 _CORRELATED = 0.2  # correlation of neighbouring points' errors that is mentioned
 _BENT = 0.05  # of the acceleration within a flight: a smaller change is not mentioned
 _OFF = 0.07  # of that change: by so much a restitution is off, in simulated distortions

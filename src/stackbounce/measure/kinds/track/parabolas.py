@@ -12,8 +12,6 @@ import numpy as np
 from stackbounce.measure.kinds.track.flights import Flight
 from stackbounce.measure.quantities import Array
 
-__all__ = ["Flights", "Parabolas", "fit_flights"]
-
 _LEAST_FREEDOM = 8  # degrees of freedom, above which residuals tell a correlation
 _CORRELATIONS = np.linspace(-0.7, 0.98, 57)  # on the grid; below 0: interlaced frames
 _COLUMNS, _ROWS = (part.tolist() for part in np.tril_indices(4))  # pairs of columns

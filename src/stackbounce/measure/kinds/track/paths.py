@@ -14,8 +14,6 @@ from stackbounce.measure.kinds.track.shape import curvatures, own_noise
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns, resolution
 
-__all__ = ["Columns", "Upward", "flights_of", "positions_of", "tilt_of", "upward"]
-
 _LEAST_MOTION = 0.03  # of the range of a track, within a window that tells an acceleration
 _CLEAR_JUMP = 5.0  # standard errors of a velocity's jump that may be a bounce
 _LEAST_JUMP = 0.1  # of the largest jump; smaller ones are caused by a hand

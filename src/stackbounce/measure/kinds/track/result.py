@@ -10,8 +10,6 @@ from stackbounce.measure.kinds.track.parabolas import Flights
 from stackbounce.measure.kinds.track.time_base import SI, TimeBase, TrackUnits
 from stackbounce.measure.quantities import Array, Number, Row, nominal
 
-__all__ = ["Track", "Tracks"]
-
 
 @dataclass(frozen=True)
 class Track:

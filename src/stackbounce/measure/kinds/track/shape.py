@@ -10,8 +10,6 @@ from stackbounce.measure.kinds.track.flights import Flight
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.statistics.ar_noise import correlation_factor
 
-__all__ = ["OWN", "Shape", "curvatures", "own_noise", "shape_of"]
-
 OWN = 5  # points of a flight that tell its own acceleration
 _BENT = 8  # points of a flight that tell how its acceleration changes
 _DIFFERENT_BELOW = 5e-4  # p-value of accelerations that differ

@@ -6,8 +6,6 @@ from typing import Any, NamedTuple
 
 from stackbounce.measure.quantities import Number
 
-__all__ = ["SI", "TimeBase", "TrackUnits", "check_time_base", "is_usual", "units_of"]
-
 _CALIBRATION = 0.03  # relative error of gravity that a calibration of the scale may make
 _NEAR = 0.06  # relative difference of a factor to the nearest one of those below
 _FACTORS = (  # of two frame rates

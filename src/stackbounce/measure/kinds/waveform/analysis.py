@@ -28,8 +28,6 @@ from stackbounce.model.laws import ContactLaw
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["waveform"]
-
 _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
 _ROUNDS = 4  # of finding baseline and contacts by each other; later ones change nothing
 _MOST_CONTACTS = 120  # of a record of bounces

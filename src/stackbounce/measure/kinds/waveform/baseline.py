@@ -11,8 +11,6 @@ from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import quantisation_error
 from stackbounce.measure.statistics.ar_noise import correlation_factor, difference_noise
 
-__all__ = ["Quiet", "first_guess", "fit_quiet", "quiet_parts", "scatter"]
-
 _LEAST_QUIET = 0.25  # of a record that is quiet
 _FAR = 0.2  # of a record's range: a clipped level that differs more from the ends is no baseline
 _FIFTH = 0.2  # of normal deviates that are within `_WITHIN_FIFTH`

@@ -17,8 +17,6 @@ from stackbounce.measure.kinds.waveform.shapes import Shape
 from stackbounce.measure.quantities import Array, known_to
 from stackbounce.measure.samples import quantisation_error
 
-__all__ = ["Seen", "measure_contact"]
-
 _BESIDE = 2  # times the contact's length: baseline that is looked at on each side
 _LEAST_BESIDE = 40  # samples of baseline that are looked at on each side
 _LEVEL_SAMPLES = 4  # quiet ones, at least, that tell a level

@@ -7,8 +7,6 @@ from stackbounce.errors import positive
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns
 
-__all__ = ["drooped", "undrooped"]
-
 
 def undrooped(times: ArrayLike, values: ArrayLike, time_constant: float) -> Array:
     """Return the input of a high-pass of first order from its output.

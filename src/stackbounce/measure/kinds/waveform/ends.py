@@ -6,8 +6,6 @@ from stackbounce.errors import InvalidType, InvalidValue, between, shown
 from stackbounce.measure.kinds.waveform.shapes import Shape
 from stackbounce.model.laws import LAWS, ContactLaw, law_named
 
-__all__ = ["UNTOLD", "Ends", "ends_of"]
-
 _OTHERS = 0.03  # of the flank's height: prior spread of other forces where the law is exact
 _SLOWING = 0.04  # of the flank's height: that of the ball's slowing down, which is known better
 _LARGEST_EXPONENT = 100.0  # of a flank that can be fitted

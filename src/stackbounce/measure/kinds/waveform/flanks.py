@@ -15,8 +15,6 @@ from stackbounce.measure.kinds.waveform.intervals import smoothed
 from stackbounce.measure.kinds.waveform.shapes import Shape
 from stackbounce.measure.quantities import Array
 
-__all__ = ["Flank", "fit_flank"]
-
 _STARTS = 21  # of the force, on the grid
 _ZOOMS = 7  # of the grid
 _SETTLED = 3  # of these zooms, after which each unknown has its best start

@@ -7,8 +7,6 @@ import numpy as np
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import runs
 
-__all__ = ["Stretch", "find_stretches", "smoothed", "which_sign"]
-
 _ABOVE_NOISE = 6.0  # noise levels, which noise does not reach in a million samples
 _FOLLOWED_TO = 3.0  # noise levels to which a contact is followed down
 _RINGING = 0.01  # of the highest peak, below which things are ringing

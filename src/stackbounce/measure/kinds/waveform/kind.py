@@ -10,8 +10,6 @@ from stackbounce.measure.kinds.waveform.gap.delay import sensor_gap
 from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
 from stackbounce.measure.setup import Setup
 
-__all__ = ["analyse"]
-
 
 def analyse(data: Any, setup: Setup) -> tuple[Finding, ...]:
     """Analyse a force, and the gap between two balls where there is a second channel or record."""

@@ -10,8 +10,6 @@ from stackbounce.measure.kinds.waveform.intervals import smoothed
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import runs, trapezoid
 
-__all__ = ["Peak", "find_peaks", "flat_top", "impulse_of"]
-
 _AVERAGES = 60  # moving averages over a contact, at least
 _CLEAR_DIP = 7.0  # noise levels between a peak and the dip beside it
 _LEAST_DIP = 0.02  # of the highest peak, between a peak and the dip beside it

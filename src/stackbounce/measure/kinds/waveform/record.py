@@ -15,8 +15,6 @@ from stackbounce.measure.samples import columns, resolution
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Record", "read_record"]
-
 _LEAST_SAMPLES = 8  # of a record
 _UNEVEN = 0.01  # of a step, by which one may differ before a note says so
 _SPIKE = 12.0  # noise levels of the second difference at a spike

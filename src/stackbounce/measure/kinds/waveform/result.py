@@ -10,8 +10,6 @@ from stackbounce.measure.quantities import Array, Number, Row, nominal
 
 if TYPE_CHECKING:
     import xarray as xr
-__all__ = ["Contact", "Waveform"]
-
 _LISTED = 12  # contacts in a table for people
 
 

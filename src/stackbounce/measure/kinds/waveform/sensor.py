@@ -6,8 +6,6 @@ from stackbounce.measure.kinds.waveform.result import Contact
 from stackbounce.measure.quantities import Number
 from stackbounce.model.drop import STANDARD_GRAVITY
 
-__all__ = ["restitution_of", "sensitivity_of"]
-
 _SHORTEST_FLIGHT = 3.0  # contact times, between two bounces
 
 

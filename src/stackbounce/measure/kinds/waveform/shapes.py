@@ -22,8 +22,6 @@ import numpy as np
 
 from stackbounce.measure.quantities import Array
 
-__all__ = ["Shape"]
-
 _BELOW = 0.1  # spread of the normal that is the prior below the range of the unknown's logarithm
 _ABOVE = 0.25  # that above the range
 _GRID = 13  # values of the unknown

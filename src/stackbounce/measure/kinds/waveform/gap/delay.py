@@ -25,8 +25,6 @@ from stackbounce.run.driver import simulate
 if TYPE_CHECKING:
     from stackbounce.model.laws import ContactLaw
 
-__all__ = ["delay", "gap_from_delay", "sensor_gap"]
-
 
 def gap_from_delay(
     delay: Any,

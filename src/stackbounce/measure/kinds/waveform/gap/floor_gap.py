@@ -13,8 +13,6 @@ from stackbounce.measure.kinds.waveform.sensor import restitution_of
 from stackbounce.measure.quantities import Array, known_to, measured, measured_if_given
 from stackbounce.measure.statistics.change_point import Kink, find_kink
 
-__all__ = ["floor_gap"]
-
 _RESTITUTION = (0.75, 0.144)  # mean and deviation of the prior: uniform from 0.5 to 1
 _REPEATED_WITHIN = 0.04  # relative, by which two drops from one height may differ
 _EARLY = 0.33  # of the contact time alone: earlier change points do not exclude a gap of 0

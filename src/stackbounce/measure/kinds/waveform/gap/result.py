@@ -9,8 +9,6 @@ from stackbounce.measure.kinds.waveform.result import Waveform
 from stackbounce.measure.quantities import Number, Row
 from stackbounce.measure.statistics.change_point import Kink
 
-__all__ = ["FloorGap", "SensorGap"]
-
 
 @dataclass(frozen=True, eq=False)
 class FloorGap(Finding):
