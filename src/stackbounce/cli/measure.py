@@ -158,7 +158,7 @@ def _save(
         parts = [{key: part[key] for key in part if key != "contact"} for part in parts]
         parts.append(law.parts())
     ball = {key: known[key] for key in ("mass", "diameter") if key in known}
-    plain = {key: getattr(one, "nominal_value", one) for key, one in ball.items()}
+    plain = {key: getattr(value, "nominal_value", value) for key, value in ball.items()}
     drop = one_ball(parts, **plain, name=name)
     write_scenario(drop.to_toml(), path, overwrite)
     return drop.to_mapping()

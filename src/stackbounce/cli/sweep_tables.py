@@ -48,9 +48,9 @@ def print_sweep(console: Console, data: xr.Dataset, found: dict[str, Any]) -> No
             console.print(f"  {dim}: {size}, {_span(data[dim])}")
             continue
         console.print(f"  {dim}: {size}, each with its own")
-        for path, one in data.coords.items():
-            if one.dims == (dim,):
-                console.print(f"    {path}: {_span(one)}")
+        for path, coord in data.coords.items():
+            if coord.dims == (dim,):
+                console.print(f"    {path}: {_span(coord)}")
     for name, ranges in found["ranges"].items():
         for part, (low, high) in ranges.items():
             console.print(f"  {name} {part}".rstrip() + f": {_range(low, high)}")

@@ -51,7 +51,7 @@ def list_places(host: str, port: int) -> list[Place]:
     """
     hosts = _own_hosts(with_six=host == "::") if host in _ALL else [host]
     others = [one for one in hosts if not _is_loopback(one)]
-    return [Place(address, _code(address)) for address in (url(one, port) for one in others)]
+    return [Place(address, _code(address)) for address in (url(other, port) for other in others)]
 
 
 def code_text(code: list[str]) -> str:
@@ -95,7 +95,7 @@ def _own_hosts(*, with_six: bool) -> list[str]:
 
     families = [socket.AF_INET, *([socket.AF_INET6] if with_six else [])]
     first = [_way_out(family) for family in families]
-    up = {name for name, one in psutil.net_if_stats().items() if one.isup}
+    up = {name for name, stat in psutil.net_if_stats().items() if stat.isup}
     found = [
         one.address
         for family in families

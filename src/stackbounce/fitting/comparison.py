@@ -97,7 +97,7 @@ class Comparison:
     def scores(self) -> list[Score]:
         """A row per model, the best by `criterion` first."""
         known = {name: getattr(found, self.criterion) for name, found in self.fits.items()}
-        rows = sorted(self.fits.items(), key=lambda one: known[one[0]])
+        rows = sorted(self.fits.items(), key=lambda item: known[item[0]])
         raw = [math.exp(-0.5 * (known[name] - known[rows[0][0]])) for name, _ in rows]
         return [
             Score(name, found.free, weight=weight / sum(raw), **found.goodness())

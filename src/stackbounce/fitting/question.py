@@ -63,7 +63,7 @@ def build_problem(
             )
         drops, rows = read_drops(parts.drops[""], data)
         parts = parts._replace(drops=drops, data=rows)
-    found = {key: dict(one) for key, one in parts.data.items()}
+    found = {key: dict(datum) for key, datum in parts.data.items()}
     for name, value in _pairs(measured, "--measured", "NAME=VALUE"):
         key, own = _own_name(parts, name)
         found.setdefault(key, {})[own] = convert_measured(own, value, Path())

@@ -94,8 +94,8 @@ def _check_keys(kind: type, table: Iterable[str], path: str) -> None:
         if key not in known:
             name = key if key.isidentifier() and len(key) < 60 else shown(key)
             raise ScenarioError(f"{_join(path, name)} is not a known key; {nearest(key, known)}")
-    for name, one in known.items():
-        if one.default is MISSING and name not in table:
+    for name, value in known.items():
+        if value.default is MISSING and name not in table:
             raise ScenarioError(f"{_join(path, name)} is missing")
 
 
@@ -114,7 +114,9 @@ def _value(kind: type, key: str, value: object, path: str, exponent: float = 1.0
         power = "" if exponent == 1.0 else f"**{exponent!r}"
         unit = Unit(unit.symbol.replace("**exponent", power))
     if isinstance(value, list | tuple):
-        return [_quantity(one, unit, f"{_join(path, key)}.{i}") for i, one in enumerate(value)]
+        return [
+            _quantity(member, unit, f"{_join(path, key)}.{i}") for i, member in enumerate(value)
+        ]
     return _quantity(value, unit, _join(path, key))
 
 

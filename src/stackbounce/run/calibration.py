@@ -125,7 +125,9 @@ def calibrate(
         "frequency": frequency,
         "decay_time": decay_time,
     }
-    given = {name: _checked(kind, name, one) for name, one in asked.items() if one is not None}
+    given = {
+        name: _checked(kind, name, value) for name, value in asked.items() if value is not None
+    }
     usual, fixed = kind.default_exponent(), kind.fixed_exponent()
     if usual is not None:
         given.setdefault("exponent", usual)

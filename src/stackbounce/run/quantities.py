@@ -120,9 +120,9 @@ def solve_quantities(drop: Drop, rows: Rows, count: int, options: Options) -> So
     out = solve(drop, rows, (count,), options)
     unsolved = np.isin(out.status, (Status.EVENT_LIMIT, Status.INVALID))
     found = {}
-    for name, one in QUANTITIES.items():
+    for name, quantity in QUANTITIES.items():
         with np.errstate(all="ignore"):
-            table = np.reshape(one.predict(out, *incidence(drop, rows, count)), (count, -1))
+            table = np.reshape(quantity.predict(out, *incidence(drop, rows, count)), (count, -1))
         if table.dtype.kind == "f":
             table = np.where(np.isfinite(table) & ~unsolved[:, None], table, np.nan)
         found[name] = table

@@ -87,7 +87,7 @@ def choose_times(result: Result, until: float | None, frames: int) -> _Times:
     times = [np.linspace(begin, end, frames), np.zeros(1)]
     spans = result.intervals[:_INTERVALS]
     each = max(8, frames // max(1, len(spans))) if until is not None else 2
-    times += [np.linspace(one["start"], min(one["end"], end), each) for one in spans]
+    times += [np.linspace(span["start"], min(span["end"], end), each) for span in spans]
     every: _Times = np.unique(np.concatenate(times))
     return every[(every >= begin) & (every <= end)]
 
@@ -133,6 +133,6 @@ def _play_separate(drop: Drop, until: float | None, times: _Times) -> dict[str, 
         return {"error": str(error)}
     laws = textbook.contacts
     return _list_numbers(result) | {
-        "restitutions": [None if one is None else one.restitution for one in laws],
+        "restitutions": [None if law is None else law.restitution for law in laws],
         "position": _round(place),
     }

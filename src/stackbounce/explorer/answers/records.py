@@ -143,7 +143,7 @@ def fit_record(
             "degrees_of_freedom": done.degrees_of_freedom,
             "probability": done.probability,
             "notes": [*done.notes, *done.undetermined],
-            "residuals": [one._asdict() for one in done.residuals],
+            "residuals": [residual._asdict() for residual in done.residuals],
             "series": [_align(one, done.drop) for one in done.records],
         }
     )
@@ -167,7 +167,7 @@ def _control(option: Option) -> str:
 
 def _wording(hint: OptionHint) -> str:
     """Return a hint as it is entered in the page's form."""
-    known = {one.name: _control(one) for one in OPTIONS}
+    known = {option.name: _control(option) for option in OPTIONS}
     entered = []
     for name, value in hint.options.items():
         several = value.items() if isinstance(value, Mapping) else ()
@@ -177,7 +177,7 @@ def _wording(hint: OptionHint) -> str:
 
 
 def _describe_curves(curves: Sequence[Curve]) -> list[_Series]:
-    return [_thin(*one[:4]) | {"unit": one.unit, "index": i} for i, one in enumerate(curves)]
+    return [_thin(*curve[:4]) | {"unit": curve.unit, "index": i} for i, curve in enumerate(curves)]
 
 
 def _thin(label: str, what: str, times: _Array, values: _Array) -> _Series:

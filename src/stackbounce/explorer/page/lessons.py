@@ -37,7 +37,9 @@ def _told(value: Any) -> Any:
     if isinstance(value, list):
         return [_told(one) for one in value]
     parts = split_links(value) if isinstance(value, str) else []
-    return [_link(one) for one in parts] if any(isinstance(one, Link) for one in parts) else value
+    return (
+        [_link(part) for part in parts] if any(isinstance(part, Link) for part in parts) else value
+    )
 
 
 def _link(part: str | Link) -> str | dict[str, str]:

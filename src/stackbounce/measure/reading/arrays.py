@@ -98,17 +98,21 @@ def rows_of_array(array: NDArray[Any], used: Sequence[int]) -> Table:
 
 def joined(members: Mapping[str, bytes]) -> dict[str, bytes]:
     """Return the arrays of an .npz file; those with one column and equally long as one table."""
-    found = {name.removesuffix(".npy"): array_in(one) for name, one in members.items()}
+    found = {name.removesuffix(".npy"): array_in(member) for name, member in members.items()}
     single = {
-        name: one for name, one in found.items() if one.dtype.names is None and one.shape[1] == 1
+        name: value
+        for name, value in found.items()
+        if value.dtype.names is None and value.shape[1] == 1
     }
     lengths = {len(one) for one in single.values()}
     if len(single) < 2 or len(lengths) > 1:
         return dict(members)
     table = np.empty(lengths.pop(), dtype=[(name, np.float64) for name in single])
-    for name, one in single.items():
-        table[name] = one[:, 0]
+    for name, value in single.items():
+        table[name] = value[:, 0]
     packed = io.BytesIO()
     np.save(packed, table, allow_pickle=False)
-    rest = {name: one for name, one in members.items() if name.removesuffix(".npy") not in single}
+    rest = {
+        name: member for name, member in members.items() if name.removesuffix(".npy") not in single
+    }
     return {"arrays": packed.getvalue(), **rest}

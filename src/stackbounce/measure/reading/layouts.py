@@ -141,7 +141,7 @@ def general(text: Text) -> Layout:
     if 2 * beyond <= len(text.head) - first:  # a few rows that are too long make no column
         width = len(names)
     columns = columns_of(names, max(width, len(names)), units)
-    shown = ", ".join(one.heading.text for one in columns[:3])
+    shown = ", ".join(column.heading.text for column in columns[:3])
     more = " …" if len(columns) > 3 else ""
     doubts = () if len(names) >= width else (f"columns from {len(names) + 1} on have no name",)
     return Layout(
@@ -157,7 +157,7 @@ def _beside(text: Text, width: int, index: int) -> list[str]:
     names = [cell for cell in cells[width:] if cell]
     return (
         names
-        if len(names) == width and all(number(one, text.decimal) is None for one in names)
+        if len(names) == width and all(number(name, text.decimal) is None for name in names)
         else []
     )
 

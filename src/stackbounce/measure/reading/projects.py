@@ -81,12 +81,12 @@ def _tracker(tree: Element) -> Tables:
         k: _Frame(*(_number(one, name, value) for name, value in _Frame()._asdict().items()))
         for k, one in _frames(_first(tree, "ImageCoordSystem"))
     } or {0: _Frame()}
-    if not step > 0.0 or any(not abs(one.xscale * one.yscale) > 0.0 for one in axes.values()):
+    if not step > 0.0 or any(not abs(axis.xscale * axis.yscale) > 0.0 for axis in axes.values()):
         raise FileError("it is a file of Tracker without a clock or a scale: export its table")
     seen: dict[str, dict[int, tuple[float, float]]] = {}
     for mass in _objects(tree, _MASS):
         points = {
-            k: axes[max((one for one in axes if one <= k), default=min(axes))].seen(
+            k: axes[max((axis for axis in axes if axis <= k), default=min(axes))].seen(
                 _number(one, "x", math.nan), _number(one, "y", math.nan)
             )
             for k, one in _frames(mass)
@@ -96,7 +96,7 @@ def _tracker(tree: Element) -> Tables:
             seen[name if name not in seen else f"{name} {len(seen) + 1}"] = points
     if not seen:
         raise FileError("it is a file of Tracker without a track of a point mass")
-    plain = all(one.xscale == one.yscale == 1.0 for one in axes.values())
+    plain = all(axis.xscale == axis.yscale == 1.0 for axis in axes.values())
     unit = "px" if plain else _text(tree, "length_unit") or "m"
     rows: list[list[object]] = [
         ["#multi:"],
@@ -114,9 +114,11 @@ def _logger_pro(tree: Element) -> Tables:
     """Return the data sets side by side, each column named with its run before it."""
     names: list[str] = []
     columns: list[list[str]] = []
-    for k, one in enumerate(tree.iter("DataSet"), 1):
-        run = "".join(c for c in one.findtext("DataSetName") or f"Run {k}" if c not in ":([")[:40]
-        for column in one.iter("DataColumn"):
+    for k, member in enumerate(tree.iter("DataSet"), 1):
+        run = "".join(c for c in member.findtext("DataSetName") or f"Run {k}" if c not in ":([")[
+            :40
+        ]
+        for column in member.iter("DataColumn"):
             cells = (column.findtext("ColumnCells") or "").strip("\n").split("\n")
             if any(cell.strip() for cell in cells):
                 name, unit = (

@@ -198,7 +198,7 @@ def _tables_in(content: bytearray) -> Tables | None:
 
 def _from_tables(tables: Tables, options: ReadOptions) -> "xr.Dataset":
     """Read the first table that holds a known kind of measurement, or the one that is asked for."""
-    names = sorted(tables.members, key=lambda one: one.count("/"))
+    names = sorted(tables.members, key=lambda member: member.count("/"))
     if options.table is not None:
         names = [chosen(tables, options.table)]
     options = replace(options, table=None, decimal=tables.decimal or options.decimal)
@@ -273,7 +273,7 @@ def _table(
     if options.holds in (None, "track"):
         columns, more = on_frames(columns, options.frame_rate, options.scale)
         doubts += more
-    table = numbers([one.index for one in columns if one.index >= 0])
+    table = numbers([column.index for column in columns if column.index >= 0])
     return layout, columns, table, doubts, runs
 
 
@@ -289,13 +289,13 @@ def _meant(layout: Layout, options: ReadOptions) -> tuple[Sequence[Column], Sequ
 
 def _count(layout: Layout, columns: Sequence[Column], table: Table) -> None:
     """Put in the numbers of a column that counts rows, and the times of a clock."""
-    at = next((k for k, one in enumerate(columns) if one.index < 0), None)
+    at = next((k for k, column in enumerate(columns) if column.index < 0), None)
     if at is not None:
         rows = np.arange(len(table.values), dtype=np.float64)
         table.values = np.insert(table.values, at, rows, axis=1)
         table.strange = np.insert(table.strange, at, 0)
     if layout.clock:
-        time = next((k for k, one in enumerate(columns) if one.role == "time"), None)
+        time = next((k for k, column in enumerate(columns) if column.role == "time"), None)
         if time is not None:
             table.values[:, time] = layout.clock[0] + layout.clock[1] * table.values[:, time]
 

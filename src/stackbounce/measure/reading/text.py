@@ -177,7 +177,7 @@ def tabulate(content: str, decimal: str | None = None, name: str = "") -> Text:
     if not any(count_numbers(row, mark) or _labelled(row, mark) for row in head):
         raise FileError(
             f"it has no row of numbers in its first {len(head)} lines; "
-            f"it begins with {shown(next((one for one in lines if one.strip()), ''))}"
+            f"it begins with {shown(next((line for line in lines if line.strip()), ''))}"
         )
     return Text(content, delimiter, mark, head, starts, doubts, name)
 
@@ -228,7 +228,7 @@ def _score(lines: list[str], delimiter: str, decimals: str) -> tuple[int, int]:
         widths[len(row)] += count > 0
         if not rows:
             cells += sum(
-                1 for cell in row if cell and any(number(cell, one) is not None for one in marks)
+                1 for cell in row if cell and any(number(cell, mark) is not None for mark in marks)
             )
     return max(widths.values(), default=0), 0 if rows else cells
 
@@ -236,12 +236,12 @@ def _score(lines: list[str], delimiter: str, decimals: str) -> tuple[int, int]:
 def _decimal(head: list[list[str]], delimiter: str) -> tuple[str, list[str]]:
     """Return the decimal mark, and a doubt where commas could separate thousands as well."""
     cells = [cell for row in head for cell in row if "," in cell]
-    commas = [one for one in cells if re.fullmatch(rf"[+-]?[0-9]*,[0-9]+{_EXPONENT}", one)]
+    commas = [cell for cell in cells if re.fullmatch(rf"[+-]?[0-9]*,[0-9]+{_EXPONENT}", cell)]
     point = re.compile(rf"[+-]?[0-9]*\.[0-9]+{_EXPONENT}")
     points = any(point.fullmatch(one) for row in head for one in row)
-    grouped = [one for one in commas if re.fullmatch(r"[+-]?[1-9][0-9]{0,2},[0-9]{3}", one)]
+    grouped = [comma for comma in commas if re.fullmatch(r"[+-]?[1-9][0-9]{0,2},[0-9]{3}", comma)]
     if not commas or (points and len(grouped) == len(commas)):
-        mixed = [one for one in cells if re.fullmatch(r"[+-]?[0-9]+\.[0-9.]*,[0-9]+", one)]
+        mixed = [cell for cell in cells if re.fullmatch(r"[+-]?[0-9]+\.[0-9.]*,[0-9]+", cell)]
         return ("," if mixed and delimiter != "," else "."), []
     if len(grouped) == len(commas):
         return ",", [

@@ -37,7 +37,7 @@ def on_frames(
     scale : float or None
         Metres per pixel; without it a pixel is the unit of length.
     """
-    roles = {one.role for one in columns}
+    roles = {column.role for column in columns}
     if not roles & {"x", "y"}:
         return list(columns), []
     found, doubts = list(columns), []
@@ -50,7 +50,7 @@ def on_frames(
 
 def _timed(found: list[Column], frame_rate: float | None) -> tuple[list[Column], list[str]]:
     """Return columns in which frames are times, where there are no others."""
-    at = next((k for k, one in enumerate(found) if one.role == "frame"), None)
+    at = next((k for k, member in enumerate(found) if member.role == "frame"), None)
     if at is None or any(one.role == "time" for one in found):
         unused = Message(_RATE, " is not used, as the file has times")
         return found, [] if frame_rate is None else [unused]
@@ -68,7 +68,7 @@ def _scaled(
 ) -> tuple[list[Column], list[str]]:
     """Return columns with positions in m, or in pixels where no scale is known."""
     by_frame = any(one.role == "time" and one.heading.unit == FRAME for one in found)
-    places = [k for k, one in enumerate(found) if one.role in ("x", "y")]
+    places = [k for k, member in enumerate(found) if member.role in ("x", "y")]
     bare = [k for k in places if not found[k].heading.unit and (by_frame or scale is not None)]
     pixels = [k for k in places if found[k].unit == PIXEL or k in bare]
     for k in pixels:
@@ -91,15 +91,15 @@ def rows_by_frame(
     side. Of several points in a frame that belong to no track, the one next to the point before is
     taken.
     """
-    at = next((k for k, one in enumerate(columns) if one.role == "track_id"), None)
-    time = next(k for k, one in enumerate(columns) if one.role == "time")
+    at = next((k for k, column in enumerate(columns) if column.role == "track_id"), None)
+    time = next(k for k, column in enumerate(columns) if column.role == "time")
     if at is not None:
         return _side_by_side(columns, values, time, at)
-    if any(one.track.startswith(POINT) for one in columns):
+    if any(column.track.startswith(POINT) for column in columns):
         return _linked(columns, values, time)
-    if columns[time].heading.unit != FRAME or len({one.track for one in columns}) > 1:
+    if columns[time].heading.unit != FRAME or len({column.track for column in columns}) > 1:
         return list(columns), values, []
-    places = [k for k, one in enumerate(columns) if one.role in ("x", "y")]
+    places = [k for k, column in enumerate(columns) if column.role in ("x", "y")]
     kept = _nearest(values[:, time], values[:, places])
     if len(kept) == len(values):
         return list(columns), values, []
@@ -117,7 +117,7 @@ def _side_by_side(
     if not rows:
         without = [k for k in range(len(columns)) if k != at]
         return [columns[k] for k in without], values[:, without], []
-    places = [k for k, one in enumerate(columns) if one.role in ("x", "y")]
+    places = [k for k, column in enumerate(columns) if column.role in ("x", "y")]
     times = np.unique(values[np.concatenate(rows), time])
     times = times[np.isfinite(times)]
     table = np.full((len(times), 1 + len(rows) * len(places)), np.nan)
@@ -156,7 +156,10 @@ def _linked(
     """Return tracks that are put together from points, each next to where it should be."""
     back = np.flatnonzero(np.diff(values[:, time]) < 0.0)
     values = values[: back[0] + 1] if back.size else values
-    x, y = ({one.track: k for k, one in enumerate(columns) if one.role == axis} for axis in "xy")
+    x, y = (
+        {column.track: k for k, column in enumerate(columns) if column.role == axis}
+        for axis in "xy"
+    )
     axes = [[own[track] for track in x if track in y] for own in (x, y)]
     points = np.stack([values[:, own] for own in axes], axis=-1)
     tracks = _together(values[:, time], points)

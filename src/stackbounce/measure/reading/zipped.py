@@ -47,7 +47,7 @@ def _tables(archive: zipfile.ZipFile) -> Tables:
     if {"[Content_Types].xml", "META-INF/manifest.xml"} & names:
         raise FileError("it is a spreadsheet or document: save it as .xlsx or CSV")
     wanted = [
-        entry for entry in sorted(entries, key=lambda one: one.filename)
+        entry for entry in sorted(entries, key=lambda entry: entry.filename)
         if entry.filename.casefold().endswith(_ENDINGS)
         and not entry.filename.startswith(("meta/", "__MACOSX/"))
     ]  # fmt: skip

@@ -40,7 +40,7 @@ def propagate(
 
     from stackbounce.measure.quantities import known_to
 
-    at = {name: nominal_value(one) for name, one in given.items()}
+    at = {name: nominal_value(value) for name, value in given.items()}
     result: Any = [known_to(value, 0.0) for value in function(**at)]
     for name, one in given.items():
         if getattr(one, "std_dev", 0.0) > 0.0:

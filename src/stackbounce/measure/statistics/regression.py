@@ -38,8 +38,8 @@ def covariance_of(values: Sequence[Number]) -> Array:
            [0.5 , 1.  ]])
     """
     slopes = [value.derivatives for value in values]
-    sources = dict.fromkeys(source for one in slopes for source in one)
-    errors = [[one.get(source, 0.0) * source.std_dev for source in sources] for one in slopes]
+    sources = dict.fromkeys(source for slope in slopes for source in slope)
+    errors = [[slope.get(source, 0.0) * source.std_dev for source in sources] for slope in slopes]
     spread = np.reshape(np.array(errors, dtype=float), (len(slopes), len(sources)))
     return np.array([[float(np.sum(one * other)) for other in spread] for one in spread])
 

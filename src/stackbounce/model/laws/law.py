@@ -365,7 +365,7 @@ class ContactLaw:
 def _quantities(kind: type[ContactLaw]) -> Mapping[str, Quantity]:
     hints = get_type_hints(kind, include_extras=True)
     found = {name: unit_of(hint) for name, hint in hints.items()}
-    return {name: one for name, one in found.items() if isinstance(one, Quantity)}
+    return {name: value for name, value in found.items() if isinstance(value, Quantity)}
 
 
 def _found(cls: type[_Law], numbers: dict[str, float], given: Given) -> _Law:

@@ -54,8 +54,8 @@ def series(law_a: _Law, law_b: _Law) -> _Law:
     """
     _check_classes(law_a, law_b)
     ours, theirs = law_a.series_constants(), law_b.series_constants()
-    for name, one in ours.items():
-        _check_same(type(law_a), name, one, theirs[name])
+    for name, our in ours.items():
+        _check_same(type(law_a), name, our, theirs[name])
     p = law_a.exponent
     ratio = (law_a.stiffness / law_b.stiffness) ** (1.0 / p)  # c2/c1
     share_a, share_b = 1.0 / (1.0 + ratio), ratio / (1.0 + ratio)

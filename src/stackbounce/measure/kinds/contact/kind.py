@@ -44,7 +44,7 @@ class Known(Finding):
     def parts(self) -> dict[str, Any]:
         """Return the floor's contact, as in a drop's TOML."""
         numbers = {"stiffness": self.stiffness, "restitution": self.restitution}
-        known = {name: nominal(one) for name, one in numbers.items() if one is not None}
+        known = {name: nominal(number) for name, number in numbers.items() if number is not None}
         if not known:
             return {}
         law = "Hysteretic" if len(known) > 1 else "Spring" if "stiffness" in known else "Rigid"

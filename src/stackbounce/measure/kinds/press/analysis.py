@@ -106,7 +106,9 @@ def _press(record: Record, number: int | None) -> Press:
     found = cycles(record)
     chosen = _chosen(found, number)
     if len(found[chosen].loading):
-        results = {k: result_of(record, one) for k, one in enumerate(found) if len(one.loading)}
+        results = {
+            k: result_of(record, member) for k, member in enumerate(found) if len(member.loading)
+        }
     else:
         results = {chosen: _unloading_only(record, found[chosen])}
     results = {k: replace(one, cycle=k, cycles=len(found)) for k, one in results.items()}

@@ -82,8 +82,8 @@ def result_of(record: Record, cycle: Cycle) -> Press:
         back, _ = _fit(record, down, cycle.peak, first, 2)
         fits, scales = [fit, back], [scale, _scale(record, down, back)]
         numbers |= _unloading(down, back, zero, theta)
-    rows = np.array([one.row for one in numbers.values()])
-    values = {name: one.value for name, one in numbers.items()}
+    rows = np.array([number.row for number in numbers.values()])
+    values = {name: number.value for name, number in numbers.items()}
     covariance = (
         _covariance(rows, fits, scales)
         + _turning_point_covariance(values, rows[:, len(up.x) - 1], cycle)

@@ -113,15 +113,15 @@ def split_series(lower: Any, upper: Any, both: Any, *, force: Any = None) -> Spl
     if force is None:
         if len(curves) < 3:
             raise InvalidValue("force must be given with compressions, got None")
-        force = min((one.peak_force for one in curves), key=lambda peak: peak.nominal_value)
+        force = min((curve.peak_force for curve in curves), key=lambda peak: peak.nominal_value)
     at = measured("force", force, "newtons")
-    below, above, pair = (_compression(name, one, at) for name, one in given.items())
+    below, above, pair = (_compression(name, value, at) for name, value in given.items())
     bottom, half = below / 2.0, above / 2.0
     top = pair - bottom - above
     closer = top + half
     excess = pair - below - above
     notes = []
-    lowest = min((float(one.peak_force.nominal_value) for one in curves), default=math.inf)
+    lowest = min((float(curve.peak_force.nominal_value) for curve in curves), default=math.inf)
     if at.nominal_value > 1.001 * lowest:
         notes.append("The force is beyond the peak of a curve, whose power law was continued.")
     if closer.nominal_value <= 0.0:

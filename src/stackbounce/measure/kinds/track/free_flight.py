@@ -162,9 +162,9 @@ def _other(fall: float, gravity: float, axis: str) -> str:
 def _arcs(flights: Sequence[Flight], bounces: Sequence[int]) -> list[Flight]:
     """Return the flights; pieces of one between two bounces are put together."""
     arcs: list[Flight] = []
-    for j, one in enumerate(flights):
-        whole = arcs and j - 1 not in bounces and one.first - arcs[-1].last <= _CLOSE
-        arcs[len(arcs) - bool(whole) :] = [Flight(arcs[-1].first, one.last) if whole else one]
+    for j, flight in enumerate(flights):
+        whole = arcs and j - 1 not in bounces and flight.first - arcs[-1].last <= _CLOSE
+        arcs[len(arcs) - bool(whole) :] = [Flight(arcs[-1].first, flight.last) if whole else flight]
     return arcs
 
 

@@ -85,7 +85,7 @@ def straightened(times: Array, heights: Array, fit: Flights, drag: Drag) -> tupl
         fit = fit_flights(times, flat, fit.flights)
         if np.abs(fit.values - before).max() > _SETTLED * np.abs(before).max():
             continue
-        flights = [_without_strange_ends(one, fit.residuals) for one in fit.flights]
+        flights = [_without_strange_ends(flight, fit.residuals) for flight in fit.flights]
         if flights == fit.flights:
             break
         fit = fit_flights(times, flat, flights)

@@ -76,7 +76,7 @@ def positions_of(data: Any, clock: float, ruler: float) -> Columns:
         )
     if not found.positions:
         raise InvalidValue("data must hold the track of a ball, got none")
-    positions = [{axis: ruler * one[good] for axis, one in p.items()} for p in found.positions]
+    positions = [{axis: ruler * value[good] for axis, value in p.items()} for p in found.positions]
     return _thinned(Columns(times / clock, found.names, positions))
 
 
@@ -90,7 +90,7 @@ def _thinned(found: Columns) -> Columns:
     def means(values: Array) -> Array:
         return np.asarray(values[: count * many].reshape(count, many).mean(axis=1))
 
-    positions = [{axis: means(one) for axis, one in own.items()} for own in found.positions]
+    positions = [{axis: means(value) for axis, value in own.items()} for own in found.positions]
     return Columns(means(found.times), found.names, positions, many)
 
 
@@ -292,7 +292,7 @@ def _united(flights: list[Flight], weakest: NDArray[np.intp]) -> list[Flight]:
     for j in weakest[: max(1, len(weakest) // _AT_ONCE)].tolist():
         if j - 1 not in taken and j + 1 not in taken:
             taken.add(j)
-    rest = [one for j, one in enumerate(flights) if j not in taken and j - 1 not in taken]
+    rest = [flight for j, flight in enumerate(flights) if j not in taken and j - 1 not in taken]
     return sorted([*rest, *(Flight(flights[j].first, flights[j + 1].last) for j in taken)])
 
 

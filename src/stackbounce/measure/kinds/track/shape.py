@@ -113,7 +113,7 @@ def _polynomials(
 
     The time runs from -1 to 1 in each flight.
     """
-    own = [one for one in flights if one.last - one.first >= least]
+    own = [flight for flight in flights if flight.last - flight.first >= least]
     found = [_polynomial(times, heights, one, degree) for one in own]
     if not found:
         return []

@@ -135,8 +135,8 @@ def waveform(
         )
     around = [None, *seen.stretches, None]
     contacts = tuple(
-        measure_contact(seen, around[k], one, around[k + 2], ends)
-        for k, one in enumerate(seen.stretches)
+        measure_contact(seen, around[k], stretch, around[k + 2], ends)
+        for k, stretch in enumerate(seen.stretches)
     )
     notes = [*record.notes, *_notes(record.unit, seen, contacts, m)]
     if time_constant is None:
@@ -184,8 +184,8 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
 def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
     """Return which samples are outside all contacts, with a margin."""
     quiet = np.ones(count, dtype=bool)
-    ends = [-1, *(one.last for one in stretches)]
-    starts = [*(one.first for one in stretches), count]
+    ends = [-1, *(stretch.last for stretch in stretches)]
+    starts = [*(stretch.first for stretch in stretches), count]
     for k, one in enumerate(stretches):
         margin = int(_MARGIN * len(one)) + 2
         before, after = (one.first - ends[k]) // 3, (starts[k + 1] - one.last) // 3
@@ -218,7 +218,7 @@ def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> l
             f"{seen.short} peak{'s' * (seen.short > 1)} of one or two samples ignored: "
             "if these are contacts, sample faster"
         )
-    if any(one.clipped for one in contacts):
+    if any(contact.clipped for contact in contacts):
         cut = [s for s, one in zip(seen.stretches, contacts, strict=True) if one.clipped]
         top = max(cut, key=len)
         height = seen.sign * float(seen.raw[top.first : top.last + 1].max())
@@ -228,13 +228,13 @@ def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> l
         notes.append("the record begins within a contact: its touch is unknown")
     if contacts and contacts[-1].end is None:
         notes.append("the record stops within a contact: its release is unknown")
-    few = min((one.samples for one in contacts), default=_FEW_SAMPLES)
+    few = min((contact.samples for contact in contacts), default=_FEW_SAMPLES)
     if few < _FEW_SAMPLES:
         notes.append(f"only {few} samples in a contact: times and peaks are coarse, sample faster")
     if seen.zero.hum:
         hum = f"{seen.zero.hum:.3g}{of}"
         notes.append(f"hum of {seen.zero.mains:.0f} Hz was subtracted, amplitude {hum}")
-    whole = next((one for one in contacts if one.time is not None), None)
+    whole = next((contact for contact in contacts if contact.time is not None), None)
     if mass is not None and whole is not None and len(whole.peaks) > 1:
         notes.append(
             f"the first contact has {len(whole.peaks)} peaks: its stiffness supposes one ball on "

@@ -107,8 +107,8 @@ def measure_contact(
     )
     area = impulse_of(part.times, part.values, part.density, part.offset, inside)
     start, end = (known_to(one.time, one.error) if one else None for one in (rise, fall))
-    times = [known_to(one.time, one.time_error) for one in peaks]
-    forces = [known_to(one.force, hypot(one.force_error, part.offset)) for one in peaks]
+    times = [known_to(peak.time, peak.time_error) for peak in peaks]
+    forces = [known_to(peak.force, hypot(peak.force_error, part.offset)) for peak in peaks]
     return Contact(
         start=start,
         end=end,

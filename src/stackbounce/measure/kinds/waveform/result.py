@@ -120,7 +120,7 @@ class Waveform(Finding):
 
     @property
     def _first_time(self) -> Number | None:
-        return next((one.time for one in self.contacts if one.time is not None), None)
+        return next((contact.time for contact in self.contacts if contact.time is not None), None)
 
     def rows(self) -> list[Row]:
         """Return what was found as rows of a table, the most important first."""
@@ -187,7 +187,11 @@ class Waveform(Finding):
         begin = first.start.nominal_value
         lasts = 0.0 if first.end is None else first.end.nominal_value - begin
         end = begin + max(2.0 * lasts, lasting)
-        later = [one.start.nominal_value for one in self.contacts[1:] if one.start is not None]
+        later = [
+            contact.start.nominal_value
+            for contact in self.contacts[1:]
+            if contact.start is not None
+        ]
         beyond = [start for start in later if start > end]
         return record.sel(time=slice(None, 0.5 * (end + min(beyond)))) if beyond else record
 

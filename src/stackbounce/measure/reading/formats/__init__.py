@@ -14,4 +14,4 @@ for _module in iter_modules(__path__, f"{__name__}."):
 
 def layout_of(text: Text) -> Layout:
     """Return the layout of a table: that of the first program that knows it, or a general one."""
-    return next((found for one in LAYOUTS if (found := one(text))), None) or general(text)
+    return next((found for layout in LAYOUTS if (found := layout(text))), None) or general(text)

@@ -54,7 +54,7 @@ def results(text: Text) -> Layout | None:
         return None
     found = [column(names.index(name), heading(name[0].upper()), name[0]) for name in pair]
     others = [column(k, heading(cell)) for k, cell in enumerate(text.head[0]) if cell]
-    others = [one for one in others if one.role in ("frame", "track_id")]
+    others = [other for other in others if other.role in ("frame", "track_id")]
     first = first_row(text, 1, [one.index for one in found])
     why = f"{', '.join(filter(None, text.head[0][:8]))} are columns of ImageJ's results"
     return Layout("ImageJ", why, (*others, *found), first)

@@ -16,7 +16,7 @@ def picoscope(text: Text) -> Layout | None:
     if not all(re.fullmatch(r"\(.*\)", cell) and is_unit(cell) for cell in head[1]):
         return None
     columns = columns_of(head[0], min(len(head[0]), len(head[1])), head[1])
-    if any(one.unit == "N" for one in columns):  # a press, such as Instron Bluehill's tables
+    if any(column.unit == "N" for column in columns):  # a press, such as Instron Bluehill's tables
         return None
     why = f"names over units in brackets, {head[1][0]},{head[1][1]}, are how PicoScope writes"
     return Layout("PicoScope", why, columns, first_row(text, 2))

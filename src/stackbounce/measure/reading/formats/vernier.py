@@ -10,7 +10,7 @@ def vernier(text: Text) -> Layout | None:
     """Recognise Vernier: each column's name begins with its run."""
     header = text.head[0]
     headings = [heading(cell) for cell in header if cell]
-    runs = [one.run for one in headings]
+    runs = [heading.run for heading in headings]
     if len(runs) < 2 or not all(runs) or "#" in runs[0] or not headings[0].text.startswith(runs[0]):
         return None
     why = f"each column's name has its run before it, as in {header[0]!r}"

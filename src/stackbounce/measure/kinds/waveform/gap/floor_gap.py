@@ -194,7 +194,9 @@ def _limits(both: Waveform, kink: Kink, lasting: float) -> tuple[tuple[float, fl
 
 def _thrown_back(both: Waveform, lasting: float) -> float | None:
     """Return when the lower ball hit the floor again in the same impact, or None."""
-    starts = [one.start.nominal_value for one in both.contacts[:2] if one.start is not None]
+    starts = [
+        contact.start.nominal_value for contact in both.contacts[:2] if contact.start is not None
+    ]
     back = float(np.ptp(starts))
     return back if 0.0 < back < _SAME_IMPACT * lasting else None
 
