@@ -182,6 +182,7 @@ def test_how_many_stacks_there_are():
     ("arguments", "error", "message"),
     [
         ({"balls": ["B1", "B2"], "count": 3}, InvalidValue, "whole number from 2 to 2, got 3"),
+        ({"balls": ["B1"]}, InvalidValue, "balls must be two or more, or repeat be True, got 1"),
         ({"count": 1}, InvalidValue, "count must be a whole number from 2 to 5, got 1"),
         ({"balls": ["B1", "B9"]}, InvalidValue, "one of the catalogue, got 'B9'"),
         ({"balls": "B1"}, InvalidType, "balls must be a list, got 'B1'"),

@@ -26,7 +26,9 @@ EPILOG = "For example: stackbounce highest B1 B2 B3 tennis --gap 0 --gap 2mm --m
 
 _FALL = {name: DROP[name] for name in ("height", "speed", "contact")}
 _HIGHEST = {
-    "balls": option(int, "NUMBER", "Balls in a stack.", default=3),
+    "balls": option(
+        int | None, "NUMBER", "Balls in a stack; by default 3, or 2 if only two are named."
+    ),
     "gap": option(
         list[str] | None,
         "LENGTH",

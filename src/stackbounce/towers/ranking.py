@@ -64,7 +64,7 @@ class _Stack(NamedTuple):
 
 def highest(
     balls: Sequence[str | Drop] | Drop | None = None,
-    count: int = 3,
+    count: int | None = None,
     *,
     gaps: Sequence[float] | None = None,
     repeat: bool = False,
@@ -82,7 +82,7 @@ def highest(
         used. By default the balls of the paper. A ball that is given twice can be used twice. A
         single Drop is the only stack, with its own order and contacts.
     count : int, optional
-        The number of balls in a stack, 2 or more.
+        The number of balls in a stack, 2 or more; by default 3, or 2 if only two are given.
     gaps : sequence of float, optional
         In m, 0 or above. Each stack is dropped once for each value, with that gap between all
         neighbours. The stacks are in the order at the first gap. By default 0, 1 mm and 5 mm, or a
@@ -145,7 +145,8 @@ def highest(
         speed = speed if impact_speed is None else positive("impact_speed", impact_speed, "m/s")
         chosen = _list_candidates(balls, law, speed)
         widths = _checked_gaps(_GAPS if gaps is None else gaps)
-        stacks = _stacks(chosen, count, repeat, len(widths), speed)
+        high = (3 if repeat else min(3, len(chosen))) if count is None else count
+        stacks = _stacks(chosen, high, repeat, len(widths), speed)
     ds = _solved(stacks, widths)
     best = stacks[_order(ds)[0, 0]].drop
     best = best if widths is None else replace_gaps(best, None, widths[0])
@@ -261,6 +262,8 @@ def _stacks(
     balls: Sequence[_Candidate], count: object, repeat: bool, gaps: int, impact_speed: float
 ) -> list[_Stack]:
     """Return all different stacks of `count` balls, without gaps."""
+    if len(balls) < 2 and not repeat:
+        raise InvalidValue(f"balls must be two or more, or repeat be True, got {len(balls)} ball")
     high = whole("count", count, 2, math.inf if repeat else len(balls))
     many = len(balls) ** high if repeat else math.perm(len(balls), high)
     if many * gaps > _MOST:
