@@ -145,8 +145,8 @@ def highest(
         speed = speed if impact_speed is None else positive("impact_speed", impact_speed, "m/s")
         chosen = _list_candidates(balls, law, speed)
         widths = _checked_gaps(_GAPS if gaps is None else gaps)
-        high = (3 if repeat else min(3, len(chosen))) if count is None else count
-        stacks = _stacks(chosen, high, repeat, len(widths), speed)
+        size = (3 if repeat else min(3, len(chosen))) if count is None else count
+        stacks = _stacks(chosen, size, repeat, len(widths), speed)
     ds = _solved(stacks, widths)
     best = stacks[_order(ds)[0, 0]].drop
     best = best if widths is None else replace_gaps(best, None, widths[0])
