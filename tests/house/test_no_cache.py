@@ -40,7 +40,7 @@ COMMANDS = [
         "fit", "basketball", "tennis", "--height", "63cm", "--save", "fitted.toml", "--measured",
         "rebound_ratios.1=1.64 ± 0.02", "--vary", "contacts.1.stiffness=0.7kN/m:2.5kN/m",
     ],
-    ["masses", "basketball", "tennis", "B3"],
+    ["highest", "basketball", "tennis", "B3", "--masses"],
     ["paper", "--out", "paper"],
 ]  # fmt: skip
 

@@ -98,8 +98,14 @@ class Workers:
         self._pool.schedule(os.getpid)
 
     def stop(self) -> None:
-        """End the processes, also in the middle of a job."""
+        """End the processes, also in the middle of a job.
+
+        They are killed before the pool closes what it shares with them: a process that has just
+        begun would else write that it does not find it.
+        """
         self._pool.stop()  # type: ignore[no-untyped-call]
+        for process in multiprocessing.active_children():
+            process.kill()
         self._pool.join()
 
     @contextlib.asynccontextmanager

@@ -115,6 +115,10 @@ def mapped(mapping, x, y, show, event_limit):
     last = RATIOS.get(sides[1]["path"], {})
     if x["path"] == y["path"] or last.get("sets") == sides[0]["path"]:
         raise InvalidValue("x and y must be independent")
+    part, _, first = sides[0]["path"].rpartition(".")
+    other, _, second = sides[1]["path"].rpartition(".")
+    if part == other and {first, second} == {"restitution", "unloading_exponent"}:
+        raise InvalidValue("only one of the two can vary")
     if name != "energy_retained" and not (name in OUTCOMES and int(index) < len(mapping["balls"])):
         raise InvalidValue(f"{show} is no outcome")
 
