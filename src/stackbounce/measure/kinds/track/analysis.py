@@ -9,12 +9,7 @@ import numpy as np
 from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.drag import Drag, with_error_of_drag
 from stackbounce.measure.kinds.track import motion
-from stackbounce.measure.kinds.track.free_flight import (
-    comparable,
-    no_flight,
-    no_gain,
-    what_is_seen,
-)
+from stackbounce.measure.kinds.track.free_flight import comparable, no_flight, no_gain, what_is_seen
 from stackbounce.measure.kinds.track.notes import notes_of, stays_long, uneven
 from stackbounce.measure.kinds.track.parabolas import Flights
 from stackbounce.measure.kinds.track.paths import (
@@ -249,12 +244,7 @@ def _track_in_air(
 
 
 def _track(
-    ball: _Flown,
-    floor: float | None,
-    units: TrackUnits,
-    *,
-    alone: bool,
-    drag: Drag | None = None,
+    ball: _Flown, floor: float | None, units: TrackUnits, *, alone: bool, drag: Drag | None = None
 ) -> Track:
     """Return a ball's bounces from its parabolas; a drag is taken to be exact."""
     from uncertainties import ufloat

@@ -49,14 +49,7 @@ def notes_of(
 
 
 def stays_long(
-    name: str,
-    times: Array,
-    fit: Flights,
-    bounce: int,
-    impact: Any,
-    fall: Any,
-    *,
-    alone: bool,
+    name: str, times: Array, fit: Flights, bounce: int, impact: Any, fall: Any, *, alone: bool
 ) -> tuple[str, ...]:
     """Return a note where a long contact biases the speeds at the touch."""
     before, after = fit.flights[bounce].last, fit.flights[bounce + 1].first
