@@ -8,7 +8,8 @@ import pytest
 import stackbounce as sb
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds.waveform.analysis import waveform
-from stackbounce.measure.kinds.waveform.droop import drooped, undrooped
+from stackbounce.measure.kinds.waveform.droop import undrooped
+from synthetic.waveform import drooped
 from synthetic.waveform import waveform as record_of
 
 ONE = sb.simulate(sb.Drop([sb.Ball(0.1)], [sb.Spring(6e4)], impact_speed=2.0))
@@ -55,4 +56,4 @@ def test_a_wrong_time_constant_is_refused():
     with pytest.raises(InvalidValue, match="time_constant must be a positive number of seconds"):
         undrooped([0.0, 1.0], [0.0, 1.0], -1.0)
     with pytest.raises(InvalidValue, match="times and values of one length"):
-        drooped([0.0, 1.0], [0.0], 1.0)
+        undrooped([0.0, 1.0], [0.0], 1.0)

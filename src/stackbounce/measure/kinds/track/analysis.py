@@ -221,13 +221,9 @@ def _track_in_air(
             f"drag is for the track of one ball of known mass and diameter, got {len(flown)}"
         )
     if not units.known:
-        raise InvalidValue(
-            Message(
-                f"drag needs lengths in m and times in s, got {units.length} and {units.time}: ",
-                OptionHint({"frame_rate": None, "scale": None}),
-                " tell them",
-            )
-        )
+        wrong = f"drag needs lengths in m and times in s, got {units.length} and {units.time}: "
+        hint = OptionHint({"frame_rate": None, "scale": None})
+        raise InvalidValue(Message(wrong, hint, " tell them"))
 
     def found_with(drag: Drag | None) -> Track:
         return _track(flown[0], level, units, alone=True, drag=drag)

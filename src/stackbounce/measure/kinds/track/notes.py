@@ -64,13 +64,8 @@ def stays_long(
     )
     if not alone:
         return (f"{biased}; what is fitted to them is off by as much",)
-    return (
-        Message(
-            f"{biased}; ",
-            OptionHint({"floor": None}),
-            " tells the floor's level, for those at the touch",
-        ),
-    )
+    hint = OptionHint({"floor": None})
+    return (Message(f"{biased}; ", hint, " tells the floor's level, for those at the touch"),)
 
 
 def uneven(name: str, shape: Shape) -> tuple[str, ...]:

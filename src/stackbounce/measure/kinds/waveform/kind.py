@@ -32,6 +32,5 @@ def analyse(data: Any, setup: Setup) -> tuple[Finding, ...]:
         mass=setup.mass,
         impact_speed=speed,
         restitution=setup.restitution,
-        time_constant=setup.time_constant,
     )
     return (*found, gap_of_floor)

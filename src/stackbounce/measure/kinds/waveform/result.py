@@ -187,11 +187,7 @@ class Waveform(Finding):
         begin = first.start.nominal_value
         lasts = 0.0 if first.end is None else first.end.nominal_value - begin
         end = begin + max(2.0 * lasts, lasting)
-        later = [
-            contact.start.nominal_value
-            for contact in self.contacts[1:]
-            if contact.start is not None
-        ]
+        later = [nominal(one.start) for one in self.contacts[1:] if one.start is not None]
         beyond = [start for start in later if start > end]
         return record.sel(time=slice(None, 0.5 * (end + min(beyond)))) if beyond else record
 

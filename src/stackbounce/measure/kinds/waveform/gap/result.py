@@ -46,11 +46,11 @@ class FloorGap(Finding):
 
     def rows(self) -> list[Row]:
         """Return the table, the most important first."""
-        rows = [
+        return [
             Row("gap between the balls", _limited(self.gap, self.gap_limits), "m"),
             Row("delay of their touch", _limited(self.delay, self.delay_limits), "s"),
+            Row("force over that of the ball alone", self.gain),
         ]
-        return [*rows, Row("force over that of the ball alone", self.gain)]
 
 
 @dataclass(frozen=True)
