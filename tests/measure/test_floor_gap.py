@@ -6,6 +6,7 @@ import math
 import pytest
 
 import stackbounce as sb
+from measure.near import near
 from stackbounce.cli import main
 from stackbounce.errors import InvalidValue
 from stackbounce.measure import analyse, floor_gap, sensor_gap
@@ -28,10 +29,6 @@ def records(gap, balls=BALLS, laws=LAWS, noise=0.4, **how):
     options = {"rate": 1e5, "noise": noise} | how
     both = record_of(drop(gap, balls, laws), seed=1, **options)
     return both, record_of(alone, seed=2, **options)
-
-
-def near(found, true, errors=3.0):
-    return abs(found.nominal_value - true) < errors * found.std_dev
 
 
 @pytest.mark.parametrize("gap", [1e-3, 1.5e-3, 2e-3])

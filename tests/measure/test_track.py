@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 import stackbounce as sb
+from measure.near import near
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.track.analysis import track
 from stackbounce.plots.measurements.track import draw as draw_track
@@ -26,10 +27,6 @@ NO_BALL = xr.Dataset(
 )
 
 NOISE = np.random.default_rng(1).normal(0.0, 1e-3, 60)
-
-
-def near(found, true, errors=4.0):
-    return abs(found.nominal_value - true) < errors * found.std_dev
 
 
 @pytest.mark.fast_cases(3)
