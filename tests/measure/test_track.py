@@ -157,13 +157,8 @@ def test_a_soft_ball_comes_out_too_fast_unless_the_floor_is_given():
 
 def test_parts_make_a_drop():
     parts = track(tracked(FALL, seed=1)).parts()
-    drop = sb.Drop.from_mapping(
-        {
-            "balls": [{"mass": 0.05}],
-            "contacts": [parts["contact"]],
-            "impact_speed": parts["impact_speed"],
-        }
-    )
+    contacts = [parts.pop("contact")]
+    drop = sb.Drop.from_mapping({"balls": [{"mass": 0.05}], "contacts": contacts, **parts})
     assert sb.simulate(drop).rebound_ratios[0] == pytest.approx(0.8, abs=0.01)
 
 

@@ -78,12 +78,8 @@ def test_hertz_is_told_from_a_spring_by_how_it_begins():
 
 
 def test_several_peaks_in_one_contact():
-    drop = sb.Drop(
-        [sb.Ball(0.0248), sb.Ball(0.101)],
-        [sb.Spring(3.6e4), sb.Spring(1.6e4)],
-        gaps=[0.001],
-        impact_speed=2.0,
-    )
+    balls, laws = [sb.Ball(0.0248), sb.Ball(0.101)], [sb.Spring(3.6e4), sb.Spring(1.6e4)]
+    drop = sb.Drop(balls, laws, gaps=[0.001], impact_speed=2.0)
     found = waveform(record_of(drop, rate=1e5, noise=0.6), mass=0.1)
     (contact,) = found.contacts
     assert len(contact.peaks) == 3
@@ -93,13 +89,8 @@ def test_several_peaks_in_one_contact():
 
 
 def test_separate_collisions_are_separate_contacts():
-    drop = sb.Drop(
-        [sb.Ball(0.0085), sb.Ball(0.101)],
-        [sb.Spring(2.3e4), sb.Spring(1.4e4)],
-        gaps=[0.012],
-        height=0.2,
-    )
-    result = sb.simulate(drop)
+    balls, laws = [sb.Ball(0.0085), sb.Ball(0.101)], [sb.Spring(2.3e4), sb.Spring(1.4e4)]
+    result = sb.simulate(sb.Drop(balls, laws, gaps=[0.012], height=0.2))
     record = record_of(result, rate=5e4, noise=0.3, before=0.01, duration=0.04)
     found = waveform(record)
     rows = result.intervals[(result.intervals["contact"] == 0) & (result.intervals["end"] < 0.02)]
