@@ -300,20 +300,16 @@ def _bounce(
     before, after = fit.flights[both]
     time = 0.5 * (times[before.last - 1] + times[after.first])
     time += motion.meeting(numbers[both], fit.origins[both], time, drag)
-    (low, into), (high, out) = (
+    (low, into, fall), (high, out, back) = (
         motion.state(one, float(time - origin), drag)
         for one, origin in zip(numbers[both], fit.origins[both], strict=True)
     )
-    falls = [
-        motion.fall_at(fall, speed, drag)
-        for (fall, *_), speed in zip(numbers[both], (into, out), strict=True)
-    ]
     since = (low - high) / (out - into)
     if floor is not None:
-        speeds = _at_level(into, low - floor, falls[0]), _at_level(out, high - floor, falls[1])
+        speeds = _at_level(into, low - floor, fall), _at_level(out, high - floor, back)
         return time + since, low * 0.0 + floor, *speeds
-    level = low + into * since - 0.5 * falls[0] * since**2
-    return time + since, level, falls[0] * since - into, out - falls[1] * since
+    level = low + into * since - 0.5 * fall * since**2
+    return time + since, level, fall * since - into, out - back * since
 
 
 def _at_level(speed: Any, above: Any, fall: Any) -> Any:

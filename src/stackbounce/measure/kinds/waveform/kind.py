@@ -26,11 +26,8 @@ def analyse(data: Any, setup: Setup) -> tuple[Finding, ...]:
         found = (gap, force)
     if setup.alone is None:
         return found
+    alone = waveform(setup.alone, **known)
     gap_of_floor = floor_gap(
-        force,
-        waveform(setup.alone, **known),
-        mass=setup.mass,
-        impact_speed=speed,
-        restitution=setup.restitution,
+        force, alone, mass=setup.mass, impact_speed=speed, restitution=setup.restitution
     )
     return (*found, gap_of_floor)
