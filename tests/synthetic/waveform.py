@@ -12,7 +12,7 @@ from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
 from synthetic import attributes
 
-__all__ = ["waveform"]
+__all__ = ["drooped", "waveform"]
 
 
 def waveform(
