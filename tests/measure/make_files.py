@@ -73,24 +73,24 @@ def phyphox_csv(names, columns, delimiter=",", decimal="."):
     return ("\n".join(lines) + "\n").encode()
 
 
-def phyphox_zip(tables, delimiter=",", decimal="."):
+def archive(files, method=zipfile.ZIP_DEFLATED):
     content = io.BytesIO()
-    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
-
-        def add(name, text):
-            entry = zipfile.ZipInfo(name, (2024, 1, 1, 0, 0, 0))
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            archive.writestr(entry, text)
-
-        for name, (names, columns) in tables.items():
-            add(name, phyphox_csv(names, columns, delimiter, decimal))
-        add("meta/device.csv", '"property","value"\n"version","1.1.16"\n"deviceModel","Phone"\n')
-        add(
-            "meta/time.csv",
-            '"event","experiment time","system time","system time text"\n'
-            '"START",0.000000000E0,1704067200.000,"2024-01-01 00:00:00.000"\n',
-        )
+    with zipfile.ZipFile(content, "w", method) as out:
+        for name, data in files.items():
+            entry = zipfile.ZipInfo(name, (2024, 1, 1, 0, 0, 0))  # tests are named by the bytes
+            entry.compress_type = method
+            out.writestr(entry, data)
     return content.getvalue()
+
+
+def phyphox_zip(tables, delimiter=",", decimal="."):
+    files = {name: phyphox_csv(*table, delimiter, decimal) for name, table in tables.items()}
+    device = '"property","value"\n"version","1.1.16"\n"deviceModel","Phone"\n'
+    time = (
+        '"event","experiment time","system time","system time text"\n'
+        '"START",0.000000000E0,1704067200.000,"2024-01-01 00:00:00.000"\n'
+    )
+    return archive(files | {"meta/device.csv": device, "meta/time.csv": time})
 
 
 def energy(heard=6):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
+from measure.near import near
 from stackbounce.cli import main
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import accelerometer, analyse
@@ -19,10 +20,6 @@ G = 9.80665
 def fall(contact_time=0.012, height=0.8, bounces=4):
     law = sb.calibrate(sb.Dashpot, mass=0.2, contact_time=contact_time, restitution=0.6)
     return falls(height, law, mass=0.2, bounces=bounces)
-
-
-def near(found, true, errors=3.5):
-    return abs(found.nominal_value - true) < errors * found.std_dev
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ import math
 import pytest
 
 import stackbounce as sb
+from measure.near import near
 from stackbounce.cli import main
 from stackbounce.errors import InvalidValue
 from stackbounce.measure import analyse, floor_gap, sensor_gap
@@ -28,10 +29,6 @@ def records(gap, balls=BALLS, laws=LAWS, noise=0.4, **how):
     options = {"rate": 1e5, "noise": noise} | how
     both = record_of(drop(gap, balls, laws), seed=1, **options)
     return both, record_of(alone, seed=2, **options)
-
-
-def near(found, true, errors=3.0):
-    return abs(found.nominal_value - true) < errors * found.std_dev
 
 
 @pytest.mark.parametrize("gap", [1e-3, 1.5e-3, 2e-3])
@@ -138,12 +135,8 @@ def test_two_sensors():
     of_spring = record_of(drop(1e-3, laws=spring), rate=1e5, noise=0.5, contacts=[0, 1], seed=1)
     alone = sb.contact_time(spring[0], 0.101)
     assert near(sensor_gap(of_spring, impact_speed=SPEED, contact_time=alone).gap, 1e-3)
-    with pytest.raises(InvalidValue, match="must have the floor's channel first, got force_2 "):
-        sensor_gap(
-            record.rename(force="force_3")[["force_2", "force_3"]].rename(
-                force_2="force", force_3="force_2"
-            )
-        )
+    with pytest.raises(InvalidValue, match="must have the floor's channel first, got force "):
+        sensor_gap(record[["force_2", "force"]])
     with pytest.raises(InvalidValue, match="data must have two channels, got force"):
         sensor_gap(record[["force"]])
 

@@ -8,6 +8,7 @@ import xarray as xr
 from uncertainties import ufloat
 
 import stackbounce as sb
+from measure.near import near
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import press, series_stiffness, split_series
 from stackbounce.measure.kinds.press.branches import cycles, record_of
@@ -21,10 +22,6 @@ from work import calls_of, memory_of
 BALL = sb.Hysteretic(4e4, exponent=1.3, restitution=0.78)
 STEEP = np.linspace(-0.02, 0.05, 400)
 USUAL = {"peak": 5e-3, "slack": 1e-3, "noise": 0.1, "seed": 1}
-
-
-def near(found, truth, errors=4.0):
-    return abs(found.nominal_value - truth) <= errors * found.std_dev + 1e-9 * abs(truth)
 
 
 def way_in(data):
@@ -64,21 +61,14 @@ def test_without_noise_it_is_exact():
     assert found.restitution.nominal_value == pytest.approx(0.78, rel=1e-5)
 
 
-def test_units_scale():
+@pytest.mark.parametrize(("force", "compression"), [(-1, 1), (1, -1), (-1, -1), (1e-9, 1e-6)])
+def test_any_sign_and_unit(force, compression):
     data = press_record(BALL, **USUAL)
-    own = press(data)
-    small = press((1e-6 * data.compression.values, 1e-9 * data.force.values))
-    assert small.exponent.nominal_value == pytest.approx(own.exponent.nominal_value, rel=1e-6)
-    assert small.exponent.std_dev == pytest.approx(own.exponent.std_dev, rel=1e-3)
-
-
-@pytest.mark.parametrize(("force", "compression"), [(-1, 1), (1, -1), (-1, -1)])
-def test_any_sign(force, compression):
-    data = press_record(BALL, **USUAL)
-    own = press(data)
+    own = press(data).exponent
     turned = press((compression * data.compression.values, force * data.force.values))
-    assert turned.exponent.nominal_value == pytest.approx(own.exponent.nominal_value, rel=1e-9)
-    assert any("was reversed" in note for note in turned.notes)
+    assert turned.exponent.nominal_value == pytest.approx(own.nominal_value, rel=1e-6)
+    assert turned.exponent.std_dev == pytest.approx(own.std_dev, rel=1e-3)
+    assert any("was reversed" in note for note in turned.notes) == (min(force, compression) < 0)
 
 
 def test_a_shifted_scale_and_a_zero_that_is_off():
@@ -234,10 +224,8 @@ def test_points_weigh_as_their_noise_with_that_of_the_compression_along_the_curv
 
 
 def test_correlated_noise_has_larger_errors():
-    quiet = press(press_record(BALL, peak=5e-3, slack=1e-3, noise=0.1, points=600, seed=4))
-    slow = press(
-        press_record(BALL, peak=5e-3, slack=1e-3, noise=0.1, memory=20, points=600, seed=4)
-    )
+    how = USUAL | {"points": 600, "seed": 4}
+    quiet, slow = (press(press_record(BALL, **how, **more)) for more in ({}, {"memory": 20}))
     assert slow.linear_stiffness.std_dev > 2.5 * quiet.linear_stiffness.std_dev
 
 
@@ -266,12 +254,10 @@ def test_what_is_no_data(data):
         press(data)
 
 
-def test_options_are_checked():
-    data = press_record(BALL, **USUAL)
-    with pytest.raises(InvalidValue, match="sign"):
-        press(data, sign=2)
-    with pytest.raises(InvalidValue, match="compliance"):
-        press(data, compliance=-1.0)
+@pytest.mark.parametrize("option", [{"sign": 2}, {"compliance": -1.0}, {"tabulated": 1}])
+def test_options_are_checked(option):
+    with pytest.raises((InvalidType, InvalidValue), match=next(iter(option))):
+        press(press_record(BALL, **USUAL), **option)
 
 
 def test_parts_make_a_contact():

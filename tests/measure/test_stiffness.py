@@ -101,11 +101,16 @@ def bench():
     return Bench(PAPER)
 
 
+def bounced(bench, ball):
+    """Return the stiffness of a ball that bounces, by its mass and contact time."""
+    return dynamic_stiffness(bench.measured(f"{ball}.mass"), bench.measured(f"{ball}.contact_time"))
+
+
 @pytest.mark.parametrize(
     ("ball", "expected"), [("B1", "5.39±0.25"), ("B2", "3.62±0.28"), ("B3", "2.32±0.24")]
 )
 def test_table_one_comes_out_with_errors(bench, ball, expected):
-    k = dynamic_stiffness(bench.measured(f"{ball}.mass"), bench.measured(f"{ball}.contact_time"))
+    k = bounced(bench, ball)
     printed = bench(f"{ball}.dynamic_stiffness")
     assert f"{1e-4 * k:.2fP}" == expected
     assert abs(k.nominal_value - printed) < 500.0  # half a unit of the last digit
@@ -114,21 +119,14 @@ def test_table_one_comes_out_with_errors(bench, ball, expected):
 
 
 def test_a_bounce_is_stiffer_than_a_press(bench):
-    ratios = {}
-    for ball in ("B1", "B2", "B3"):
-        k = dynamic_stiffness(
-            bench.measured(f"{ball}.mass"), bench.measured(f"{ball}.contact_time")
-        )
-        ratios[ball] = k / bench.measured(f"{ball}.static_stiffness")
-    assert [f"{ratio:.1fP}" for ratio in ratios.values()] == ["1.3±0.2", "2.8±0.3", "1.9±0.2"]
+    balls = ("B1", "B2", "B3")
+    ratios = [bounced(bench, ball) / bench.measured(f"{ball}.static_stiffness") for ball in balls]
+    assert [f"{ratio:.1fP}" for ratio in ratios] == ["1.3±0.2", "2.8±0.3", "1.9±0.2"]
 
 
 def test_the_tennis_ball(bench):
-    dynamic = dynamic_stiffness(
-        bench.measured("tennis.mass"), bench.measured("tennis.contact_time")
-    )
     static = bench.measured("static.force") / bench.measured("static.tennis")
-    assert f"{1e-4 * dynamic:.2fP}" == "2.25±0.05"
+    assert f"{1e-4 * bounced(bench, 'tennis'):.2fP}" == "2.25±0.05"
     assert f"{1e-4 * static:.2fP}" == "1.03±0.02"
 
 
@@ -148,13 +146,11 @@ def test_hessels_steel_balls(bench):
     late = diameters - times
     assert 1.0 < late.nominal_value / late.std_dev < 2.0
     # and its constant as their roots
-    hertz = [
-        law_constants("Hertz", mass=mass, contact_time=time, impact_speed=1.0).constants[
-            "stiffness"
-        ]
+    large, small = (
+        law_constants("Hertz", mass=mass, contact_time=time, impact_speed=1.0).constants
         for mass, time in ((masses, times), (1.0, 1.0))
-    ]
-    assert f"{hertz[0] / hertz[1]:.3fP}" == "1.199±0.001"
+    )
+    assert f"{large['stiffness'] / small['stiffness']:.3fP}" == "1.199±0.001"
     assert f"{diameters**0.5:.3fP}" == "1.188±0.001"
 
 
@@ -173,15 +169,10 @@ def test_figure_seven(bench):
 
 
 @pytest.mark.parametrize(
-    ("upper", "fit", "expected"),
-    [("B2", "fig13", "2.17±0.11"), ("B3", "B3_fit", "1.62±0.12")],
+    ("upper", "fit", "expected"), [("B2", "fig13", "2.17±0.11"), ("B3", "B3_fit", "1.62±0.12")]
 )
 def test_two_superballs_in_series_are_stiffer_than_the_fits(bench, upper, fit, expected):
     """What section VI calls series accounts for most of the softness between the balls."""
-    own = [
-        dynamic_stiffness(bench.measured(f"{ball}.mass"), bench.measured(f"{ball}.contact_time"))
-        for ball in ("B1", upper)
-    ]
-    both = series_stiffness(*own)
+    both = series_stiffness(bounced(bench, "B1"), bounced(bench, upper))
     assert f"{1e-4 * both:.2fP}" == expected
     assert both.nominal_value > bench(f"{fit}.ball_stiffness")

@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 import stackbounce as sb
+from measure.near import near
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.track.analysis import track
 from stackbounce.plots.measurements.track import draw as draw_track
@@ -26,10 +27,6 @@ NO_BALL = xr.Dataset(
 )
 
 NOISE = np.random.default_rng(1).normal(0.0, 1e-3, 60)
-
-
-def near(found, true, errors=4.0):
-    return abs(found.nominal_value - true) < errors * found.std_dev
 
 
 @pytest.mark.fast_cases(3)
@@ -160,13 +157,8 @@ def test_a_soft_ball_comes_out_too_fast_unless_the_floor_is_given():
 
 def test_parts_make_a_drop():
     parts = track(tracked(FALL, seed=1)).parts()
-    drop = sb.Drop.from_mapping(
-        {
-            "balls": [{"mass": 0.05}],
-            "contacts": [parts["contact"]],
-            "impact_speed": parts["impact_speed"],
-        }
-    )
+    contacts = [parts.pop("contact")]
+    drop = sb.Drop.from_mapping({"balls": [{"mass": 0.05}], "contacts": contacts, **parts})
     assert sb.simulate(drop).rebound_ratios[0] == pytest.approx(0.8, abs=0.01)
 
 

@@ -1,25 +1,26 @@
 """Force records: contacts, times, peaks, impulses, and records as bad as they come."""
 
+import re
+
 import numpy as np
 import pytest
 import xarray as xr
 from uncertainties import ufloat
 
 import stackbounce as sb
+from measure.near import near
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.waveform.analysis import waveform
+from stackbounce.measure.kinds.waveform.droop import undrooped
 from stackbounce.measure.kinds.waveform.peaks import impulse_of
 from stackbounce.plots.measurements.waveform import draw
+from synthetic.waveform import drooped
 from synthetic.waveform import waveform as record_of
 from work import calls_of, memory_of
 
 ONE = sb.simulate(sb.Drop([sb.Ball(0.1)], [sb.Spring(6e4)], impact_speed=2.0))
 TIME = float(ONE.intervals["end"][0])
 PEAK = float(ONE.intervals["peak_force"][0])
-
-
-def near(value, truth, sigmas=4.0):
-    return abs(value.nominal_value - truth) <= sigmas * value.std_dev
 
 
 def pulses(count, *, apart=0.02, rate=5e4, noise=0.5, tau=4e-3, height=100.0, seed=0):
@@ -51,10 +52,7 @@ def test_one_bounce(sign, sensitivity):
     assert near(contact.exponents[0], 1.0)
     assert found.noise == pytest.approx(1.0 * gain, rel=0.15)
     assert not found.notes
-    assert found.parts()["contact"] == {
-        "law": "Spring",
-        "stiffness": found.stiffness.nominal_value,
-    }
+    assert found.parts()["contact"] == {"law": "Spring", "stiffness": found.stiffness.nominal_value}
 
 
 def test_rows_tell_all_with_units_and_parts_make_a_drop():
@@ -80,12 +78,8 @@ def test_hertz_is_told_from_a_spring_by_how_it_begins():
 
 
 def test_several_peaks_in_one_contact():
-    drop = sb.Drop(
-        [sb.Ball(0.0248), sb.Ball(0.101)],
-        [sb.Spring(3.6e4), sb.Spring(1.6e4)],
-        gaps=[0.001],
-        impact_speed=2.0,
-    )
+    balls, laws = [sb.Ball(0.0248), sb.Ball(0.101)], [sb.Spring(3.6e4), sb.Spring(1.6e4)]
+    drop = sb.Drop(balls, laws, gaps=[0.001], impact_speed=2.0)
     found = waveform(record_of(drop, rate=1e5, noise=0.6), mass=0.1)
     (contact,) = found.contacts
     assert len(contact.peaks) == 3
@@ -95,13 +89,8 @@ def test_several_peaks_in_one_contact():
 
 
 def test_separate_collisions_are_separate_contacts():
-    drop = sb.Drop(
-        [sb.Ball(0.0085), sb.Ball(0.101)],
-        [sb.Spring(2.3e4), sb.Spring(1.4e4)],
-        gaps=[0.012],
-        height=0.2,
-    )
-    result = sb.simulate(drop)
+    balls, laws = [sb.Ball(0.0085), sb.Ball(0.101)], [sb.Spring(2.3e4), sb.Spring(1.4e4)]
+    result = sb.simulate(sb.Drop(balls, laws, gaps=[0.012], height=0.2))
     record = record_of(result, rate=5e4, noise=0.3, before=0.01, duration=0.04)
     found = waveform(record)
     rows = result.intervals[(result.intervals["contact"] == 0) & (result.intervals["end"] < 0.02)]
@@ -342,3 +331,49 @@ def test_pictures_of_every_kind():
     assert len(figure.axes) == 2
     record = record_of(ONE, rate=2e3, noise=0.5).assign_attrs(source="bounce.csv")
     assert "bounce.csv" in draw(record, waveform(record)).axes[0].get_title(loc="left")
+
+
+# --- the droop of a piezo sensor's amplifier
+
+
+@pytest.mark.parametrize("time_constant", [1e-4, 1e-2, 10.0])
+def test_the_two_undo_each_other(time_constant):
+    random = np.random.default_rng(1)
+    times = np.cumsum(random.uniform(0.5e-4, 2e-4, 1000))
+    force = np.cumsum(random.normal(size=1000))
+    back = undrooped(times, drooped(times, force, time_constant), time_constant)
+    assert back == pytest.approx(force, abs=1e-8)
+
+
+def test_a_half_sine_after_a_high_pass_has_its_known_end():
+    rc, tau = 2e-3, 4e-3
+    times = np.linspace(0.0, tau, 4001)
+    out = drooped(times, np.sin(np.pi * times / tau), rc)
+    w = np.pi / tau * rc
+    expected = -w / (1.0 + w**2) * (1.0 + np.exp(-tau / rc))
+    assert out[-1] == pytest.approx(expected, abs=1e-6)
+
+
+@pytest.mark.parametrize("time_constant", [4e-3, 2e-2, 0.5])
+@pytest.mark.parametrize("offset", [0.0, -7.0])
+def test_droop_is_put_back(time_constant, offset):
+    how = {"noise": 0.5, "offset": offset, "time_constant": time_constant, "before": 0.01}
+    record = record_of(ONE, rate=1e5, **how)
+    found = waveform(record, time_constant=time_constant)
+    (contact,) = found.contacts
+    assert near(contact.time, TIME)
+    assert abs(contact.impulse.nominal_value - 0.4) < max(4.0 * contact.impulse.std_dev, 1e-3)
+
+
+def test_droop_that_is_not_put_back_is_said_with_its_time_constant():
+    record = record_of(ONE, rate=1e5, noise=0.2, time_constant=0.04, before=0.01)
+    (note,) = [one for one in waveform(record).notes if "droop" in one]
+    assert re.search(r"about 0\.0(3[5-9]|4[0-5]?) s|about 0\.04\d s", note)
+    assert not any("droop" in one for one in waveform(record, time_constant=0.04).notes)
+
+
+def test_a_wrong_time_constant_is_refused():
+    with pytest.raises(InvalidValue, match="time_constant must be a positive number of seconds"):
+        undrooped([0.0, 1.0], [0.0, 1.0], -1.0)
+    with pytest.raises(InvalidValue, match="times and values of one length"):
+        undrooped([0.0, 1.0], [0.0], 1.0)

@@ -7,13 +7,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from stackbounce.measure.kinds.waveform.droop import drooped
 from stackbounce.model import Drop
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
 from synthetic import attributes
 
-__all__ = ["waveform"]
+__all__ = ["drooped", "waveform"]
 
 
 def waveform(
@@ -142,3 +141,23 @@ def _converted(
     most = top / step
     steps: NDArray[np.float64] = np.clip(np.round(values / step), -most, most - 1.0)
     return step * steps
+
+
+def drooped(times: NDArray[np.float64], values: NDArray[np.float64], time_constant: float) -> Any:
+    """Return the output of a high-pass of first order: the exact inverse of `undrooped`.
+
+    The values (n,) at times in s, ascending, are taken as linear between samples; the response to a
+    constant force decays to 1/e in the time constant, in s.
+
+    Examples
+    --------
+    >>> out = drooped(np.array([0.0, 0.1, 0.2]), np.ones(3), 0.1)
+    >>> [round(one, 6) for one in out.tolist()]  # 1, 1/e, 1/e**2
+    [1.0, 0.367879, 0.135335]
+    """
+    share = np.diff(times) / time_constant
+    gained = np.diff(values) * -np.expm1(-share) / share
+    out = [float(values[0])]
+    for keep, gain in zip(np.exp(-share).tolist(), gained.tolist(), strict=True):
+        out.append(keep * out[-1] + gain)
+    return np.array(out)

@@ -176,10 +176,8 @@ def test_two_masses_and_no_scale(read):
 
 
 def test_trackers_file_in_an_archive(read):
-    content = io.BytesIO()
-    with zipfile.ZipFile(content, "w") as archive:
-        archive.writestr("ball.trk", trk(mass("ball", POINTS)))
-    assert read(content.getvalue()).attrs["format"] == "Tracker"
+    content = made.archive({"ball.trk": trk(mass("ball", POINTS))})
+    assert read(content).attrs["format"] == "Tracker"
 
 
 @pytest.mark.parametrize(("content", "message"), [

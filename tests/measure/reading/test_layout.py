@@ -18,11 +18,8 @@ def toy_logger(text: Text) -> Layout | None:
     return Layout("Toy Logger", "it begins with TOYLOGGER", columns, first_row(text, 2))
 
 
-def test_without_its_layout_the_file_has_columns_of_no_meaning(read):
-    assert read(FILE).attrs["format"] == "table of numbers"
-
-
 def test_a_registered_layout_is_all_that_a_format_takes(read):
+    assert read(FILE).attrs["format"] == "table of numbers"
     layout(toy_logger)
     try:
         data = read(FILE)

@@ -259,6 +259,7 @@ def test_every_file_is_read_without_being_told_anything(tmp_path):
     ({"names": {"t": "a b"}}, InvalidValue, "names: 'a b' is no name"),
     ({"names": "t"}, InvalidType, "names must be a mapping"),
     ({"names": {1.5: "x"}}, InvalidType, "names must map columns to text"),
+    ({"names": {1: 2}}, InvalidType, "names must map columns to text"),
     ({"units": {"t": "px"}}, InvalidValue, "units: 'px' is no unit that is known"),
     ({"units": {"t": 3}}, InvalidType, "units must map columns to text"),
     ({"table": "x"}, InvalidValue, "table: there is one only"),

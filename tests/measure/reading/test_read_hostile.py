@@ -1,6 +1,5 @@
 """Broken, odd and hostile files: one clear line, or a doubt; never much memory or time."""
 
-import io
 import os
 import tracemalloc
 import zipfile
@@ -11,6 +10,7 @@ import pytest
 import stackbounce as sb
 from fuzz.mutate import minimal_cases, mutated
 from measure import make_files as made
+from measure.make_files import archive
 from stackbounce.errors import FileError, InvalidType, InvalidValue, StackbounceError
 from stackbounce.measure.reading import limits, zipped
 
@@ -107,16 +107,6 @@ def test_words_below_the_numbers(read):
 
 
 # --- zip archives
-
-
-def archive(files, method=zipfile.ZIP_DEFLATED):
-    content = io.BytesIO()
-    with zipfile.ZipFile(content, "w", method) as out:
-        for name, data in files.items():
-            entry = zipfile.ZipInfo(name)  # without the time of day: tests are named by it
-            entry.compress_type = method
-            out.writestr(entry, data)
-    return content.getvalue()
 
 
 def test_a_bomb_does_not_go_off(read):

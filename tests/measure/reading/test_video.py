@@ -25,22 +25,23 @@ NOISE = np.random.default_rng(3).normal(0.0, 0.05, (2, len(FRAMES)))
 X, Y = 200.0 + 0.2 * FRAMES + NOISE[0], DOWN + NOISE[1]
 
 
-def imagej(slices=True, delimiter=",", extra=""):
-    names = [" ", "Area", "Mean", "X", "Y", *["Slice"] * slices]
-    rows = [
-        [str(k + 1), "12", "0", f"{x:.4f}", f"{y:.4f}", *[str(k + 1)] * slices]
-        for k, (x, y) in enumerate(zip(X, Y, strict=True))
-    ]
-    return "\n".join(map(delimiter.join, [names, *rows])) + f"\n{extra}"
+def rows(form):
+    """Return a line for each frame k, the n-th, with its position x, y."""
+    return "".join(
+        form.format(k=k, n=k + 1, x=x, y=y) + "\n" for k, x, y in zip(FRAMES, X, Y, strict=True)
+    )
+
+
+def imagej(slices=True, delimiter=","):
+    names = delimiter.join([" ", "Area", "Mean", "X", "Y", *["Slice"] * slices])
+    form = delimiter.join(["{n}", "12", "0", "{x:.4f}", "{y:.4f}", *["{n}"] * slices])
+    return f"{names}\n{rows(form)}"
 
 
 def mtrack2(between="\t", flag=" "):
     head = between.join(["Frame", "X1", "Y1", "Flag1"]) + "\nTracks 1 to 1\n"
-    rows = "".join(
-        between.join([str(k + 1), f"{x:.4f}", f"{y:.4f}", flag]) + "\n"
-        for k, (x, y) in enumerate(zip(X, Y, strict=True))
-    )
-    return f"{head}{rows}\nTrack \tLength\tDistance traveled\tNr of Frames\n1\t99.0\t88.0\t77\n"
+    own = rows(between.join(["{n}", "{x:.4f}", "{y:.4f}", flag]))
+    return f"{head}{own}\nTrack \tLength\tDistance traveled\tNr of Frames\n1\t99.0\t88.0\t77\n"
 
 
 def bounces(data):
@@ -63,8 +64,8 @@ def bounces(data):
         mtrack2(",", ""),
         mtrack2(" ", ""),
         mtrack2().partition("Tracks 1 to 1\n")[2].partition("\nTrack")[0],
-        "Frame,X,Y\n" + "".join(f"{k},{x:.4f},{y:.4f}\n" for k, x, y in zip(FRAMES, X, Y)),  # noqa: B905
-        "x,y\n" + "".join(f"{x:.4f},{y:.4f}\n" for x, y in zip(X, Y)),  # noqa: B905
+        "Frame,X,Y\n" + rows("{k},{x:.4f},{y:.4f}"),
+        "x,y\n" + rows("{x:.4f},{y:.4f}"),
     ],
     ids=["csv", "tabs", "by row", "centres of mass", "labels", "MTrack2", "MTrack2 with commas",
          "MTrack2 with blanks", "no header", "frame x y", "x y"],
@@ -141,10 +142,10 @@ def test_they_are_not_used_where_the_file_has_times_and_units(read):
 
 
 def test_of_several_points_in_a_frame_the_next_one_is_taken(read):
-    rows = imagej().splitlines()
-    speck = rows[30].split(",")
-    rows.insert(30, ",".join([*speck[:3], "600.0", "20.0", speck[5]]))
-    data = read("\n".join(rows))
+    lines = imagej().splitlines()
+    speck = lines[30].split(",")
+    lines.insert(30, ",".join([*speck[:3], "600.0", "20.0", speck[5]]))
+    data = read("\n".join(lines))
     assert data.sizes["time"] == len(FRAMES)
     assert "1 rows are further points in a frame" in data.attrs["doubt"]
     bounces(data)
@@ -157,11 +158,11 @@ HEADER = (
 
 
 def spots(track, time=1.0, shift=0.0, order=1):
-    rows = [
-        f"ID{k},{k},{track},1.0,{x + shift:.4f},{y:.4f},0.0,{time * k},{k}"
+    lines = [
+        f"ID{k},{k},{track},1.0,{x + shift:.4f},{y:.4f},0.0,{time * k},{k}\n"
         for k, x, y in zip(FRAMES, X, Y, strict=True)
     ]
-    return "\n".join(rows[::order]) + "\n"
+    return "".join(lines[::order])
 
 
 def test_trackmate_puts_tracks_side_by_side(read):
@@ -194,13 +195,13 @@ def test_only_the_longest_tracks_are_read(read):
 
 def test_points_whose_blank_cells_were_lost_are_put_together(read):
     """A spreadsheet that closes up blank flags moves the points of other tracks to the left."""
-    rows = ["Frame X1 Y1 Flag1 X2 Y2 Flag2", "Tracks 1 to 2" + " " * 3]
+    lines = ["Frame X1 Y1 Flag1 X2 Y2 Flag2", "Tracks 1 to 2" + " " * 3]
     for k, (x, y) in enumerate(zip(X, Y, strict=True)):
         ball, speck = f"{x:.3f} {y:.3f}", f"{9 + k % 2}.0 {500 + k % 3}.0"
         points = [ball, speck] if k % 3 == 0 else [speck] if k % 20 == 1 else [speck, ball]
-        rows.append(f"{k + 1} {' '.join(points)}  ")
-    rows += ["Track 414.8 1.03 traveled Nr of Frames", "1 74.8 17.2 131"]
-    data = read("\n".join(rows))
+        lines.append(f"{k + 1} {' '.join(points)}  ")
+    lines += ["Track 414.8 1.03 traveled Nr of Frames", "1 74.8 17.2 131"]
+    data = read("\n".join(lines))
     assert "blank cells were lost" in data.attrs["doubt"]
     assert data.track.values.tolist() == ["track 1"]  # the speck does not move
     seen = np.isfinite(data.y.values[:, 0])
@@ -210,20 +211,15 @@ def test_points_whose_blank_cells_were_lost_are_put_together(read):
 
 
 def test_a_point_of_which_a_coordinate_is_missing_everywhere_is_left_out(read):
-    rows = "".join(f"{k} {x:.3f} {y:.3f} 5.0\n" for k, (x, y) in enumerate(zip(X, Y, strict=True)))
-    shifted = "0 1.0 2.0 5.0 9.0\n" * 3
-    data = read("Frame X1 Y1 Flag1 X2 Y2 Flag2\n" + shifted.replace("9.0", "*") + rows)
+    shifted = "0 1.0 2.0 5.0 *\n" * 3
+    data = read("Frame X1 Y1 Flag1 X2 Y2 Flag2\n" + shifted + rows("{k} {x:.3f} {y:.3f} 5.0"))
     assert "blank cells were lost" in data.attrs["doubt"]
     assert data.track.values.tolist() == ["track 1"]
 
 
 def test_manual_tracking(read):
     head = "\tTrack n°\tSlice n°\tX\tY\tDistance\tVelocity\tPixel Value\n"
-    rows = "".join(
-        f"{k + 1}\t1\t{k + 1}\t{x:.0f}\t{y:.0f}\t-1\t-1\t0\n"
-        for k, (x, y) in enumerate(zip(X, Y, strict=True))
-    )
-    data = read(head + rows)
+    data = read(head + rows("{n}\t1\t{n}\t{x:.0f}\t{y:.0f}\t-1\t-1\t0"))
     assert data.track.values.tolist() == ["track 1"]
     np.testing.assert_allclose(data.y.values[:, 0], np.round(Y))
 

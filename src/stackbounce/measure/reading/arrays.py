@@ -99,11 +99,7 @@ def rows_of_array(array: NDArray[Any], used: Sequence[int]) -> Table:
 def joined(members: Mapping[str, bytes]) -> dict[str, bytes]:
     """Return the arrays of an .npz file; those with one column and equally long as one table."""
     found = {name.removesuffix(".npy"): array_in(member) for name, member in members.items()}
-    single = {
-        name: value
-        for name, value in found.items()
-        if value.dtype.names is None and value.shape[1] == 1
-    }
+    single = {name: value for name, value in found.items() if value.shape[1:] == (1,)}
     lengths = {len(one) for one in single.values()}
     if len(single) < 2 or len(lengths) > 1:
         return dict(members)

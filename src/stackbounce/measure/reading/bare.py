@@ -1,7 +1,5 @@
 """Columns without names -> what their numbers look like: samples of a scope, points of a track."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from stackbounce.measure.messages import Message, OptionHint
@@ -18,24 +16,8 @@ _TELL = Message("name them, as in ", OptionHint({"names": {1: "time", 2: "force"
 NOT_NAMED = Message("no header names the columns: ", _TELL)
 
 
-@dataclass(frozen=True)
-class Guess:
-    """What columns without names are taken for.
-
-    Parameters
-    ----------
-    columns : tuple of Column
-        All of them; without roles where the numbers tell nothing.
-    doubt : str
-        Why.
-    """
-
-    columns: tuple[Column, ...]
-    doubt: str
-
-
-def guess(rows: Array) -> Guess:
-    """Return what columns look like by their first rows, (rows, columns).
+def guess(rows: Array) -> tuple[tuple[Column, ...], str]:
+    """Return what columns look like by their first rows, (rows, columns), and why.
 
     Counted rows with two more columns are frames with x and y in an image. Evenly rising numbers
     are times: with steps up to 1 ms beside the voltage of one channel, with longer ones beside x
@@ -43,8 +25,8 @@ def guess(rows: Array) -> Guess:
 
     Examples
     --------
-    >>> found = guess(np.stack([np.arange(30), np.ones(30), np.arange(30) ** 2], axis=1))
-    >>> [one.role for one in found.columns]
+    >>> found, _ = guess(np.stack([np.arange(30), np.ones(30), np.arange(30) ** 2], axis=1))
+    >>> [one.role for one in found]
     ['frame', 'x', 'y']
     """
     width = rows.shape[1]
@@ -60,17 +42,15 @@ def guess(rows: Array) -> Guess:
         return _named(("time", "x", "y"), f"{said}, the others as x and y")
     if 0.0 < step <= _LONGEST_SAMPLE:
         return _named(("time", *[""] * (width - 1)), said)
-    return Guess(tuple(column(k, heading("")) for k in range(width)), NOT_NAMED)
+    return tuple(column(k, heading("")) for k in range(width)), NOT_NAMED
 
 
-def _named(roles: tuple[str, ...], said: str) -> Guess:
+def _named(roles: tuple[str, ...], said: str) -> tuple[tuple[Column, ...], str]:
     units = {"time": "s", "voltage": "V"}
     columns = tuple(
         column(k, heading("", units.get(role, "")), role) for k, role in enumerate(roles)
     )
-    return Guess(
-        columns, Message(f"no header names the columns: {said}; if that is wrong, ", _TELL)
-    )
+    return columns, Message(f"no header names the columns: {said}; if that is wrong, ", _TELL)
 
 
 def _step(numbers: Array) -> float:

@@ -95,7 +95,7 @@ def _relative(column: Column, times: Array, factor: float, words: str) -> tuple[
     when = datetime.fromtimestamp(factor * first, UTC).strftime("%Y-%m-%d %H:%M:%S UTC")
     name = column.heading.name or column.variable
     doubt = f"{name} counts {words} since 1970: taken from the first on, {when}"
-    return _in_unit(column, factor), doubt
+    return replace(column, factor=factor, unit="s"), doubt
 
 
 def _by_steps(kind: Kind, column: Column, times: Array) -> tuple[Column, list[str]]:
@@ -116,11 +116,7 @@ def _by_steps(kind: Kind, column: Column, times: Array) -> tuple[Column, list[st
         OptionHint({"units": {name if column.heading.name else column.index + 1: "s"}}),
         " tells another",
     )
-    return _in_unit(column, factor), [doubt]
-
-
-def _in_unit(column: Column, factor: float) -> Column:
-    return replace(column, factor=factor, unit="s")
+    return replace(column, factor=factor, unit="s"), [doubt]
 
 
 def _step(times: Array) -> float:

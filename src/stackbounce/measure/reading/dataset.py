@@ -6,7 +6,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import FileError, InvalidValue, a_or_an
 from stackbounce.measure.kind import Kind
@@ -22,7 +21,6 @@ from stackbounce.measure.reading.video import rows_by_frame
 if TYPE_CHECKING:
     import xarray as xr
 
-Values = Array
 _ASSUMED = {"time": "s", "knock_time": "s", "force": "N", "compression": "m", "x": "m", "y": "m"}
 _OTHER_UNITS = {"s": "ms", "N": "kN", "m": "cm"}  # examples in doubts
 _SMALLEST = 1e-60  # number in any unit; squares and ratios of such are finite
@@ -50,7 +48,7 @@ def _is(column: Column, what: str) -> bool:
 
 
 def assemble(
-    holds: str, columns: Sequence[Column], values: Values, run: object
+    holds: str, columns: Sequence[Column], values: Array, run: object
 ) -> tuple["xr.Dataset", list[str]]:
     """Return the Dataset of columns, without its attributes, and what is unsure.
 
@@ -72,7 +70,9 @@ def assemble(
     FileError
         If there is no row of it.
     """
-    values = np.where(_is_number(values), values, np.nan)
+    sizes = np.abs(values)  # programs write numbers that nothing can be where one is missing
+    measurable = (sizes == 0.0) | ((sizes >= _SMALLEST) & (sizes <= _LARGEST))
+    values = np.where(measurable, values, np.nan)
     if holds == "bounces":
         return bounces(columns, values), [INFERRED]
     kind = KINDS[holds]
@@ -90,14 +90,7 @@ def assemble(
     return data, doubts + more
 
 
-def _is_number(values: Values) -> NDArray[np.bool_]:
-    """Tell which numbers can be measured: programs write others where a number is missing."""
-    sizes = np.abs(values)
-    known: NDArray[np.bool_] = (sizes == 0.0) | ((sizes >= _SMALLEST) & (sizes <= _LARGEST))
-    return known
-
-
-def _named_first(columns: Sequence[Column], values: Values) -> tuple[Sequence[Column], Values]:
+def _named_first(columns: Sequence[Column], values: Array) -> tuple[Sequence[Column], Array]:
     """Return columns and their numbers, those that an option gives a role before the others.
 
     Of several forces an analysis takes the first.
@@ -127,13 +120,10 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
             names = ", ".join(
                 column.heading.text or f"column {column.index + 1}" for column in found[:20]
             )
+            said = f": {a_or_an(holds)} needs columns of {needs}; it has {names}: "
+            hint = OptionHint({"names": {found[-1].index + 1: roles[0]}})
             raise InvalidValue(
-                Message(
-                    OptionHint({"holds": None}),
-                    f": {a_or_an(holds)} needs columns of {needs}; it has {names}: ",
-                    OptionHint({"names": {found[-1].index + 1: roles[0]}}),
-                    " tells which, for instance",
-                )
+                Message(about_option("holds", said), hint, " tells which, for instance")
             )
         taken.add(free[0])
         found[free[0]] = replace(found[free[0]], role=roles[0], named="")
@@ -151,13 +141,8 @@ def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
             column.heading.name or column.index + 1: _OTHER_UNITS[_ASSUMED[column.role]]
             for column in bare
         }
-        doubts.append(
-            Message(
-                f"no unit is told for {', '.join(names)}: taken as {', '.join(units)}; ",
-                OptionHint({"units": others}),
-                " tells another",
-            )
-        )
+        said = f"no unit is told for {', '.join(names)}: taken as {', '.join(units)}; "
+        doubts.append(Message(said, OptionHint({"units": others}), " tells another"))
     return [
         replace(column, unit=_ASSUMED[column.role]) if column in bare else column
         for column in columns
@@ -183,7 +168,7 @@ def _named(columns: Sequence[Column], without: Sequence[str] = ()) -> list[str]:
 
 
 def _data(
-    columns: Sequence[Column], values: Values, dimension: str, skip: int = -1
+    columns: Sequence[Column], values: Array, dimension: str, skip: int = -1
 ) -> dict[str, Any]:
     kept = [k for k in range(len(columns)) if k != skip]
     names = _named([columns[k] for k in kept], [dimension])
@@ -196,7 +181,7 @@ def _data(
 _Built = tuple["xr.Dataset", list[str]]
 
 
-def _series(columns: Sequence[Column], values: Values, run: object) -> _Built:
+def _series(columns: Sequence[Column], values: Array, run: object) -> _Built:
     """Return waveforms, sounds and accelerations: anything over time."""
     import xarray as xr
 
@@ -209,7 +194,7 @@ def _series(columns: Sequence[Column], values: Values, run: object) -> _Built:
     return xr.Dataset(data, coords={"time": ("time", times, _attributes(columns[at]))}), doubts
 
 
-def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
+def _track(columns: Sequence[Column], values: Array, run: object) -> _Built:
     """Return the Dataset of tracks: x, y and further columns of each, and doubts."""
     import xarray as xr
 
@@ -242,7 +227,7 @@ def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
     return xr.Dataset(data, coords=coords), doubts
 
 
-def _rows(kind: Kind, columns: Sequence[Column], values: Values, run: object) -> _Built:
+def _rows(kind: Kind, columns: Sequence[Column], values: Array, run: object) -> _Built:
     """Return the Dataset of rows, without those that lack a needed number."""
     import xarray as xr
 

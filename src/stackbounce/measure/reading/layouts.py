@@ -14,7 +14,7 @@ import numpy as np
 
 from stackbounce.errors import FileError
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading.bare import Guess, guess
+from stackbounce.measure.reading.bare import guess
 from stackbounce.measure.reading.headings import heading, is_unit
 from stackbounce.measure.reading.roles import Column, column
 from stackbounce.measure.reading.text import Text, count_numbers, number
@@ -40,8 +40,8 @@ class Layout:
         Start and step in s, where the column of times counts samples or rows.
     holds : str, optional
         The kind of measurement, if it does not follow from the columns.
-    guess : Guess, optional
-        What columns without names look like.
+    guess : tuple of Column and str, optional
+        What columns without names look like, and why.
     end : int, optional
         Where in the text the table ends, if something else follows.
     """
@@ -53,7 +53,7 @@ class Layout:
     doubts: tuple[str, ...] = ()
     clock: tuple[float, float] | None = None
     holds: str = ""
-    guess: Guess | None = None
+    guess: tuple[tuple[Column, ...], str] | None = None
     end: int | None = None
 
 
@@ -155,11 +155,8 @@ def _beside(text: Text, width: int, index: int) -> list[str]:
     if any(number(cell, text.decimal) is None for cell in cells[:width]) or not any(cells[:width]):
         return []
     names = [cell for cell in cells[width:] if cell]
-    return (
-        names
-        if len(names) == width and all(number(name, text.decimal) is None for name in names)
-        else []
-    )
+    words = all(number(name, text.decimal) is None for name in names)
+    return names if words and len(names) == width else []
 
 
 def _numbers(text: Text, first: int, width: int) -> Array:

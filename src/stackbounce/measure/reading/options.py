@@ -129,10 +129,8 @@ def of_run(
         word = str(run).casefold()
         named = [name for k, name in enumerate(runs, 1) if word in (name.casefold(), str(k))]
         if not named:
-            known = nearest(run, runs)
-            raise InvalidValue(
-                about_option("run", f" must be one that is there, got {shown(run)}; {known}")
-            )
+            wrong = f" must be one that is there, got {shown(run)}; {nearest(run, runs)}"
+            raise InvalidValue(about_option("run", wrong))
         chosen = named[0]
     own = [column for column in columns if column.heading.run in (chosen, "")]
     if not any(column.role == "time" for column in own):  # one time for all runs

@@ -221,9 +221,8 @@ def _from_tables(tables: Tables, options: ReadOptions) -> "xr.Dataset":
     data.attrs["why"] = "; ".join(filter(None, [tables.why, data.attrs["why"]]))
     others = [one for one in names if one != name]
     if others:
-        more = Message(
-            f"{name} of it is read; ", OptionHint({"table": others[0]}), " reads another"
-        )
+        hint = OptionHint({"table": others[0]})
+        more = Message(f"{name} of it is read; ", hint, " reads another")
         data.attrs["doubt"] = Message("; ").join(filter(None, [data.attrs["doubt"], more]))
     return data
 
@@ -254,11 +253,8 @@ def _table(
     numbers: Callable[[Sequence[int]], Table]
     if arrays.is_array(content):
         array = arrays.array_in(content)
-        layout, numbers, doubts = (
-            arrays.layout_of_array(array),
-            partial(arrays.rows_of_array, array),
-            [],
-        )
+        layout, doubts = arrays.layout_of_array(array), []
+        numbers = partial(arrays.rows_of_array, array)
     else:
         refuse_others(content)
         text = tabulate(decode(content), options.decimal, Path(name).name)
@@ -279,12 +275,12 @@ def _table(
 
 def _meant(layout: Layout, options: ReadOptions) -> tuple[Sequence[Column], Sequence[str]]:
     """Return the columns of a layout, or what they look like, and what is unsure."""
-    found = layout.guess
-    if found is None:
+    if layout.guess is None:
         return layout.columns, layout.doubts
-    if options.names or options.holds not in (None, holds_of(on_frames(found.columns)[0])):
+    columns, doubt = layout.guess
+    if options.names or options.holds not in (None, holds_of(on_frames(columns)[0])):
         return layout.columns, (NOT_NAMED,)
-    return found.columns, (found.doubt,)
+    return columns, (doubt,)
 
 
 def _count(layout: Layout, columns: Sequence[Column], table: Table) -> None:

@@ -94,7 +94,7 @@ class Column:
         said = self.heading if unit is None else replace(self.heading, unit=unit)
         role, factor, symbol, doubt = _role(name or self.heading.name, said.unit, self.role)
         if name:
-            role = name if name in _ROLES or name in ACCELERATIONS else ""
+            role = name if name in ROLES else ""
         changed = replace(self, heading=said, role=role, factor=factor, unit=symbol, doubt=doubt)
         return replace(changed, named=name or self.named)
 

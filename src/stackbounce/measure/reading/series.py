@@ -1,6 +1,6 @@
 """The rows of a table in time: its runs, gaps and repeats, and times that were rounded."""
 
-from typing import NamedTuple
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +9,7 @@ from stackbounce.errors import InvalidValue, shown
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.roles import Column
-from stackbounce.measure.reading.rounding import Rounding, even_times, rounding_of, spread
+from stackbounce.measure.reading.rounding import even_times, rounding_of, spread
 
 _RUNS = 50
 """Runs below each other, at most: with more, the column does not hold times."""
@@ -19,16 +19,13 @@ _ANOTHER = Message(
 )
 
 
-class Series(NamedTuple):
-    """The rows of one run, their times in s, and what is unsure of them."""
-
-    rows: NDArray[np.intp] | slice
-    times: Array
-    doubts: list[str]
+_Rows: TypeAlias = NDArray[np.intp] | slice
 
 
-def in_time(time: Array, column: Column, run: object, *, gaps: bool) -> Series:
-    """Return the rows of one run, in which time never decreases, and their times.
+def in_time(
+    time: Array, column: Column, run: object, *, gaps: bool
+) -> tuple[_Rows, Array, list[str]]:
+    """Return the rows of one run, in which time never decreases, their times in s, and doubts.
 
     Times that are even within their rounding become even. Those that repeat are spread over what
     they were rounded to, as no sample of a record is another's double.
@@ -61,10 +58,13 @@ def in_time(time: Array, column: Column, run: object, *, gaps: bool) -> Series:
         raise InvalidValue(Message(constant, _ANOTHER))
     rounded = rounding_of(own)
     even = even_times(own, rounded)
-    if even is not None:
-        doubts.append(_even_doubt(own, factor, unit, rounded))
-        return Series(rows, factor * even, doubts)
     repeated = int(np.count_nonzero(np.diff(own) == 0.0))
+    if even is not None:
+        step = factor * (own[-1] - own[0]) / (own.size - 1)
+        digits = factor * float(rounded.steps(own[[0, -1]]).max())
+        to = f"{digits:.2g} {unit}" + f" ({repeated} repeat)" * (repeated > 0)
+        even_step = f"taken as even, with a step of {step:.6g} {unit}"
+        return rows, factor * even, [*doubts, f"times are rounded to {to}: {even_step}"]
     if repeated:
         step = factor * float(np.median(rounded.steps(own)))
         doubts.append(
@@ -74,12 +74,10 @@ def in_time(time: Array, column: Column, run: object, *, gaps: bool) -> Series:
     own = own if factor == 1.0 else factor * own
     if gaps:
         doubts.extend(_gaps(own, unit))
-    return Series(rows, own, doubts)
+    return rows, own, doubts
 
 
-def _of_run(
-    rows: NDArray[np.intp] | slice, own: Array, run: object
-) -> tuple[NDArray[np.intp] | slice, Array, list[str]]:
+def _of_run(rows: _Rows, own: Array, run: object) -> tuple[_Rows, Array, list[str]]:
     """Return the rows and times of one of the runs below each other."""
     again = np.flatnonzero(np.diff(own) < 0.0) + 1
     if again.size >= _RUNS:
@@ -94,17 +92,6 @@ def _of_run(
     rows = slice(first, last) if isinstance(rows, slice) else rows[first:last]
     doubt = f"time starts again {again.size} times; run {at} of {again.size + 1} is read"
     return rows, own[first:last], [doubt]
-
-
-def _even_doubt(own: Array, factor: float, unit: str, rounded: Rounding) -> str:
-    """Return that rounded times were taken as even, with the step and what they were rounded to."""
-    count = own.size
-    step = factor * (own[-1] - own[0]) / (count - 1)
-    digits = factor * float(rounded.steps(own[[0, -1]]).max())
-    repeated = int(np.count_nonzero(np.diff(own) == 0.0))
-    more = f" ({repeated} repeat)" if repeated else ""
-    to = f"{digits:.2g} {unit}{more}"
-    return f"times are rounded to {to}: taken as even, with a step of {step:.6g} {unit}"
 
 
 def _gaps(own: Array, unit: str) -> list[str]:
@@ -131,7 +118,6 @@ def step_of(time: Array) -> float:
 
 def _counted(run: object, count: int) -> int:
     if not str(run).isascii() or not str(run).isdigit() or not 1 <= int(str(run)[:9]) <= count:
-        raise InvalidValue(
-            about_option("run", f" must be one of the {count} that there are, got {shown(run)}")
-        )
+        wrong = f" must be one of the {count} that there are, got {shown(run)}"
+        raise InvalidValue(about_option("run", wrong))
     return int(str(run))

@@ -244,11 +244,6 @@ def _decimal(head: list[list[str]], delimiter: str) -> tuple[str, list[str]]:
         mixed = [cell for cell in cells if re.fullmatch(r"[+-]?[0-9]+\.[0-9.]*,[0-9]+", cell)]
         return ("," if mixed and delimiter != "," else "."), []
     if len(grouped) == len(commas):
-        return ",", [
-            Message(
-                f"{grouped[0]!r} is read with a decimal comma: ",
-                OptionHint({"decimal": "."}),
-                " if it is not one",
-            )
-        ]
+        said, hint = f"{grouped[0]!r} is read with a decimal comma: ", OptionHint({"decimal": "."})
+        return ",", [Message(said, hint, " if it is not one")]
     return ",", []

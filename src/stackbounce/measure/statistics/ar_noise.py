@@ -5,7 +5,6 @@ a law that does not quite fit. Assuming independent errors makes error bars far 
 """
 
 from collections.abc import Sequence
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,8 +22,8 @@ _LEAST_SAMPLES = 48  # of a series whose autocorrelation is estimated
 _NORMAL_MEDIAN = 0.6745  # median absolute value of a standard normal variable
 
 
-class Noise:
-    """The noise of a series, estimated from the residuals of a fit.
+def noise_covariance(residual: Array, jacobian: Array, rows: Array) -> Array:
+    """Return the covariance of linear combinations of noise that the residuals of a fit show.
 
     The model is white noise plus AR(1) noise of a correlation time of τ points, with both variances
     and τ unknown. Each combination on a grid is weighted by its restricted likelihood (REML), in
@@ -38,52 +37,41 @@ class Noise:
         (N,) residuals, each over its relative scale.
     jacobian : ndarray
         (N, q) derivatives of the fit by its parameters, over the same scales.
+    rows : ndarray
+        (m, N) weights of each point's noise, times the same scales.
+
+    Returns
+    -------
+    ndarray
+        (m, m).
     """
+    white, correlated = _mean(_grid(residual, jacobian), len(residual))
+    result = white * (rows @ rows.T)
+    for phi, weight in correlated:
+        product = _correlated(rows, phi) @ rows.T
+        result = result + 0.5 * weight * (product + product.T)
+    return np.asarray(result)
 
-    def __init__(self, residual: Array, jacobian: Array) -> None:
-        self.residual = residual
-        self.jacobian = jacobian
 
-    def covariance(self, rows: Array) -> Array:
-        """Return the covariance of linear combinations of the noise.
+def _grid(residual: Array, jacobian: Array) -> list[tuple[float, float, float, float]]:
+    """Return noise models (time, share, log-likelihood, variance); the first is white noise."""
+    count = len(residual)
+    longest = max(2.0, _LONGEST_TIME * count)
+    found: list[tuple[float, float, float, float]] = []
 
-        Parameters
-        ----------
-        rows : ndarray
-            (m, N) weights of each point's noise, times the same scales.
+    def add(times: Array, shares: Sequence[float] = _SHARES) -> None:
+        for time in times.tolist():
+            for share in shares:
+                phi = float(np.exp(-1.0 / time))
+                found.append((time, share, *_fit(jacobian, residual, phi, share)))
 
-        Returns
-        -------
-        ndarray
-            (m, m).
-        """
-        white, correlated = self._grid
-        result = white * (rows @ rows.T)
-        for phi, weight in correlated:
-            product = _correlated(rows, phi) @ rows.T
-            result = result + 0.5 * weight * (product + product.T)
-        return np.asarray(result)
-
-    @cached_property
-    def _grid(self) -> tuple[float, list[tuple[float, float]]]:
-        """Return the mean variance of the white noise, and of AR(1) noise of each correlation."""
-        count = len(self.residual)
-        longest = max(2.0, _LONGEST_TIME * count)
-        found: list[tuple[float, float, float, float]] = []
-
-        def add(times: Array, shares: Sequence[float] = _SHARES) -> None:
-            for time in times.tolist():
-                for share in shares:
-                    phi = float(np.exp(-1.0 / time))
-                    found.append((time, share, *_fit(self.jacobian, self.residual, phi, share)))
-
-        add(np.ones(1), (0.0,))
-        add(np.geomspace(1.0, longest, _TIMES))
-        best = max(found[1:], key=lambda row: row[2])
-        if best[2] - np.log(count) > found[0][2]:  # the noise is autocorrelated: refine the grid
-            ratio = longest ** (1.0 / (_TIMES - 1))
-            add(best[0] * ratio ** (np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0]) / 4.0))
-        return _mean(found, count)
+    add(np.ones(1), (0.0,))
+    add(np.geomspace(1.0, longest, _TIMES))
+    best = max(found[1:], key=lambda row: row[2])
+    if best[2] - np.log(count) > found[0][2]:  # the noise is autocorrelated: refine the grid
+        ratio = longest ** (1.0 / (_TIMES - 1))
+        add(best[0] * ratio ** (np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0]) / 4.0))
+    return found
 
 
 def _mean(

@@ -105,9 +105,8 @@ def find_kink(
 def _pressed(share: Array, force: Array, like: Array, noise: float) -> bool:
     """Return whether a force is significantly larger than another late in the contact."""
     late = (share > _LATE[0]) & (share < _LATE[1])
-    error = math.hypot(
-        noise / math.sqrt(max(late.sum(), 1)), _GAIN_ERROR * float(like[late].mean())
-    )
+    own = noise / math.sqrt(max(late.sum(), 1))
+    error = math.hypot(own, _GAIN_ERROR * float(like[late].mean()))
     return float((force - like)[late].mean()) > _LEAST_PRESS * error
 
 

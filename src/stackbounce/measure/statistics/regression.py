@@ -123,10 +123,8 @@ def fit_with_excess_scatter(
     every = covariance + scatters[:, None, None] ** 2 * np.eye(len(values))
     means, spreads, squares = _fits(design, values, every)
     evidence = np.linalg.slogdet(spreads)[1] - np.linalg.slogdet(every)[1] - squares
-    weights = np.exp(0.5 * (evidence - evidence.max())) * [
-        _ODDS_OF_NONE * _SCATTERS,
-        *[1.0] * _SCATTERS,
-    ]
+    prior = [_ODDS_OF_NONE * _SCATTERS, *[1.0] * _SCATTERS]
+    weights = np.exp(0.5 * (evidence - evidence.max())) * prior
     weights /= weights.sum()
     mean = weights @ means
     off = means - mean
@@ -147,10 +145,8 @@ def half_width(weights: Array, off: Array, errors: Array) -> float:
     from scipy.special import ndtr
 
     def excess(half: float) -> float:
-        return (
-            float(weights @ (ndtr((half - off) / errors) - ndtr((-half - off) / errors)))
-            - _WITHIN_ONE
-        )
+        inside = ndtr((half - off) / errors) - ndtr((-half - off) / errors)
+        return float(weights @ inside) - _WITHIN_ONE
 
     return float(brentq(excess, 0.0, 10.0 * float((errors + np.abs(off)).max())))
 

@@ -138,15 +138,11 @@ def _unloading_only(record: Record, cycle: Cycle) -> Press:
     back = replace(cycle, loading=cycle.unloading[::-1], unloading=cycle.loading, sampled=False)
     mirror = result_of(record, back)
     note = "There is no loading curve: only the peak, the energy returned and n can be determined."
+    same = ("secant_stiffness", "peak_compression", "peak_force", "contact", "zero", "record")
     return Press(
-        secant_stiffness=mirror.secant_stiffness,
-        peak_compression=mirror.peak_compression,
-        peak_force=mirror.peak_force,
+        **{name: getattr(mirror, name) for name in same},
         work_out=mirror.work_in,
         unloading_exponent=mirror.exponent,
-        contact=mirror.contact,
-        zero=mirror.zero,
         unloading=mirror.loading,
-        record=mirror.record,
         notes=(note,),
     )

@@ -18,7 +18,7 @@ from stackbounce.measure.kinds.press.fits import (
 from stackbounce.measure.kinds.press.result import Curve, Press
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import quantisation_error, trapezoid
-from stackbounce.measure.statistics.ar_noise import Noise
+from stackbounce.measure.statistics.ar_noise import noise_covariance
 
 # Limits that were set by what recovered the truth in simulated records (benchmarks/coverage/press).
 _MOST_POINTS = 4000  # of a branch; a longer one is averaged in groups
@@ -356,16 +356,16 @@ def _covariance(rows: Array, fits: list[PowerFit], scales: list[Array]) -> Array
     from scipy.linalg import block_diag
 
     noises = [
-        Noise(fit.residual / scale, fit.jacobian / scale[:, None])
+        (fit.residual / scale, fit.jacobian / scale[:, None])
         for fit, scale in zip(fits, scales, strict=True)
     ]
-    sizes = [float(np.sqrt((noise.residual**2).mean())) for noise in noises]
+    sizes = [float(np.sqrt((residual**2).mean())) for residual, _ in noises]
     if len(noises) > 1 and max(sizes) <= _SHARED_NOISE * min(sizes):
-        residual = np.concatenate([noise.residual for noise in noises])
-        noises = [Noise(residual, block_diag(*(noise.jacobian for noise in noises)))]
-    ends = np.cumsum([len(noise.residual) for noise in noises])[:-1]
+        residuals, jacobians = zip(*noises, strict=True)
+        noises = [(np.concatenate(residuals), block_diag(*jacobians))]
+    ends = np.cumsum([len(residual) for residual, _ in noises])[:-1]
     parts = np.split(rows * np.concatenate(scales), ends, axis=1)
-    each = [noise.covariance(part) for noise, part in zip(noises, parts, strict=True)]
+    each = [noise_covariance(*noise, part) for noise, part in zip(noises, parts, strict=True)]
     return np.asarray(sum(each))
 
 

@@ -174,11 +174,7 @@ class Press(Finding):
     def branches(self) -> list[Branch]:
         """Return loading and unloading, as far as they were recorded."""
         ways = (("pressed in", self.loading), ("let go", self.unloading))
-        return [
-            Branch(label, one.compression, one.force, one.fit)
-            for label, one in ways
-            if one is not None
-        ]
+        return [Branch(label, way.compression, way.force, way.fit) for label, way in ways if way]
 
     def table(self, points: int = MOST_POINTS) -> Tabulated:
         """Return the curve itself as a law: a `Tabulated` one, with as many points.

@@ -3,9 +3,9 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, whole
+from stackbounce.measure.quantities import Array
 from stackbounce.model import Tabulated
 from stackbounce.model.laws.tabulated import MOST_POINTS, monotone_spline
 
@@ -13,8 +13,6 @@ _FEWEST = 6
 _ROUNDS = 3  # each fits what the spline of the last one leaves over
 _STEEP = 1e-6  # of the mean rise: the smallest rise of the loading from point to point
 _FIRM = 1e3  # weight of the condition that unloading begins where loading ends, over all points
-
-Array = NDArray[np.float64]
 
 
 def fitted_table(loading: Any, unloading: Any, points: int) -> Tabulated:

@@ -9,12 +9,7 @@ import numpy as np
 from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.drag import Drag, with_error_of_drag
 from stackbounce.measure.kinds.track import motion
-from stackbounce.measure.kinds.track.free_flight import (
-    comparable,
-    no_flight,
-    no_gain,
-    what_is_seen,
-)
+from stackbounce.measure.kinds.track.free_flight import comparable, no_flight, no_gain, what_is_seen
 from stackbounce.measure.kinds.track.notes import notes_of, stays_long, uneven
 from stackbounce.measure.kinds.track.parabolas import Flights
 from stackbounce.measure.kinds.track.paths import (
@@ -226,13 +221,9 @@ def _track_in_air(
             f"drag is for the track of one ball of known mass and diameter, got {len(flown)}"
         )
     if not units.known:
-        raise InvalidValue(
-            Message(
-                f"drag needs lengths in m and times in s, got {units.length} and {units.time}: ",
-                OptionHint({"frame_rate": None, "scale": None}),
-                " tell them",
-            )
-        )
+        wrong = f"drag needs lengths in m and times in s, got {units.length} and {units.time}: "
+        hint = OptionHint({"frame_rate": None, "scale": None})
+        raise InvalidValue(Message(wrong, hint, " tell them"))
 
     def found_with(drag: Drag | None) -> Track:
         return _track(flown[0], level, units, alone=True, drag=drag)
@@ -249,12 +240,7 @@ def _track_in_air(
 
 
 def _track(
-    ball: _Flown,
-    floor: float | None,
-    units: TrackUnits,
-    *,
-    alone: bool,
-    drag: Drag | None = None,
+    ball: _Flown, floor: float | None, units: TrackUnits, *, alone: bool, drag: Drag | None = None
 ) -> Track:
     """Return a ball's bounces from its parabolas; a drag is taken to be exact."""
     from uncertainties import ufloat
@@ -314,20 +300,16 @@ def _bounce(
     before, after = fit.flights[both]
     time = 0.5 * (times[before.last - 1] + times[after.first])
     time += motion.meeting(numbers[both], fit.origins[both], time, drag)
-    (low, into), (high, out) = (
+    (low, into, fall), (high, out, back) = (
         motion.state(one, float(time - origin), drag)
         for one, origin in zip(numbers[both], fit.origins[both], strict=True)
     )
-    falls = [
-        motion.fall_at(fall, speed, drag)
-        for (fall, *_), speed in zip(numbers[both], (into, out), strict=True)
-    ]
     since = (low - high) / (out - into)
     if floor is not None:
-        speeds = _at_level(into, low - floor, falls[0]), _at_level(out, high - floor, falls[1])
+        speeds = _at_level(into, low - floor, fall), _at_level(out, high - floor, back)
         return time + since, low * 0.0 + floor, *speeds
-    level = low + into * since - 0.5 * falls[0] * since**2
-    return time + since, level, falls[0] * since - into, out - falls[1] * since
+    level = low + into * since - 0.5 * fall * since**2
+    return time + since, level, fall * since - into, out - back * since
 
 
 def _at_level(speed: Any, above: Any, fall: Any) -> Any:

@@ -10,7 +10,7 @@ from stackbounce.measure.drag import Drag
 from stackbounce.measure.kinds.track.flights import Flight
 from stackbounce.measure.kinds.track.parabolas import Flights, fit_flights
 from stackbounce.measure.kinds.track.shape import OWN, Shape, own_noise
-from stackbounce.measure.quantities import Array, Number, nominal
+from stackbounce.measure.quantities import Array, nominal
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drag import flown
 
@@ -113,23 +113,24 @@ def curve(fit: Flights, flight: int, times: Array, drag: Drag | None) -> Array:
     return np.asarray(level + np.array(ways))
 
 
-def state(numbers: Numbers, since: float, drag: Drag | None) -> tuple[Any, Any]:
-    """Return height and velocity of a flight, a time after its middle.
+def state(numbers: Numbers, since: float, drag: Drag | None) -> tuple[Any, Any, Any]:
+    """Return height, velocity and downward acceleration of a flight, a time after its middle.
 
     Examples
     --------
     >>> state((10.0, 1.0, 2.0), 0.1, None)
-    (1.15, 1.0)
+    (1.15, 1.0, 10.0)
     """
     fall, level, speed = numbers
     if drag is None:
-        return level + speed * since - 0.5 * fall * since**2, speed - fall * since
+        return level + speed * since - 0.5 * fall * since**2, speed - fall * since, fall
     from uncertainties import wrap
 
     rate = nominal(drag.rate)
     way = wrap(lambda speed, fall: flown(rate, speed, since, fall)[0])
     then = wrap(lambda speed, fall: flown(rate, speed, since, fall)[1])
-    return level + way(speed, fall), then(speed, fall)
+    later = then(speed, fall)
+    return level + way(speed, fall), later, fall + rate * later * abs(nominal(later))
 
 
 def meeting(flights: Sequence[Numbers], middles: Array, near: float, drag: Drag | None) -> float:
@@ -144,23 +145,12 @@ def meeting(flights: Sequence[Numbers], middles: Array, near: float, drag: Drag 
     """
     later = 0.0
     for _ in range(0 if drag is None else _NEWTON_ROUNDS):
-        (low, before), (high, after) = (
+        (low, before, _), (high, after, _) = (
             state(one, float(near - middle) + later, drag)
             for one, middle in zip(flights, middles, strict=True)
         )
         later += nominal((low - high) / (after - before))
     return later
-
-
-def fall_at(fall: Number, speed: Any, drag: Drag | None) -> Any:
-    """Return the acceleration, downward, at an up-positive speed.
-
-    Examples
-    --------
-    >>> fall_at(10.0, -3.0, None)
-    10.0
-    """
-    return fall if drag is None else fall + nominal(drag.rate) * speed * abs(nominal(speed))
 
 
 def fallen(speed: Any, fall: Any, drag: Drag | None) -> tuple[Any, Any]:

@@ -49,14 +49,7 @@ def notes_of(
 
 
 def stays_long(
-    name: str,
-    times: Array,
-    fit: Flights,
-    bounce: int,
-    impact: Any,
-    fall: Any,
-    *,
-    alone: bool,
+    name: str, times: Array, fit: Flights, bounce: int, impact: Any, fall: Any, *, alone: bool
 ) -> tuple[str, ...]:
     """Return a note where a long contact biases the speeds at the touch."""
     before, after = fit.flights[bounce].last, fit.flights[bounce + 1].first
@@ -71,13 +64,8 @@ def stays_long(
     )
     if not alone:
         return (f"{biased}; what is fitted to them is off by as much",)
-    return (
-        Message(
-            f"{biased}; ",
-            OptionHint({"floor": None}),
-            " tells the floor's level, for those at the touch",
-        ),
-    )
+    hint = OptionHint({"floor": None})
+    return (Message(f"{biased}; ", hint, " tells the floor's level, for those at the touch"),)
 
 
 def uneven(name: str, shape: Shape) -> tuple[str, ...]:

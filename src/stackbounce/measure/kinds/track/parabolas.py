@@ -127,7 +127,8 @@ class Parabolas:
     @cached_property
     def fits(self) -> _Fits:
         """The fits for each correlation, to what the fit without one leaves."""
-        return self._fits(self.heights[self.rows] - self._modelled(self.rough), self.tried)
+        modelled = self._modelled(self.rough.fall[0], self.rough.own[0])
+        return self._fits(self.heights[self.rows] - modelled, self.tried)
 
     @cached_property
     def weights(self) -> Array:
@@ -173,8 +174,7 @@ class Parabolas:
                 covariance[at + i, at + j] += blocks[:, i, j]
         values = mean + np.concatenate([self.rough.fall, self.rough.own.ravel()])
         residuals = np.full(len(self.times), np.nan)
-        own = values[1:].reshape(-1, 2)[self.owner]
-        flown = own[:, 0] + own[:, 1] * self.since - 0.5 * values[0] * self.since**2
+        flown = self._modelled(values[0], values[1:].reshape(-1, 2))
         residuals[self.rows] = self.heights[self.rows] - flown
         correlation = float(weights @ self.tried)
         return Flights(
@@ -182,9 +182,9 @@ class Parabolas:
             residuals, self.freedom,
         )  # fmt: skip
 
-    def _modelled(self, fits: _Fits) -> Array:
-        own = fits.own[0][self.owner]
-        return np.asarray(own[:, 0] + own[:, 1] * self.since - 0.5 * fits.fall[0] * self.since**2)
+    def _modelled(self, fall: float, flights: Array) -> Array:
+        own = flights[self.owner]
+        return np.asarray(own[:, 0] + own[:, 1] * self.since - 0.5 * fall * self.since**2)
 
     @cached_property
     def _apart(self) -> Array:

@@ -144,14 +144,9 @@ class Tracks(Finding):
 
     def curves(self, data: Any) -> list[Curve]:  # noqa: ARG002
         """Return each ball's height above where it first bounces."""
+        unit = self.units.length
         return [
-            Curve(
-                ball.name,
-                "position",
-                ball.times,
-                ball.heights - nominal(ball.levels[0]),
-                self.units.length,
-            )
+            Curve(ball.name, "position", ball.times, ball.heights - nominal(ball.levels[0]), unit)
             for ball in self.balls
         ]
 

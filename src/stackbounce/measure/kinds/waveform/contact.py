@@ -150,9 +150,8 @@ def _part(seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | Non
         if sum(sides) >= _NOISE_SAMPLES:
             noise, density = scatter(values[quiet], columns.shape[1], seen.quantum)
             density = max(density, 1e-6 * float(np.ptp(values)))
-        offset = float(
-            np.hypot(density / np.sqrt(sum(sides)), quantisation_error(seen.quantum, noise))
-        )
+        own = density / np.sqrt(sum(sides))
+        offset = float(np.hypot(own, quantisation_error(seen.quantum, noise)))
     return _Part(times, values, one.first - low, one.last - low, offset, noise, density)
 
 

@@ -26,12 +26,8 @@ def analyse(data: Any, setup: Setup) -> tuple[Finding, ...]:
         found = (gap, force)
     if setup.alone is None:
         return found
+    alone = waveform(setup.alone, **known)
     gap_of_floor = floor_gap(
-        force,
-        waveform(setup.alone, **known),
-        mass=setup.mass,
-        impact_speed=speed,
-        restitution=setup.restitution,
-        time_constant=setup.time_constant,
+        force, alone, mass=setup.mass, impact_speed=speed, restitution=setup.restitution
     )
     return (*found, gap_of_floor)

@@ -63,10 +63,9 @@ def find_peaks(times: Array, values: Array, noise: float, density: float) -> lis
         tops = np.array([int(np.argmax(even))])
     dips = [int(a + np.argmin(even[a:b])) for a, b in pairwise(tops)]
     edges = [0, *dips, len(even) - 1]
-    rooms = pairwise(edges)
     return [
         _cap(times, values, even, int(top), room, density)
-        for top, room in zip(tops, rooms, strict=True)
+        for top, room in zip(tops, pairwise(edges), strict=True)
     ]
 
 

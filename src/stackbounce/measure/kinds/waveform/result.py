@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from stackbounce.measure.constants import dynamic_stiffness
 from stackbounce.measure.finding import Curve, Finding, channels, force_channels
 from stackbounce.measure.kinds.waveform.flanks import Flank
-from stackbounce.measure.quantities import Array, Number, Row, nominal
+from stackbounce.measure.quantities import Array, Number, Row, known_rows, nominal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -144,7 +144,7 @@ class Waveform(Finding):
         impulse: Any = contact.impulse
         if contact.clipped:
             highest, impulse = (f"above {one.nominal_value:.4g}" for one in (highest, impulse))
-        told: list[tuple[str, Any, str]] = [
+        rows: list[tuple[str, Any, str]] = [
             ("contact time", contact.time, "s"),
             ("touch", contact.start, "s"),
             ("release", contact.end, "s"),
@@ -154,7 +154,7 @@ class Waveform(Finding):
             ("rise", contact.rise, "s"),
             ("fall", contact.fall, "s"),
         ]
-        return [Row(start + name, value, unit) for name, value, unit in told if value is not None]
+        return known_rows((start + name, value, unit) for name, value, unit in rows)
 
     def parts(self) -> dict[str, Any]:
         """Return what a drop can use, by the keys of its TOML: ball, contact, impact speed."""
@@ -187,11 +187,7 @@ class Waveform(Finding):
         begin = first.start.nominal_value
         lasts = 0.0 if first.end is None else first.end.nominal_value - begin
         end = begin + max(2.0 * lasts, lasting)
-        later = [
-            contact.start.nominal_value
-            for contact in self.contacts[1:]
-            if contact.start is not None
-        ]
+        later = [nominal(one.start) for one in self.contacts[1:] if one.start is not None]
         beyond = [start for start in later if start > end]
         return record.sel(time=slice(None, 0.5 * (end + min(beyond)))) if beyond else record
 

@@ -28,10 +28,6 @@ def rigol(text: Text) -> Layout | None:
     if counted and (start is None or step is None or not step > 0 or not channels):
         raise FileError("it begins as a table of a Rigol but has no start and increment below them")
     clock = (start, step) if counted and start is not None and step is not None else None
-    return Layout(
-        "Rigol oscilloscope",
-        f"its first line '{names[0]},…,Start,Increment' is that of a Rigol",
-        (column(0 if timed else -1, Heading(names[0], "X", "s"), "time"), *channels),
-        first_row(text, 2),
-        clock=clock,
-    )
+    columns = (column(0 if timed else -1, Heading(names[0], "X", "s"), "time"), *channels)
+    why = f"its first line '{names[0]},…,Start,Increment' is that of a Rigol"
+    return Layout("Rigol oscilloscope", why, columns, first_row(text, 2), clock=clock)

@@ -9,21 +9,15 @@ from stackbounce.measure.reading.text import Text, number
 @layout
 def tektronix_mdo(text: Text) -> Layout | None:
     """Recognise Tektronix MDO: lines of keys and values, then ``TIME,CH2``."""
-    for k, row in enumerate(text.head):
-        if k and row[:1] == ["TIME"] and len(row) > 1:
-            break
-    else:
-        return None
+    k = next((k for k, row in enumerate(text.head) if row[:1] == ["TIME"] and len(row) > 1), 0)
     keys = {one[0]: one[1:] for one in text.head[:k] if one}
     if not {"Sample Interval", "Record Length"} & set(keys):
         return None
+    row = text.head[k]
     units = [*keys.get("Horizontal Units", ["s"])[:1], *keys.get("Vertical Units", [])]
+    units += [""] * len(row)
     columns = tuple(
-        column(
-            i,
-            heading(name, (units[i] if i < len(units) else "") or ("s", "V")[i > 0]),
-            ("time", "voltage")[i > 0],
-        )
+        column(i, heading(name, units[i] or "sV"[i > 0]), ("time", "voltage")[i > 0])
         for i, name in enumerate(row)
         if name
     )

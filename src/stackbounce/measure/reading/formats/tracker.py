@@ -31,9 +31,5 @@ def tracker(text: Text) -> Layout | None:
             role = cell.name if cell.name in ("x", "y") else ""
             columns.append(column(k, cell, role, track))
     told = "its line '#multi:'" if multi else "the name of a track"
-    return Layout(
-        "Tracker",
-        f"{told} over the columns t, x, y is how Tracker exports data",
-        tuple(columns),
-        first_row(text, at + 1),
-    )
+    why = f"{told} over the columns t, x, y is how Tracker exports data"
+    return Layout("Tracker", why, tuple(columns), first_row(text, at + 1))

@@ -10,7 +10,7 @@ from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.gap.result import FloorGap
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.sensor import restitution_of
-from stackbounce.measure.quantities import Array, known_to, measured, measured_if_given
+from stackbounce.measure.quantities import Array, known_to, measured, measured_if_given, nominal
 from stackbounce.measure.statistics.change_point import Kink, find_kink
 
 _RESTITUTION = (0.75, 0.144)  # mean and deviation of the prior: uniform from 0.5 to 1
@@ -194,9 +194,7 @@ def _limits(both: Waveform, kink: Kink, lasting: float) -> tuple[tuple[float, fl
 
 def _thrown_back(both: Waveform, lasting: float) -> float | None:
     """Return when the lower ball hit the floor again in the same impact, or None."""
-    starts = [
-        contact.start.nominal_value for contact in both.contacts[:2] if contact.start is not None
-    ]
+    starts = [nominal(one.start) for one in both.contacts[:2] if one.start is not None]
     back = float(np.ptp(starts))
     return back if 0.0 < back < _SAME_IMPACT * lasting else None
 

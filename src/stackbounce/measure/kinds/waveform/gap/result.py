@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 from stackbounce.measure.finding import Finding
 from stackbounce.measure.kinds.waveform.result import Waveform
-from stackbounce.measure.quantities import Number, Row
+from stackbounce.measure.quantities import Number, Row, known_rows
 from stackbounce.measure.statistics.change_point import Kink
 
 
@@ -46,11 +46,11 @@ class FloorGap(Finding):
 
     def rows(self) -> list[Row]:
         """Return the table, the most important first."""
-        rows = [
+        return [
             Row("gap between the balls", _limited(self.gap, self.gap_limits), "m"),
             Row("delay of their touch", _limited(self.delay, self.delay_limits), "s"),
+            Row("force over that of the ball alone", self.gain),
         ]
-        return [*rows, Row("force over that of the ball alone", self.gain)]
 
 
 @dataclass(frozen=True)
@@ -73,8 +73,8 @@ class SensorGap(Finding):
 
     def rows(self) -> list[Row]:
         """Return the table, the most important first."""
-        rows = [] if self.gap is None else [Row("gap between the balls", self.gap, "m")]
-        return [*rows, Row("delay of their touch", self.delay, "s")]
+        gap = ("gap between the balls", self.gap, "m")
+        return known_rows([gap, ("delay of their touch", self.delay, "s")])
 
 
 def _limited(value: Any, limits: tuple[float, float]) -> Any:

@@ -1,4 +1,4 @@
-"""What the tests of reading share."""
+"""What the tests of measurements share."""
 
 import pytest
 
