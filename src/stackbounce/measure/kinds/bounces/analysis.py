@@ -160,7 +160,8 @@ def _analysed(moments: Sequence[Any], fall: _Fall) -> Bounces:
             )
     inferred = fall.height is None and height is not None
     rest = (mean, laws, height, inferred, scatter, fall.gravity, tuple(notes), fall.drag)
-    return Bounces(*map(tuple, found), *rest)
+    moments, flights, numbers, speeds, kept = map(tuple, found)
+    return Bounces(moments, flights, numbers, speeds, kept, *rest)
 
 
 def _moments(
