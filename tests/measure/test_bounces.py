@@ -11,6 +11,7 @@ import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.bounces.analysis import bounces
 from stackbounce.measure.kinds.bounces.knocks import missed_between
+from stackbounce.measure.kinds.bounces.restitution_law import laws_of
 from stackbounce.measure.kinds.heights.analysis import heights
 from synthetic.falls import falls
 
@@ -69,20 +70,7 @@ def test_a_missing_bounce_is_seen_and_left_out():
     assert found.flights[3] is None
     assert found.numbers == (1, 2, 6, 7, 8)
     assert any("missing" in note for note in found.notes)
-    kept = {
-        number: one.nominal_value
-        for number, one in zip(found.numbers, found.restitutions, strict=True)
-    }
-    assert kept[6] == pytest.approx(FALL.restitutions[6], abs=1e-3)
-
-
-def test_uneven_bounces_are_told():
-    random = np.random.default_rng(3)
-    ratios = 0.8 + random.normal(0.0, 0.02, 8)
-    times = np.concatenate([[0.0], np.cumsum(np.cumprod(np.concatenate([[1.0], ratios])))])
-    found = bounces(times, time_error=1e-5)
-    assert 0.01 < found.scatter < 0.05
-    assert found.mean.std_dev > 0.004
+    assert found.restitutions[2].n == pytest.approx(FALL.restitutions[6], abs=1e-3)
 
 
 def test_phyphox_times_with_nothing_at_the_end():
@@ -107,6 +95,9 @@ def test_parts_make_a_drop():
         ([0.0, 9e-10, 16e-10], "in s, got intervals of at most 9e-10 s"),
         ([0.0, 2.0, 1.0], "must ascend"),
         ([0.0, math.nan, 1.0], "finite"),
+        (1e-4 * np.arange(25), "come faster and faster, got 24 equal intervals"),
+        ((1e-4 * np.arange(25)).astype(np.float32), "got 24 equal intervals"),
+        (np.arange(5000) ** 0.9, "bounces, at most 200, got 5000"),
     ],
 )
 def test_times_that_make_no_sense(times, words):
@@ -123,6 +114,11 @@ def test_what_are_no_times(times):
 def test_a_throw_is_no_restitution():
     found = bounces([0.0, 0.5, 1.2, 1.7], time_error=1e-3)
     assert any("above 1" in note for note in found.notes)
+
+
+def test_speeds_that_do_not_differ_tell_no_law():
+    with pytest.raises(InvalidValue, match="impact speeds must differ"):
+        laws_of([2.0] * 4, [ufloat(0.7, 0.01) for _ in range(4)])
 
 
 def test_intervals_in_which_a_bounce_is_missing():

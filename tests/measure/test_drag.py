@@ -50,6 +50,10 @@ def possible(hits, count):
     return binom.cdf(hits, count, 0.683) > 0.005 and binom.sf(hits - 1, count, 0.683) > 0.005
 
 
+def nominal(numbers):
+    return [number.nominal_value for number in numbers]
+
+
 def within(found, true):
     return abs(found.nominal_value - true) <= found.std_dev
 
@@ -57,12 +61,8 @@ def within(found, true):
 def test_exact_times_give_what_went_in():
     found = bounces(FALL.touches, drop_height=FALL.height, time_error=1e-6, drag=AIR)
     assert found.numbers == tuple(range(8))
-    assert [one.nominal_value for one in found.restitutions] == pytest.approx(
-        FALL.restitutions[:8], abs=1e-8
-    )
-    assert [one.nominal_value for one in found.impact_speeds] == pytest.approx(
-        FALL.speeds[:8], rel=1e-8
-    )
+    assert nominal(found.restitutions) == pytest.approx(FALL.restitutions[:8], abs=1e-8)
+    assert nominal(found.impact_speeds) == pytest.approx(FALL.speeds[:8], rel=1e-8)
     assert found.laws[0].coefficient.nominal_value == pytest.approx(AT_REST, abs=1e-6)
     assert found.laws[0].slope.nominal_value == pytest.approx(SLOPE, abs=1e-6)
     free = bounces(FALL.touches, drop_height=FALL.height, time_error=1e-6)
@@ -85,9 +85,7 @@ def test_a_contact_time_and_a_missing_bounce_are_as_without_air():
     free = bounces(np.delete(times, 4), contact_time=1e-3, time_error=1e-6)
     assert found.numbers == free.numbers == (1, 2, 6, 7)
     assert found.flights[3] is None
-    assert [one.nominal_value for one in found.restitutions] == pytest.approx(
-        FALL.restitutions[[1, 2, 6, 7]], abs=1e-7
-    )
+    assert nominal(found.restitutions) == pytest.approx(FALL.restitutions[[1, 2, 6, 7]], abs=1e-7)
 
 
 @pytest.mark.parametrize("drag", [None, AIR, UNSURE])
@@ -159,9 +157,7 @@ def test_an_error_of_the_drag_is_one_of_all_restitutions():
 
 def test_heights_in_air_give_what_went_in():
     found = heights(FALL.height, FALL.apexes, height_error=1e-6, drag=AIR)
-    assert [one.nominal_value for one in found.restitutions] == pytest.approx(
-        FALL.restitutions, abs=1e-8
-    )
+    assert nominal(found.restitutions) == pytest.approx(FALL.restitutions, abs=1e-8)
     same = falls_in_air(1.0, lambda _: 0.85, bounces=4)
     told = heights(1.0, same.apexes, height_error=1e-3, drag=AIR)
     assert told.mean.nominal_value == pytest.approx(0.85, abs=1e-8)
@@ -176,8 +172,7 @@ def test_heights_in_air_give_what_went_in():
 def test_the_mean_lies_between_the_bounces_and_its_error_is_that_of_draws():
     rows = np.array([1.0, 0.70, 0.50, 0.38])
     found = heights(rows[0], list(rows[1:]), height_error=5e-3, drag=UNSURE)
-    every = [one.n for one in found.restitutions]
-    assert min(every) < found.mean.n < max(every)
+    assert min(nominal(found.restitutions)) < found.mean.n < max(nominal(found.restitutions))
     random = np.random.default_rng(1)
     means = []
     for _ in range(300):
@@ -203,18 +198,15 @@ def test_no_drag_is_no_air(path):
     assert repr([one.rows() for one in none]) == repr(plain)
     thin = bounces(FALL.touches, drop_height=0.5, time_error=1e-4, drag=Drag(*BALL, 1e-9))
     free = bounces(FALL.touches, drop_height=0.5, time_error=1e-4)
-    assert [one.n for one in thin.restitutions] == pytest.approx(
-        [one.n for one in free.restitutions], rel=1e-9
-    )
+    assert nominal(thin.restitutions) == pytest.approx(nominal(free.restitutions), rel=1e-9)
 
 
 def test_every_face_takes_the_same_air(path, capfd):
     typed = ["--mass", "2.7g", "--diameter", "40mm", "--drag-coefficient", "0.45 ± 0.05"]
     assert main(["measure", str(path), "--height", "0.5m", *typed, "--json"]) == 0
     (told,) = json.loads(capfd.readouterr().out)["files"]
-    page = json.loads(
-        records.measure_record(path.name, path.read_bytes(), TYPED | {"height": "0.5 m"})
-    )
+    options = TYPED | {"height": "0.5 m"}
+    page = json.loads(records.measure_record(path.name, path.read_bytes(), options))
     assert page["found"] == told["found"]
     assert page["notes"] == told["notes"]
     known = {one["name"]: one for one in told["found"]}
@@ -266,9 +258,7 @@ def test_a_published_series_has_the_restitutions_of_the_validation():
     data = sb.datasets.load("table-tennis-bounces")
     rows = data.apex_height.values.tolist()
     found = heights(rows[0], rows[1:], drag=Drag(2.7e-3, 0.040, 0.45, 1.2))
-    assert [one.n for one in found.restitutions] == pytest.approx(
-        make_series(data).values, rel=1e-9
-    )
+    assert nominal(found.restitutions) == pytest.approx(make_series(data).values, rel=1e-9)
 
 
 def refused(call):
@@ -277,18 +267,15 @@ def refused(call):
     return str(caught.value)
 
 
-def test_what_is_missing_or_out_of_range_is_told(path):
+def test_what_is_missing_or_out_of_range_is_told(path, capfd):
     times = [0.0, 0.5, 0.9, 1.25]
     data = sb.read(path)
-    assert refused(lambda: analyse(data, drag_coefficient=0.45, mass=2.7e-3)).endswith(
-        "a drag coefficient needs mass and diameter of the ball: give diameter"
-    )
-    assert refused(lambda: analyse(data, air_density=1.2)).endswith(
-        "the density of the air counts with a drag_coefficient only, got none"
-    )
-    assert refused(lambda: analyse(data, drag_coefficient=ufloat(0.0, 0.1))).endswith(
-        "drag_coefficient must be above 0 where it has an error, or 0 for no air, got 0.0+/-0.1"
-    )
+    missing = refused(lambda: analyse(data, drag_coefficient=0.45, mass=2.7e-3))
+    assert missing.endswith("needs mass and diameter of the ball: give diameter")
+    alone = refused(lambda: analyse(data, air_density=1.2))
+    assert alone.endswith("of the air counts with a drag_coefficient only, got none")
+    unsure = refused(lambda: analyse(data, drag_coefficient=ufloat(0.0, 0.1)))
+    assert unsure.endswith("be above 0 where it has an error, or 0 for no air, got 0.0+/-0.1")
     assert "drag_coefficient must be" in refused(lambda: analyse(data, drag_coefficient=-1.0))
     assert "drag_coefficient must be" in refused(lambda: analyse(data, drag_coefficient="x"))
     assert "mass must be a positive" in refused(lambda: Drag(0.0, 0.04, 0.5))
@@ -301,12 +288,8 @@ def test_what_is_missing_or_out_of_range_is_told(path):
         "drag (a table tennis ball has 0.13)"
     )
     assert "of a ball in air, got inf 1/m" in refused(lambda: Drag(1.0, 1e300, 0.5))
-    page = refused(
-        lambda: records.measure_record(path.name, path.read_bytes(), {"drag_coefficient": "0.5"})
-    )
+    file = path.name, path.read_bytes()
+    page = refused(lambda: records.measure_record(*file, {"drag_coefficient": "0.5"}))
     assert page.endswith("give “Ball's mass” and “Diameter”")
-
-
-def test_the_command_says_what_is_missing(capfd):
     assert main(["measure", "--heights", "1, 0.7 m", "--drag-coefficient", "0.5"]) == 2
     assert "of the ball: give mass, diameter" in capfd.readouterr().err

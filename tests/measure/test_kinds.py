@@ -101,7 +101,6 @@ def test_it_is_in_the_page_s_answer_and_form(path):
 
 def test_a_kind_is_recognised_by_the_columns_that_it_needs():
     for kind in (*KINDS.values(), *TYPED):
-        assert kind.says
         module = import_module(kind.module)
         assert hasattr(module, "analyse") == (kind.name in KINDS)
         assert hasattr(module, "of_numbers") == (kind in TYPED)

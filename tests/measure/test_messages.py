@@ -202,25 +202,3 @@ def test_a_bug_of_an_analysis_is_no_refusal_and_is_logged_with_its_cause(monkeyp
     (record,) = caplog.records
     assert record.getMessage() == "the analysis of a.csv as waveform has a bug"
     assert "broken" in caplog.text
-
-
-@pytest.mark.parametrize("precision", [np.float64, np.float32])
-def test_equal_intervals_are_no_bounces(precision):
-    with pytest.raises(InvalidValue, match="come faster and faster, got 24 equal intervals"):
-        sb.measure.bounces((1e-4 * np.arange(25)).astype(precision))
-
-
-def test_more_knocks_than_a_ball_can_make_are_refused_at_once():
-    times = np.cumsum(np.random.default_rng(1).uniform(0.1, 0.2, 5000))
-    with pytest.raises(InvalidValue, match="bounces, at most 200, got 5000"):
-        sb.measure.bounces(times)
-
-
-def test_speeds_that_do_not_differ_tell_no_law():
-    from uncertainties import ufloat
-
-    from stackbounce.measure.kinds.bounces.restitution_law import laws_of
-
-    kept = [ufloat(0.7, 0.01) for _ in range(4)]
-    with pytest.raises(InvalidValue, match="impact speeds must differ"):
-        laws_of([2.0] * 4, kept)

@@ -138,24 +138,20 @@ def test_a_fall_to_the_end_of_the_record():
         accelerometer(cut)
 
 
-def test_a_soft_pulse_is_no_bounce():
+def felt(first, pulse, second, top):
+    """Return an acceleration with a pulse between two flights that begin and end at these times."""
     times = np.arange(0.0, 3.0, 0.005)
-    size = np.where((times > 1.0) & (times < 2.0), 0.3, G)
-    size[(times > 1.5) & (times < 1.56)] = 1.3 * G
+    size = np.where((times > first) & (times < second), 0.3, G)
+    size[(times > pulse[0]) & (times < pulse[1])] = top
+    return times, size
+
+
+def test_a_soft_pulse_is_no_bounce_and_a_gain_is_none():
     with pytest.raises(InvalidValue, match="above 2 g"):
-        accelerometer((times, size))
-    size[(times > 1.5) & (times < 1.56)] = 15.0 * G
-    assert len(accelerometer((times, size)).restitutions) == 1
-
-
-def test_a_gain_is_refused():
-    times = np.arange(0.0, 3.0, 0.005)
-    size = np.full(len(times), G)
-    size[(times > 1.0) & (times < 1.2)] = 0.2
-    size[(times > 1.2) & (times < 1.22)] = 200.0
-    size[(times > 1.22) & (times < 1.9)] = 0.2
+        accelerometer(felt(1.0, (1.5, 1.56), 2.0, 1.3 * G))
+    assert len(accelerometer(felt(1.0, (1.5, 1.56), 2.0, 15.0 * G)).restitutions) == 1
     with pytest.raises(InvalidValue, match="nothing rebounds faster than it came"):
-        accelerometer((times, size))
+        accelerometer(felt(1.0, (1.2, 1.22), 1.9, 200.0))
 
 
 def test_a_machine_is_refused():

@@ -83,10 +83,8 @@ def test_the_channel_that_hears_best_tells_the_times():
     wanted = knocks(clear, rate=48000.0)
     for pair in ([clear, faint], [faint, clear]):
         found = knocks(np.stack(pair), rate=48000.0)
-        errors = [time.std_dev for time in found.times]
-        assert np.median(errors) == pytest.approx(
-            np.median([time.std_dev for time in wanted.times]), rel=0.2
-        )
+        found, best = (np.median([time.std_dev for time in each.times]) for each in (found, wanted))
+        assert found == pytest.approx(best, rel=0.2)
 
 
 def test_uneven_bounces_leave_the_times_as_sure_as_they_are():

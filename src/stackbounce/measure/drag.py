@@ -119,7 +119,6 @@ class Drag:
         It is one between the smallest and the largest restitution of single bounces.
         """
         from scipy.optimize import brentq
-        from uncertainties import wrap
 
         every = [
             nominal(self.launch_speed(after)) / nominal(self.fallen_speed(before))
@@ -129,15 +128,12 @@ class Drag:
         count = len(every)
 
         def between(rate: float, start: float, last: float) -> float:
-            def above(one: float) -> float:
-                return _height_after(rate, start, one, count) - last
+            def above(restitution: float) -> float:
+                return _height_after(rate, start, restitution, count) - last
 
             return float(brentq(above, *bounds, xtol=1e-300))
 
-        try:
-            return wrap(between)(self.rate, heights[0], heights[-1])
-        except ArithmeticError:
-            raise self._too_far() from None
+        return self._found(between, heights[0], heights[-1])
 
     def height_after(self, start: float, restitution: float, bounces: float) -> float:
         """Return the height in m after some bounces of one restitution, from a drop height in m.

@@ -184,8 +184,6 @@ def row_mapping(row: Row) -> dict[str, Any]:
     >>> row_mapping(Row("knocks", 7))
     {'name': 'knocks', 'value': 7, 'error': None, 'unit': ''}
     """
-    value: Any = row.value
-    error = None
-    if hasattr(value, "nominal_value"):
-        value, error = value.nominal_value, value.std_dev
+    value = getattr(row.value, "nominal_value", row.value)
+    error = getattr(row.value, "std_dev", None)
     return {"name": row.name, "value": value, "error": error, "unit": row.unit}

@@ -73,10 +73,7 @@ class Message(str):
 
     def join(self, texts: Iterable[str]) -> "Message":
         """Join texts, and keep the hints of those that are messages."""
-        parts: list[str | OptionHint] = []
-        for text in texts:
-            parts += [self, text] if parts else [text]
-        return Message(*parts)
+        return Message(*[part for text in texts for part in (self, text)][1:])
 
     def of_file(self, name: str) -> "Message":
         """Return the message with a file's name before it and in its hints of whole calls."""

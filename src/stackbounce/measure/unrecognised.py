@@ -26,11 +26,6 @@ class _Look(NamedTuple):
     values: Array
     look: str
 
-    @property
-    def is_time(self) -> bool:
-        """Whether it can be times."""
-        return self.look.startswith("rises")
-
 
 def unrecognised(data: "xr.Dataset", kinds: Iterable[str]) -> Message:
     """Return why a table cannot be analysed: its columns, their first numbers, and what to type.
@@ -86,7 +81,7 @@ def _described(one: _Look) -> str:
 
 def _guess(looks: list[_Look]) -> tuple[str, str, dict[str | int, str]]:
     """Return what a table may be, in words and as the options that say so."""
-    clocks = [look for look in looks if look.is_time]
+    clocks = [look for look in looks if look.look.startswith("rises")]  # can be times
     clock = next((look for look in clocks if look.look == _EVENLY), clocks[0] if clocks else None)
     moving = [look for look in looks if look is not clock and look.look != "constant"]
     others = [look for look in moving if look.look != _EVENLY] or moving
@@ -97,15 +92,12 @@ def _guess(looks: list[_Look]) -> tuple[str, str, dict[str | int, str]]:
         return words, "press curve", _named(looks, ["force", "compression"])
     if not others:
         return "If these are times of knocks: ", "knocks", _named([clock], ["knock_time"])
-    filmed = float(np.median(np.diff(clock.values))) >= _FILMED
-    if filmed and len(others) > 1:
-        words = "If these are times and positions of a ball: "
-        return words, "track", _named([clock, *others], ["time", "x", "y"])
-    if filmed:
-        words = "If these are times and heights of a ball: "
-        return words, "track", _named([clock, *others], ["time", "y"])
-    words = "If these are times and a force or the voltage of a sensor: "
-    return words, "waveform", _named([clock, *others], ["time", "voltage"])
+    what, kind, roles = "a force or the voltage of a sensor", "waveform", ["voltage"]
+    if np.median(np.diff(clock.values)) >= _FILMED:
+        flat = len(others) > 1
+        what, roles = ("positions", ["x", "y"]) if flat else ("heights", ["y"])
+        what, kind = f"{what} of a ball", "track"
+    return f"If these are times and {what}: ", kind, _named([clock, *others], ["time", *roles])
 
 
 def _named(looks: list[_Look], roles: list[str]) -> dict[str | int, str]:

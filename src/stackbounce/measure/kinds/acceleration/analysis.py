@@ -6,16 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, positive
+from stackbounce.errors import positive
 from stackbounce.measure.kinds.acceleration.record import record_of
 from stackbounce.measure.kinds.acceleration.result import Accelerometer
-from stackbounce.measure.kinds.acceleration.series import (
-    WANTED,
-    is_held,
-    no_gain,
-    series_of,
-    what_is_seen,
-)
+from stackbounce.measure.kinds.acceleration.series import is_held, refuse_gain, series_of
 from stackbounce.measure.quantities import Array
 from stackbounce.model.drop import STANDARD_GRAVITY
 
@@ -76,8 +70,6 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
     record = record_of(data, g)
     times, values, notes = record.times, record.felt, record.notes
     series = series_of(record, g)
-    if not series:
-        raise InvalidValue(WANTED + what_is_seen(record, g))
     starts = [_edge(times, flight.first) for flight in series]
     ends = [_edge(times, flight.last + 1) for flight in series]
     lasting = [end - start for start, end in zip(starts, ends, strict=True)]
@@ -86,8 +78,7 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
     speeds = [g * lasting[0]] * held + [g * lasts / 2.0 for lasts in flights]  # at the end of each
     before, after = speeds[:-1], speeds[1:]
     kept = [out / into for into, out in zip(before, after, strict=True)]
-    if gains := no_gain(kept, [float(times[flight.last]) for flight in series]):
-        raise InvalidValue(WANTED + gains)
+    refuse_gain(kept, [float(times[flight.last]) for flight in series])
     pulses = list(pairwise(series))
     counts = [other.first - flight.last - 1 for flight, other in pulses]
     tops = [values[flight.last + 1 : other.first] for flight, other in pulses]

@@ -5,10 +5,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds.acceleration.record import FEWEST, Record
 from stackbounce.measure.samples import runs, trapezoid
 
-WANTED = "data must hold a free fall and a bounce, got "
+_WANTED = "data must hold a free fall and a bounce, got "
 
 # Set by hand on the records of `tests/synthetic/accelerometer.py`, and on swings, jumps and rides
 # (`tests/motions.py`), which must be refused.
@@ -33,13 +34,23 @@ class Flight(NamedTuple):
 
 
 def series_of(record: Record, gravity: float) -> list[Flight]:
-    """Return the longest series of two or more flights with only bounces between them."""
+    """Return the longest series of two or more flights with only bounces between them.
+
+    Raises
+    ------
+    InvalidValue
+        If there is none.
+    """
     best: list[Flight] = []
     own: list[Flight] = []
     for flight in _flights(record, gravity):
         own = [*own, flight] if own and _bounces(record, own[-1], flight, gravity) else [flight]
-        if len(own) > max(len(best), 1) and _begins(record, own[0], gravity):
+        longer = len(own) > max(len(best), 1)
+        # Without gravity in the record it must be seen that the series begins from rest.
+        if longer and (not record.linear or is_held(record, own[0].first, gravity)):
             best = own
+    if not best:
+        raise InvalidValue(_WANTED + _what_is_seen(record, gravity))
     return best
 
 
@@ -51,21 +62,22 @@ def is_held(record: Record, first: int, gravity: float) -> bool:
     return bool(known and 0.5 * gravity < np.median(record.felt[before]) < 1.5 * gravity)
 
 
-def no_gain(restitutions: Sequence[Any], moments: Sequence[float]) -> str:
-    """Return why restitutions are none: too many, or above 1; nothing where they are."""
-    if len(restitutions) > _MOST_BOUNCES:
-        return f"{len(restitutions)} bounces, more than one drop has ({_MOST_BOUNCES}): a machine?"
+def refuse_gain(restitutions: Sequence[Any], moments: Sequence[float]) -> None:
+    """Refuse restitutions that are too many for one drop, or above 1."""
+    count = len(restitutions)
+    if count > _MOST_BOUNCES:
+        many = f"{count} bounces, more than one drop has ({_MOST_BOUNCES}): a machine?"
+        raise InvalidValue(_WANTED + many)
     for k, (kept, moment) in enumerate(zip(restitutions, moments, strict=False)):
         if kept.nominal_value > 1.0 + max(_GAIN, _GAIN_SIGMAS * kept.std_dev):
-            return (
-                f"a restitution of {kept:.1uS} at {moment:.3g} s (bounce {k}): nothing rebounds "
-                "faster than it came; it swings, jumps or is thrown, or a bounce before fell "
-                "between two samples"
+            raise InvalidValue(
+                f"{_WANTED}a restitution of {kept:.1uS} at {moment:.3g} s (bounce {k}): nothing "
+                "rebounds faster than it came; it swings, jumps or is thrown, or a bounce before "
+                "fell between two samples"
             )
-    return ""
 
 
-def what_is_seen(record: Record, gravity: float) -> str:
+def _what_is_seen(record: Record, gravity: float) -> str:
     """Return what a record without bounces shows."""
     found = _flights(record, gravity, whole=False)
     times = record.times
@@ -111,11 +123,6 @@ def _flights(record: Record, gravity: float, *, whole: bool = True) -> list[Flig
         and not (whole and (a == 0 or b == len(times) - 1))
         and np.mean(felt[a : b + 1] < within * gravity) >= most
     ]
-
-
-def _begins(record: Record, first: Flight, gravity: float) -> bool:
-    """Return whether a series can begin with a flight: at rest, where that must be seen."""
-    return not record.linear or is_held(record, first.first, gravity)
 
 
 def _bounces(record: Record, before: Flight, after: Flight, gravity: float) -> bool:

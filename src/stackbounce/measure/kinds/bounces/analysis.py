@@ -11,11 +11,7 @@ from stackbounce.measure.drag import Drag, speed_after_fall, with_error_of_drag
 from stackbounce.measure.kinds.bounces.knocks import Knocks, missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import fit_line, laws_of
 from stackbounce.measure.kinds.bounces.result import Bounces
-from stackbounce.measure.kinds.bounces.scatter import (
-    meaning_of_excess,
-    meaning_of_explained,
-    scatter_of,
-)
+from stackbounce.measure.kinds.bounces.scatter import meaning_of, scatter_of
 from stackbounce.measure.quantities import Number, nominal
 from stackbounce.measure.samples import columns
 from stackbounce.measure.statistics.regression import widening
@@ -162,21 +158,10 @@ def _analysed(moments: Sequence[Any], fall: _Fall) -> Bounces:
                 "The drop height is inferred from the mean fraction of energy retained; give "
                 "it if it is known: the first bounce, the fastest, usually retains less."
             )
-    return Bounces(
-        tuple(found.moments),
-        tuple(found.flights),
-        tuple(found.numbers),
-        tuple(found.speeds),
-        tuple(found.kept),
-        mean,
-        laws,
-        height,
-        fall.height is None and height is not None,
-        scatter,
-        fall.gravity,
-        tuple(notes),
-        fall.drag,
-    )
+    inferred = fall.height is None and height is not None
+    rest = (mean, laws, height, inferred, scatter, fall.gravity, tuple(notes), fall.drag)
+    moments, flights, numbers, speeds, kept = map(tuple, found)
+    return Bounces(moments, flights, numbers, speeds, kept, *rest)
 
 
 def _moments(
@@ -185,12 +170,7 @@ def _moments(
     """Return times, as ufloats if their errors are known, and the bounces missing after each."""
     from uncertainties import UFloat, ufloat
 
-    if isinstance(times, Knocks):
-        notes.extend(times.notes)
-        values: list[Any] = list(times.times)
-        missed: list[int] | None = list(times.missed)
-    else:
-        values, missed = _plain(times), None
+    values = list(times.times) if isinstance(times, Knocks) else _plain(times)
     if error is not None:
         error = positive("time_error", error, "seconds")
     plain = np.array([nominal(time) for time in values])
@@ -214,13 +194,15 @@ def _moments(
         raise InvalidValue(
             f"times must be in s, got intervals of at most {steps.max():.3g} s: is it another unit?"
         )
-    if missed is None:
-        missed = missed_between(steps)
-        notes.extend(
-            f"A bounce seems to be missing between {plain[k]:.4g} s and {plain[k + 1]:.4g} s: "
-            "its flights are left out."
-            for k in np.flatnonzero(missed)
-        )
+    if isinstance(times, Knocks):
+        notes.extend(times.notes)
+        return moments, list(times.missed)
+    missed = missed_between(steps)
+    notes.extend(
+        f"A bounce seems to be missing between {plain[k]:.4g} s and {plain[k + 1]:.4g} s: "
+        "its flights are left out."
+        for k in np.flatnonzero(missed)
+    )
     return moments, missed
 
 
@@ -340,8 +322,7 @@ def _with_scatter(
         return found, *laws_of(found.speeds, found.kept)
     mean, laws, scatter = laws_of(found.speeds, found.kept, **({} if known else {"most": 0.0}))
     meant = scatter_of(found.speeds, found.kept)
-    note = meaning_of_excess(scatter, meant) if scatter else meaning_of_explained(meant)
-    notes.extend([note] if note else [])
+    notes.extend(meaning_of(scatter, meant))
     if scatter and meant is not None and meant.cause == "timing":
         times = [ufloat(time.n, meant.factor * time.s) for time in found.moments]
         found = found_at(times)

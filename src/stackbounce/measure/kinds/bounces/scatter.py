@@ -116,54 +116,42 @@ def _expected(covariance: Array) -> tuple[float, float]:
     return mean, math.sqrt(2.0 * np.trace(about @ about)) / total
 
 
-def meaning_of_excess(excess: float, found: Scatter | None) -> str:
-    """Return a note on restitutions that scatter by more than the errors of the times explain.
+def meaning_of(excess: float, found: Scatter | None) -> list[str]:
+    """Return a note on what the scatter of restitutions means, or none where it means nothing.
+
+    `excess` is the part of it that the errors of the times do not explain.
 
     Examples
     --------
-    >>> print(meaning_of_excess(0.012, Scatter(0.012, 0.1, "floor or spin", 3.0)))
+    >>> print(*meaning_of(0.012, Scatter(0.012, 0.1, "floor or spin", 3.0)))
     Restitution differs by 0.012 from bounce to bounce, more than the errors of the times, and \
 does not alternate (lag-1 autocorrelation 0.10): an uneven floor or a spinning ball; the mean and \
 the fits allow for it.
-    """
-    differs = f"Restitution differs by {excess:.2g} from bounce to bounce, more than the errors of"
-    if found is not None and found.cause == "timing":
-        return (
-            f"{differs} the times, and alternates ({_lag(found)}): timing; these errors are "
-            f"taken to be {found.factor:.2g} times larger."
-        )
-    if found is not None and found.cause == "floor or spin":
-        return (
-            f"{differs} the times, and does not alternate ({_lag(found)}): an uneven floor or a "
-            "spinning ball; the mean and the fits allow for it."
-        )
-    return (
-        f"{differs} the times: an uneven floor or a spinning ball, or the timing, which these "
-        "bounces do not tell apart; the mean and the fits allow for it."
-    )
-
-
-def meaning_of_explained(found: Scatter | None) -> str:
-    """Return a note on restitutions whose scatter is that of the times, or nothing.
-
-    Examples
-    --------
-    >>> print(meaning_of_explained(Scatter(0.012, -0.62, "timing", 1.1)))
+    >>> print(*meaning_of(0.0, Scatter(0.012, -0.62, "timing", 1.1)))
     Restitution differs by 0.012 from bounce to bounce and alternates (lag-1 autocorrelation \
 -0.62): timing.
-    >>> meaning_of_explained(None)
-    ''
+    >>> meaning_of(0.0, None)
+    []
     """
-    if found is None or found.size < _NOTABLE or found.cause == "unknown":
-        return ""
-    differs = f"Restitution differs by {found.size:.2g} from bounce to bounce and"
-    if found.cause == "timing":
-        return f"{differs} alternates ({_lag(found)}): timing."
-    return (
-        f"{differs} does not alternate ({_lag(found)}): an uneven floor or a spinning ball rather "
-        "than errors of the times."
-    )
-
-
-def _lag(found: Scatter) -> str:
-    return f"lag-1 autocorrelation {found.lag_one:.2f}"
+    if found is None or found.cause == "unknown":
+        note = (
+            f"Restitution differs by {excess:.2g} from bounce to bounce, more than the errors of "
+            "the times: an uneven floor or a spinning ball, or the timing, which these bounces do "
+            "not tell apart; the mean and the fits allow for it."
+        )
+        return [note] if excess else []
+    lag = f"(lag-1 autocorrelation {found.lag_one:.2f})"
+    timing = found.cause == "timing"
+    cause = f"alternates {lag}: timing"
+    if not timing:
+        cause = f"does not alternate {lag}: an uneven floor or a spinning ball"
+    if excess:
+        differs = f"{excess:.2g} from bounce to bounce, more than the errors of the times,"
+        larger = f"these errors are taken to be {found.factor:.2g} times larger"
+        cause += f"; {larger if timing else 'the mean and the fits allow for it'}"
+    elif found.size < _NOTABLE:
+        return []
+    else:
+        differs = f"{found.size:.2g} from bounce to bounce"
+        cause += "" if timing else " rather than errors of the times"
+    return [f"Restitution differs by {differs} and {cause}."]

@@ -105,11 +105,10 @@ def knocks(
             "lower threshold, or record closer to the ball"
         )
     rises, doubles = _merged(rises, dead)
-    worth = 0.5 + np.clip(np.log(rises.ratios), 0.0, 3.0)
-    chain = find_chain(rises.times, worth, rises.amplitudes, rises.errors, dead)
+    chain = find_chain(rises, dead)
     chain, dropped = _without_echoes(chain, rises, notes)
     refuse_other_series(chain, rises, origin)
-    _note_series(chain, rises, worth, dead, origin, notes)
+    _note_series(chain, rises, dead, origin, notes)
     about = rises.times[list(chain.indices)]
     best = clearest(white, rate, about, rounded) if len(white) > 1 else 0
     times, errors = about, np.full(len(about), 1.0 / rate)
@@ -264,9 +263,7 @@ def _echo_delay(chain: Chain, rises: Rises) -> float:
     return float(np.median(lags[near[best]])) if near[best].sum() > 2 else 0.0
 
 
-def _note_series(
-    chain: Chain, rises: Rises, worth: Array, dead: float, origin: float, notes: list[str]
-) -> None:
+def _note_series(chain: Chain, rises: Rises, dead: float, origin: float, notes: list[str]) -> None:
     """Add notes on missing bounces, on too few knocks, and on further series of knocks."""
     times = origin + rises.times[list(chain.indices)]
     notes.extend(
@@ -278,14 +275,12 @@ def _note_series(
             f"Only {len(times)} knock{'s' * (len(times) != 1)}: too few to tell bounces from "
             "other sounds."
         )
-    for side, left in (
-        ("before", slice(0, chain.indices[0])),
-        ("after", slice(chain.indices[-1] + 1, None)),
-    ):
+    sides = {"before": slice(0, chain.indices[0]), "after": slice(chain.indices[-1] + 1, None)}
+    for side, left in sides.items():
         rest = Rises(*(column[left] for column in rises))
         if len(rest.times) < _SECOND_SERIES:
             continue
-        other = find_chain(rest.times, worth[left], rest.amplitudes, rest.errors, dead)
+        other = find_chain(rest, dead)
         faint = rest.amplitudes[list(other.indices)].max() < 0.2 * rises.amplitudes.max()
         if len(other.indices) >= _SECOND_SERIES and not faint:
             first, last = (origin + rest.times[other.indices[k]] for k in (0, -1))

@@ -90,8 +90,7 @@ def find_rises(
     before, after = _around(energy, rounded)
     ratio = after / before
     least = _least(threshold, hop, len(energy))
-    wide = _HOPS_AFTER + 1
-    peaks = _maxima(ratio, wide)
+    peaks = _maxima(ratio, _HOPS_AFTER + 1)
     peaks = peaks[(ratio[peaks] > least) & (peaks < len(energy) - _HOPS_AFTER)]
     if len(peaks) > _MOST_RISES:
         peaks = np.sort(peaks[np.argsort(ratio[peaks])[-_MOST_RISES:]])
@@ -124,9 +123,8 @@ def _around(energy: Array, rounded: float) -> tuple[Array, Array]:
     filled = stop > start
     before = np.where(filled, (sums[stop] - sums[start]) / np.maximum(stop - start, 1), np.inf)
     # Too few hops precede the first ones; digital silence is given a little noise.
-    before[: _HOPS_BEFORE + _HOPS_BETWEEN] = np.maximum(
-        before[: _HOPS_BEFORE + _HOPS_BETWEEN], np.median(energy)
-    )
+    first = before[: _HOPS_BEFORE + _HOPS_BETWEEN]
+    first[:] = np.maximum(first, np.median(energy))
     return np.maximum(before, max(rounded, 1e-9 * float(energy.max()), 1e-30)), after
 
 

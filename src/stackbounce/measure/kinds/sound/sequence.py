@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from stackbounce.measure.kinds.bounces.knocks import SHRINKS
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.kinds.sound.loudness import Rises
 
 # Weights of a series' score, in which a clear knock counts 1 to 3: set by hand on the synthetic
 # recordings of `benchmarks/coverage/sound.py` and those in `docs/lab`.
@@ -27,9 +27,7 @@ class Chain(NamedTuple):
     missed: tuple[int, ...]
 
 
-def find_chain(
-    times: Array, worth: Array, loudness: Array, errors: Array, dead_time: float
-) -> Chain:
+def find_chain(rises: Rises, dead_time: float) -> Chain:
     """Return the series of bounces that explains most of the knocks.
 
     Each flight is shorter than the one before by a factor that changes slowly, and loudness falls
@@ -38,14 +36,8 @@ def find_chain(
 
     Parameters
     ----------
-    times : ndarray
-        (N,) of all knocks, ascending, in s.
-    worth : ndarray
-        (N,) score of including each.
-    loudness : ndarray
-        (N,) amplitudes, above 0.
-    errors : ndarray
-        (N,) of the times, in s.
+    rises : Rises
+        All knocks, ascending in time; their amplitudes are above 0.
     dead_time : float
         The shortest flight in s.
 
@@ -57,16 +49,19 @@ def find_chain(
     Examples
     --------
     >>> times = np.array([0.0, 0.3, 1.0, 1.3, 1.8, 2.44])  # two are echoes
-    >>> find_chain(times, np.ones(6), np.array([5, 1, 4, 1, 3.2, 2.6]), np.full(6, 1e-4), 0.01)
+    >>> amplitudes = np.array([5, 1, 4, 1, 3.2, 2.6])
+    >>> find_chain(Rises(times, np.full(6, 1e-4), amplitudes, np.full(6, 1.6)), 0.01)
     Chain(indices=(0, 2, 4, 5), missed=(0, 0, 0))
     """
+    times, errors, amplitudes, ratios = rises
     count = len(times)
     if count < 3:
         return Chain(tuple(range(count)), (0,) * max(count - 1, 0))
     pairs = _Pairs(count)
     first = np.searchsorted(times, times - _LONGEST_FLIGHT)
     last = np.searchsorted(times, times - dead_time, side="right")
-    logs = np.log(loudness)
+    logs = np.log(amplitudes)
+    worth = 0.5 + np.clip(np.log(ratios), 0.0, 3.0)
     for k in range(count):
         for j in range(first[k], min(last[k], k)):
             flight = times[k] - times[j]
