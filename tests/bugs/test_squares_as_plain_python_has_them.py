@@ -7,9 +7,7 @@ def test_squares_as_plain_python_has_them():
     contacts = [
         sb.PowerLaw(stiffness=5441.120604864837, exponent=1.5),
         sb.Hysteretic(
-            stiffness=1320.239732465966,
-            exponent=1.0,
-            unloading_exponent=4.606666693466105,
+            stiffness=1320.239732465966, exponent=1.0, unloading_exponent=4.606666693466105
         ),
     ]
     drop = sb.Drop(

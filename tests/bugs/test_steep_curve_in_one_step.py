@@ -8,11 +8,7 @@ import stackbounce as sb
 def test_steep_curve_in_one_step():
     contacts = [
         sb.Hysteretic(0.1708730320590105, unloading_exponent=142.08141226878044),
-        sb.Hysteretic(
-            0.22249416497324995,
-            exponent=1.5,
-            unloading_exponent=1.7262365982009555,
-        ),
+        sb.Hysteretic(0.22249416497324995, exponent=1.5, unloading_exponent=1.7262365982009555),
         sb.Hertz(75.15568001174381),
     ]
     drop = sb.Drop(

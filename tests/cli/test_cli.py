@@ -200,11 +200,7 @@ def test_a_scenario_file_and_changes_to_it(run):
     )  # fmt: skip
     assert code == 0
     assert sb.Drop.from_mapping(json.loads(out)["drop"]) == sb.Drop(
-        drop.balls,
-        [sb.Spring(2e4), sb.Spring(1e3)],
-        gaps=[0.001],
-        impact_speed=2.0,
-        gravity=9.81,
+        drop.balls, [sb.Spring(2e4), sb.Spring(1e3)], gaps=[0.001], impact_speed=2.0, gravity=9.81
     )
 
 

@@ -157,10 +157,7 @@ def test_nothing_is_saved_where_no_contact_was_found(measure, tmp_path):
             sb.Hysteretic(1e6, exponent=1.5, restitution=0.8),
         ),
         (
-            [
-                {"contact": {"law": "Hysteretic", "stiffness": 1e3, "restitution": 0.5}},
-                RIGID,
-            ],
+            [{"contact": {"law": "Hysteretic", "stiffness": 1e3, "restitution": 0.5}}, RIGID],
             sb.Hysteretic(1e3, restitution=0.8),
         ),
     ],

@@ -351,10 +351,7 @@ def test_a_file_that_is_none(server, content, asked, message):
         ({"vary": "[]"}, "vary: list should have at least 1 item"),
         ({"drop": "{"}, "drop: invalid JSON: EOF while parsing an object"),
         ({"measured": '{"force.0": "force"}'}, "force.0 needs a file with a force over time"),
-        (
-            {"measured": '{"rebound_ratios.0": 1}'},
-            "input should be a valid string, got 1",
-        ),
+        ({"measured": '{"rebound_ratios.0": 1}'}, "input should be a valid string, got 1"),
         ({"measured": '{"collisions.0": "%s"}' % ("9" * 5000)}, "collisions.0"),
         ({"measured": '{"\\ud800": "1"}'}, "measured: invalid JSON"),
         ({"measured": "{}"}, "measured: dictionary should have at least 1 item"),

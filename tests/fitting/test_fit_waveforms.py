@@ -122,11 +122,7 @@ QUIET = np.random.default_rng(1).normal(0.0, 0.5, len(TIMES))
     ("value", "kind", "message"),
     [
         ((TIMES, QUIET), InvalidValue, "must begin before a contact and contain it, got 4"),
-        (
-            (TIMES[150:], FORCE[150:]),
-            InvalidValue,
-            "must begin before a contact and contain it",
-        ),
+        ((TIMES[150:], FORCE[150:]), InvalidValue, "must begin before a contact and contain it"),
         ((TIMES, np.where(BEFORE, 0.0, 1.0)), InvalidValue, "must begin before a contact"),
         ((TIMES, FORCE * np.nan), InvalidValue, "must"),
         ((TIMES[1:], FORCE), InvalidValue, "must hold time and force of one length"),

@@ -173,8 +173,7 @@ def test_figure_seven(bench):
 
 
 @pytest.mark.parametrize(
-    ("upper", "fit", "expected"),
-    [("B2", "fig13", "2.17±0.11"), ("B3", "B3_fit", "1.62±0.12")],
+    ("upper", "fit", "expected"), [("B2", "fig13", "2.17±0.11"), ("B3", "B3_fit", "1.62±0.12")]
 )
 def test_two_superballs_in_series_are_stiffer_than_the_fits(bench, upper, fit, expected):
     """What section VI calls series accounts for most of the softness between the balls."""

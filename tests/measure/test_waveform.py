@@ -51,10 +51,7 @@ def test_one_bounce(sign, sensitivity):
     assert near(contact.exponents[0], 1.0)
     assert found.noise == pytest.approx(1.0 * gain, rel=0.15)
     assert not found.notes
-    assert found.parts()["contact"] == {
-        "law": "Spring",
-        "stiffness": found.stiffness.nominal_value,
-    }
+    assert found.parts()["contact"] == {"law": "Spring", "stiffness": found.stiffness.nominal_value}
 
 
 def test_rows_tell_all_with_units_and_parts_make_a_drop():

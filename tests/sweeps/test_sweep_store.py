@@ -135,12 +135,7 @@ def test_two_workers_and_the_loss_of_one(whole, tmp_path):
                 os.kill(killed[0], signal.SIGKILL)
 
         out = write(
-            tmp_path / whole[0].name,
-            DROP,
-            VALUES,
-            client=client,
-            block=64,
-            progress=progress,
+            tmp_path / whole[0].name, DROP, VALUES, client=client, block=64, progress=progress
         )
     assert killed
     assert digest(out) == whole[1]
