@@ -300,10 +300,7 @@ def test_the_same_picture_is_the_same_file(run, suffix):
         (["B1", "--speed", "inf"], "--speed must be a speed"),
         (["B1", "--speed", "-3m/s"], "impact_speed must be a positive number of m/s, got -3.0"),
         (["B1", "--speed", "1", "--height", "1"], "--height and --speed: only one of the two"),
-        (
-            ["B1", "B2", "--gap", "-1mm"],
-            "gaps.0 must be a number of metres, 0 or above, got -0.001",
-        ),
+        (["B1", "B2", "--gap", "-1mm"], "gaps.0 must be a number of metres, 0 or above, got"),
         (["B1", "--gap", "1mm"], "gaps must hold one number per neighbouring pair of balls (0)"),
         (["B1", "--gravity", "-1"], "gravity must be a number of m/s**2, 0 or above, got -1.0"),
         (["B1", "--until", "1m"], "--until must be a time"),
@@ -312,18 +309,9 @@ def test_the_same_picture_is_the_same_file(run, suffix):
         (["B1", "--contact", "Spring 3"], "--contact 0 must be 'LAW key=value …', such as"),
         (["B1", "--contact", "Spring stiffness="], "--contact 0 must be 'LAW key=value …'"),
         (["B1", "--contact", "'"], "--contact 0 must be 'LAW key=value …'"),
-        (
-            ["B1", "--contact", "Sprung stiffness=1"],
-            "--contact 0.law must be a contact law, got 'Sp",
-        ),
-        (
-            ["B1", "--contact", "Spring stifness=1"],
-            "--contact 0.stifness is not a known key; did yo",
-        ),
-        (
-            ["B1", "--contact", "Spring stiffness=-1"],
-            "--contact 0.stiffness must be a positive num",
-        ),
+        (["B1", "--contact", "Sprung stiffness=1"], "--contact 0.law must be a contact law, got"),
+        (["B1", "--contact", "Spring stifness=1"], "--contact 0.stifness is not a known key; did"),
+        (["B1", "--contact", "Spring stiffness=-1"], "--contact 0.stiffness must be a positive"),
         (
             ["B1", "--contact", "Spring stiffness=1kg"],
             "--contact 0.stiffness must be a stiffness (",
@@ -343,10 +331,7 @@ def test_the_same_picture_is_the_same_file(run, suffix):
         (["./B1"], "./B1 cannot be read: No such file or directory"),
         (["."], ". is a folder: give one of its files"),
         (["a.toml", "b.toml"], "a.toml cannot be read: No such file or directory"),
-        (
-            ["a.toml", "B1"],
-            "either scenario files or balls of the catalogue must be given, got a.toml",
-        ),
+        (["a.toml", "B1"], "either scenario files or balls of the catalogue must be given, got"),
         (["B1", "--plot", "drop.gif"], "--plot must end in .svg, .png, .pdf, got drop.gif"),
         (["B1", "--plot", "drop"], "--plot must end in .svg, .png, .pdf, got drop"),
         (["B1", "--plot", "no/drop.svg"], "no/drop.svg cannot be written: there is no folder no"),

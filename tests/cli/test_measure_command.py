@@ -104,16 +104,10 @@ def test_numbers_without_an_error_are_null_in_json(measure):
         (["tennis.wav", "--mass", "1g", "--save", "b.txt"], "--save must end in .toml, got b.txt"),
         (["tennis.wav", "--mass", "1g", "--save", "no/b.toml"], "there is no folder no"),
         (["tennis.wav", "--mass", "1m"], "--mass must be"),
-        (
-            ["tennis.wav", "tennis-force.csv", "--plot", "a.png"],
-            "--plot draws one file or --heights, got 2",
-        ),
+        (["tennis.wav", "tennis-force.csv", "--plot", "a.png"], "--plot draws one file or --heigh"),
         (["tennis.wav", "--unit", "x"], "--unit must be COLUMN=UNIT, such as x=cm, got 'x'"),
         (["tennis.wav", "--column", "=x"], "--column must be COLUMN=MEANING"),
-        (
-            ["made/phyphox_acceleration.zip"],
-            "data must hold a free fall and a bounce, got no flight",
-        ),
+        (["made/phyphox_acceleration.zip"], "data must hold a free fall and a bounce, got no"),
         (["made/tracker_one.txt"], "made/tracker_one.txt: data must hold a ball that falls"),
         ([], "measure needs a file, --heights, --contact-time or --restitution"),
         (["tennis.wav", "--law", "hook"], "law must be a contact law, got 'hook'"),
