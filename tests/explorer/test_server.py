@@ -168,11 +168,8 @@ def test_the_page_knows_every_number_of_every_law():
     laws = {law["law"]: law for law in list_choices()["laws"]}
     assert list(laws) == list(sb.model.LAWS)
     hunt = {field["name"]: field for field in laws["HuntCrossley"]["fields"]}
-    assert {name: field["unit"] for name, field in hunt.items()} == {
-        "stiffness": "N/m**exponent",
-        "exponent": "",
-        "dissipation": "s/m",
-    }
+    expected = {"stiffness": "N/m**exponent", "exponent": "", "dissipation": "s/m"}
+    assert {name: field["unit"] for name, field in hunt.items()} == expected
     for law in laws.values():
         assert law["formula"]
         assert law["says"]

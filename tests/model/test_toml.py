@@ -102,21 +102,15 @@ all_balls = st.builds(
 def drops(draw):
     count = draw(st.integers(1, 4))
     law = draw(st.sampled_from([laws, rigid_laws]))
-    incidence = draw(
-        st.one_of(
-            st.fixed_dictionaries({"impact_speed": numbers}),
-            st.fixed_dictionaries({"height": moderate}),
-            st.fixed_dictionaries(
-                {"velocities": st.lists(numbers, min_size=count, max_size=count)}
-            ),
-        )
-    )
+    velocities = st.lists(numbers, min_size=count, max_size=count)
+    ways = {"impact_speed": numbers, "height": moderate, "velocities": velocities}
+    way = draw(st.sampled_from(sorted(ways)))
     return Drop(
         balls=[draw(all_balls) for _ in range(count)],
         contacts=[draw(law | st.none()), *(draw(law) for _ in range(count - 1))],
         gaps=[draw(numbers | st.just(0.0)) for _ in range(count - 1)],
         gravity=draw(moderate | st.just(0.0)),
-        **incidence,
+        **{way: draw(ways[way])},
     )
 
 

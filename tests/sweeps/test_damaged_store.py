@@ -16,11 +16,8 @@ from stackbounce.sweeps.progress import only_writer
 
 
 def content(store):
-    return {
-        str(path.relative_to(store)): path.read_bytes()
-        for path in sorted(store.rglob("*"))
-        if path.is_file()
-    }
+    files = [path for path in store.rglob("*") if path.is_file()]
+    return {str(path.relative_to(store)): path.read_bytes() for path in files}
 
 
 @pytest.fixture(scope="module")
