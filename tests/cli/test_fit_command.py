@@ -288,13 +288,6 @@ def test_a_table_of_drops_needs_one_drop_without_data(refused, tmp_path):
     assert "--data has drops and what was measured of them" in err
 
 
-def test_help_names_every_option(fit):
-    code, out, _ = fit("--help")
-    assert code == 0
-    for option in ("--data", "--measured", "--vary", "--tie", "--interval", "--sample", "--save"):
-        assert option in out
-
-
 def test_the_probability_is_told_in_words(fit, tmp_path):
     (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
     _, out, _ = fit(*PAIR, "--data", "drops.csv", "--vary", "contacts.1.stiffness=1kN/m:1.3kN/m")

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 import stackbounce as sb
-from slow_sweep import DROP, OVER, VALUES, write_some
 from stackbounce.errors import FileError
 from stackbounce.sweeps import grid, write
 from stackbounce.sweeps.progress import only_writer
+from stopped_sweep import DROP, OVER, VALUES, write_some
 
 
 def content(store):
