@@ -12,6 +12,10 @@ import stackbounce as sb
 from reference import rigid as rigid_reference
 
 INTERVAL = ["contact", "start", "end", "peak_force", "peak_compression", "impulse"]
+STACK = sb.Drop(
+    [sb.Ball(0.150), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.5
+)
+"""The paper's tennis ball on a basketball, on springs."""
 
 
 def contact(stiffness: float, **law: float) -> sb.Spring | sb.Hysteretic:

@@ -13,15 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from adversary.processes import (
-    STORE,
-    Forked,
-    content,
-    random_of,
-    run,
-    sweep,
-    undisturbed,
-)
+from adversary.processes import STORE, Forked, content, random_of, run, sweep, undisturbed
 from adversary.table import Failure, begin
 
 FOREIGN = b"somebody's own notes"

@@ -19,10 +19,7 @@ def counts(drop, **options):
 
 def test_a_stack_that_swings_with_many_events_is_left():
     """Each swing has events, so that there are few steps without one."""
-    laws = [
-        sb.Hysteretic(20763.5, restitution=0.7),
-        sb.Hysteretic(5.656e7, restitution=0.05),
-    ]
+    laws = [sb.Hysteretic(20763.5, restitution=0.7), sb.Hysteretic(5.656e7, restitution=0.05)]
     balls = [sb.Ball(9.878), sb.Ball(34.344)]
     drop = sb.Drop(balls, laws, gaps=[5e-7], impact_speed=0.277, gravity=9.81)
     status, events, steps = counts(drop)

@@ -23,15 +23,13 @@ from stackbounce.version import __version__
 PAIR = ["simulate", "basketball", "tennis", "--height", "0.63m", "--gap", "2mm"]
 
 
-def process(*arguments, **options):
-    command = [
-        sys.executable,
-        "-c",
-        "import sys; from stackbounce.cli import main; sys.exit(main())",
-    ]
-    return subprocess.run(
-        [*command, *arguments], capture_output=True, text=True, timeout=120, check=False, **options
-    )
+MAIN = "import sys; from stackbounce.cli import main; sys.exit(main())"
+
+
+def process(*arguments, code=MAIN, **options):
+    command = [sys.executable, "-c", code, *arguments]
+    given = {"capture_output": True, "text": True, "timeout": 120} | options
+    return subprocess.run(command, check=False, **given)
 
 
 def rows(text, first):
@@ -63,8 +61,7 @@ def test_help_does_not_wait_for_heavy_libraries(arguments):
         "'lmfit', 'emcee', 'scipy'}; "
         "sys.exit(', '.join(sorted(heavy & set(sys.modules))))"
     )
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert run.stderr.strip() == ""
+    assert process(code=code).stderr.strip() == ""
 
 
 @pytest.mark.parametrize(
@@ -200,11 +197,7 @@ def test_a_scenario_file_and_changes_to_it(run):
     )  # fmt: skip
     assert code == 0
     assert sb.Drop.from_mapping(json.loads(out)["drop"]) == sb.Drop(
-        drop.balls,
-        [sb.Spring(2e4), sb.Spring(1e3)],
-        gaps=[0.001],
-        impact_speed=2.0,
-        gravity=9.81,
+        drop.balls, [sb.Spring(2e4), sb.Spring(1e3)], gaps=[0.001], impact_speed=2.0, gravity=9.81
     )
 
 
@@ -304,10 +297,7 @@ def test_the_same_picture_is_the_same_file(run, suffix):
         (["B1", "--speed", "inf"], "--speed must be a speed"),
         (["B1", "--speed", "-3m/s"], "impact_speed must be a positive number of m/s, got -3.0"),
         (["B1", "--speed", "1", "--height", "1"], "--height and --speed: only one of the two"),
-        (
-            ["B1", "B2", "--gap", "-1mm"],
-            "gaps.0 must be a number of metres, 0 or above, got -0.001",
-        ),
+        (["B1", "B2", "--gap", "-1mm"], "gaps.0 must be a number of metres, 0 or above, got"),
         (["B1", "--gap", "1mm"], "gaps must hold one number per neighbouring pair of balls (0)"),
         (["B1", "--gravity", "-1"], "gravity must be a number of m/s**2, 0 or above, got -1.0"),
         (["B1", "--until", "1m"], "--until must be a time"),
@@ -316,18 +306,9 @@ def test_the_same_picture_is_the_same_file(run, suffix):
         (["B1", "--contact", "Spring 3"], "--contact 0 must be 'LAW key=value …', such as"),
         (["B1", "--contact", "Spring stiffness="], "--contact 0 must be 'LAW key=value …'"),
         (["B1", "--contact", "'"], "--contact 0 must be 'LAW key=value …'"),
-        (
-            ["B1", "--contact", "Sprung stiffness=1"],
-            "--contact 0.law must be a contact law, got 'Sp",
-        ),
-        (
-            ["B1", "--contact", "Spring stifness=1"],
-            "--contact 0.stifness is not a known key; did yo",
-        ),
-        (
-            ["B1", "--contact", "Spring stiffness=-1"],
-            "--contact 0.stiffness must be a positive num",
-        ),
+        (["B1", "--contact", "Sprung stiffness=1"], "--contact 0.law must be a contact law, got"),
+        (["B1", "--contact", "Spring stifness=1"], "--contact 0.stifness is not a known key; did"),
+        (["B1", "--contact", "Spring stiffness=-1"], "--contact 0.stiffness must be a positive"),
         (
             ["B1", "--contact", "Spring stiffness=1kg"],
             "--contact 0.stiffness must be a stiffness (",
@@ -347,10 +328,7 @@ def test_the_same_picture_is_the_same_file(run, suffix):
         (["./B1"], "./B1 cannot be read: No such file or directory"),
         (["."], ". is a folder: give one of its files"),
         (["a.toml", "b.toml"], "a.toml cannot be read: No such file or directory"),
-        (
-            ["a.toml", "B1"],
-            "either scenario files or balls of the catalogue must be given, got a.toml",
-        ),
+        (["a.toml", "B1"], "either scenario files or balls of the catalogue must be given, got"),
         (["B1", "--plot", "drop.gif"], "--plot must end in .svg, .png, .pdf, got drop.gif"),
         (["B1", "--plot", "drop"], "--plot must end in .svg, .png, .pdf, got drop"),
         (["B1", "--plot", "no/drop.svg"], "no/drop.svg cannot be written: there is no folder no"),
@@ -407,9 +385,7 @@ def test_an_interruption_while_modules_are_imported_is_one_line():
         "from stackbounce.__main__ import main\n"
         "sys.exit(main())"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
-    )
+    done = process(code=code)
     assert (done.returncode, done.stderr) == (130, "stackbounce: interrupted\n")
 
 
@@ -435,9 +411,7 @@ sys.exit(main())
 
 
 def test_an_interruption_that_python_drops_comes_again():
-    done = subprocess.run(
-        [sys.executable, "-c", LOST], capture_output=True, text=True, timeout=60, check=False
-    )
+    done = process(code=LOST)
     assert (done.returncode, done.stderr) == (130, "")
 
 
@@ -497,11 +471,8 @@ def test_what_ends_a_run_is_one_line(run, monkeypatch, error, code, line):
 @pytest.mark.parametrize("form", [[], ["--json"]])
 def test_speeds_at_the_ends_of_the_range(run, speed, form):
     code, out, err = run("simulate", "B1", "B2", "--speed", speed, *form)
-    lost = [
-        (3, f"stackbounce: error: no result for 1 of 1 drop: 1 {name}\n")
-        for name in ("EVENT_LIMIT", "INVALID")
-    ]
-    assert (code, err) in [(0, ""), *lost]
+    lost = "stackbounce: error: no result for 1 of 1 drop: 1"
+    assert (code, err) in [(0, ""), (3, f"{lost} EVENT_LIMIT\n"), (3, f"{lost} INVALID\n")]
     assert "nan" not in out.lower()
 
 
@@ -517,8 +488,7 @@ def test_speeds_at_the_ends_of_the_range(run, speed, form):
 )
 @pytest.mark.parametrize("arguments", ["--help", "simulate basketball"])
 def test_a_standard_output_that_cannot_be_written_to(arguments, streams, line):
-    code = "import sys; from stackbounce.cli import main; sys.exit(main())"
-    command = ["sh", "-c", f'"$0" -c "{code}" {arguments} {streams}', sys.executable]
+    command = ["sh", "-c", f'"$0" -c "{MAIN}" {arguments} {streams}', sys.executable]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode in (1, 2)
     assert done.stderr == ("" if line is None else f"stackbounce: error: {line}\n")
@@ -527,12 +497,9 @@ def test_a_standard_output_that_cannot_be_written_to(arguments, streams, line):
 def test_a_reader_that_goes_away_is_no_error():
     reader, writer = os.pipe()
     os.close(reader)
-    code = "import sys; from stackbounce.cli import main; sys.exit(main(['balls']))"
-    done = subprocess.run(
-        [sys.executable, "-c", code], stdout=writer, stderr=subprocess.PIPE, check=False
-    )
+    done = process("balls", capture_output=False, stdout=writer, stderr=subprocess.PIPE)
     os.close(writer)
-    assert done.stderr == b""
+    assert done.stderr == ""
 
 
 # balls
@@ -712,8 +679,6 @@ def test_sweep_draws_the_ball_that_is_asked_for(run, monkeypatch):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--over", "balls.0.mass=1:2"], "--over must be PATH=START:STOP:COUNT"),
-        (["--over", "balls.7.mass=1:2:3"], "balls.7.mass is not a parameter of this drop"),
         (["--over", "balls.0.mass=-1kg,1kg"], "balls.0.mass must be a positive number"),
         (
             ["--over", "gaps.0=0,1", "--cluster", "tcp://127.0.0.1:9"],
@@ -746,10 +711,3 @@ def test_sweep_writes_a_zarr_store(refused, tmp_path, out):
     assert f"must end in .zarr, got '{out}'" in err
     assert ("to_netcdf('map.nc') makes one of it" in err) == (out == "map.nc")
     assert not list(tmp_path.iterdir())
-
-
-def test_sweep_does_not_touch_another_store(run, refused, tmp_path):
-    assert run("sweep", "basketball", "tennis", "--over", "gaps.0=0,1", "--out", "map.zarr")[0] == 0
-    err = refused("sweep", "tennis", "--over", "balls.0.mass=1,2", "--out", "map.zarr")
-    assert "map.zarr exists, and is not this sweep" in err
-    assert [path.name for path in tmp_path.iterdir()] == ["map.zarr"]

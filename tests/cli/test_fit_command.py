@@ -17,11 +17,19 @@ from stackbounce.cli import main
 from stackbounce.fitting import Fit
 
 PAIR = ("basketball", "tennis", "--height", "63cm")
-ONE = (
-    *PAIR,
-    *("--measured", "rebound_ratios.1=1.64 ± 0.02"),
-    *("--vary", "contacts.1.stiffness=0.7kN/m:2.5kN/m"),
-)
+MEASURED = ("--measured", "rebound_ratios.1=1.64 ± 0.02")
+ONE = (*PAIR, *MEASURED, "--vary", "contacts.1.stiffness=0.7kN/m:2.5kN/m")
+BALLS, SPRINGS = [sb.Ball(0.150), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)]
+DROP = sb.Drop(BALLS, SPRINGS, height=0.63)
+ONE_BALL = """height = 1
+measured.durations.0 = '5.0 ± 0.1 ms'
+vary.contacts.0.stiffness = ''
+[[balls]]
+mass = '56.7 g'
+[[contacts]]
+law = 'Spring'
+stiffness = 1e4
+"""
 TABLE = """name;height (cm);gaps.0 (mm);rebound_ratios.1
 low;30;1;1,70 ± 0,02
 high;63;1;1,68 ± 0,02
@@ -49,11 +57,8 @@ def cells(out, start):
 
 def test_what_is_found_is_what_the_library_finds(told):
     found = told(*ONE)
-    drop = sb.Drop(
-        [sb.Ball(0.150), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)], height=0.63
-    )
     same = sb.fit(
-        drop, {"rebound_ratios.1": "1.64 ± 0.02"}, {"contacts.1.stiffness": (700.0, 2500.0)}
+        DROP, {"rebound_ratios.1": "1.64 ± 0.02"}, {"contacts.1.stiffness": (700.0, 2500.0)}
     )
     (value,) = found["values"].values()
     assert value["value"] == pytest.approx(same["contacts.1.stiffness"].nominal_value, rel=1e-6)
@@ -135,21 +140,15 @@ def test_several_drops_are_saved_into_a_folder(fit, told, tmp_path):
         stiffness = found["values"]["contacts.1.stiffness"]["value"]
         assert drop.contacts[1].stiffness == stiffness
     more = told(*asked, "--measured", "low.rebound_ratios.0=0.2 ± 0.1")
-    assert [one["name"] for one in more["residuals"]][:2] == [
-        "rebound_ratios.1",
-        "rebound_ratios.0",
-    ]
+    names = [residual["name"] for residual in more["residuals"]]
+    assert names[:2] == ["rebound_ratios.1", "rebound_ratios.0"]
     code, out, _ = fit(*asked)
     assert code == 0
     assert len(cells(out, "low.rebound_ratios.1")) == len(cells(out, "high.rebound_ratios.1")) == 1
 
 
 def test_a_file_asks_and_options_change_it(told, tmp_path):
-    (tmp_path / "fit.toml").write_text(
-        "height = 1\nmeasured.durations.0 = '5.0 ± 0.1 ms'\nvary.contacts.0.stiffness = ''\n"
-        "[[balls]]\nmass = '56.7 g'\n[[contacts]]\nlaw = 'Spring'\nstiffness = 1e4\n",
-        encoding="utf-8",
-    )
+    (tmp_path / "fit.toml").write_text(ONE_BALL, encoding="utf-8")
     first = told("fit.toml")["values"]["contacts.0.stiffness"]
     assert first["value"] == pytest.approx(0.0567 * (3.14159265 / 5e-3) ** 2, rel=1e-6)
     other = told("fit.toml", "--measured", "durations.0=2.5 ± 0.1 ms", "--height", "2m")
@@ -243,17 +242,11 @@ def test_a_file_that_cannot_be_written_is_whole_or_not_there(fit, tmp_path, monk
         ((*ONE, "--vary", "gaps.0=2kg:3kg"), "gaps.0 must be a length"),
         ((*ONE, "--vary", "gaps.0=0mm:5mm"), "vary has 2 numbers for 1 measured number"),
         ((*ONE, "--measured", "rebound_ratios.0"), "--measured must be NAME=VALUE"),
-        (
-            (*ONE, "--measured", "rebound_ratios.0=1.6"),
-            "rebound_ratios.0 must be a number with its",
-        ),
+        ((*ONE, "--measured", "rebound_ratios.0=1.6"), "rebound_ratios.0 must be a number with"),
         ((*ONE, "--measured", "rebound_ratio.0=1 ± 1"), "did you mean rebound_ratios?"),
         ((*ONE, "--measured", "collisions.0=1.5"), "collisions.0 must be a whole number"),
         ((*ONE, "--measured", "force.0=none.csv"), "none.csv cannot be read: No such file"),
-        (
-            (*ONE, "--tie", "gaps.0=stiffness"),
-            "gaps.0 = 'stiffness' has stiffness, which is neither",
-        ),
+        ((*ONE, "--tie", "gaps.0=stiffness"), "gaps.0 = 'stiffness' has stiffness, which is"),
         ((*ONE, "--tie", "gaps.0"), "--tie must be PATH=FORMULA, got 'gaps.0'"),
         ((*ONE, "--data", "none.csv"), "none.csv cannot be read: No such file or directory"),
         ((*ONE, "--starts", "0"), "starts must be a whole number from 1"),
@@ -263,10 +256,7 @@ def test_a_file_that_cannot_be_written_is_whole_or_not_there(fit, tmp_path, monk
         ((*ONE, "--corner", "fit.png"), "--corner draws the posterior of --sample: give both"),
         ((*ONE, "--sample", "3200", "--corner", "a.gif"), "--corner must end in .svg"),
         ((*ONE, "--save", "fitted"), "--save must end in .toml, got fitted"),
-        (
-            (*ONE, "--save", "no/fitted.toml"),
-            "no/fitted.toml cannot be written: there is no folder",
-        ),
+        ((*ONE, "--save", "no/fitted.toml"), "no/fitted.toml cannot be written: there is no"),
         (("none.toml", *ONE[4:]), "none.toml cannot be read: No such file or directory"),
         (("cricket", *ONE[2:]), "cricket"),
     ],
@@ -293,20 +283,9 @@ def test_what_is_wrong_with_several_drops(refused, tmp_path, arguments, expected
 
 def test_a_table_of_drops_needs_one_drop_without_data(refused, tmp_path):
     (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
-    (tmp_path / "fit.toml").write_text(
-        "height = 1\nmeasured.durations.0 = '5.0 ± 0.1 ms'\n"
-        "[[balls]]\nmass = '56.7 g'\n[[contacts]]\nlaw = 'Spring'\nstiffness = 1e4\n",
-        encoding="utf-8",
-    )
+    (tmp_path / "fit.toml").write_text(ONE_BALL, encoding="utf-8")
     err = refused("fit", "fit.toml", "--data", "drops.csv")
     assert "--data has drops and what was measured of them" in err
-
-
-def test_help_names_every_option(fit):
-    code, out, _ = fit("--help")
-    assert code == 0
-    for option in ("--data", "--measured", "--vary", "--tie", "--interval", "--sample", "--save"):
-        assert option in out
 
 
 def test_the_probability_is_told_in_words(fit, tmp_path):
@@ -318,10 +297,8 @@ def test_the_probability_is_told_in_words(fit, tmp_path):
 
 def test_the_same_digits_for_a_value_and_its_limits(fit):
     """Where an interval is shorter on one side, that side says how many digits count."""
-    springs = [sb.Spring(2500.0), sb.Spring(1000.0)]
-    drop = sb.Drop([sb.Ball(0.150), sb.Ball(0.057)], springs, height=0.63)
     vary = {"contacts.1.stiffness": ("0.7kN/m", "2.5kN/m")}
-    found = sb.fit(drop, {"rebound_ratios.1": "1.64 ± 0.02"}, vary, starts=16)
+    found = sb.fit(DROP, {"rebound_ratios.1": "1.64 ± 0.02"}, vary, starts=16)
     low, high, *_ = found.intervals()["contacts.1.stiffness"]
     _, out, _ = fit(*ONE, "--interval", "--starts", "16")
     ((*_, shown_low, shown_high, _),) = cells(out, "contacts.1.stiffness")

@@ -104,16 +104,10 @@ def test_numbers_without_an_error_are_null_in_json(measure):
         (["tennis.wav", "--mass", "1g", "--save", "b.txt"], "--save must end in .toml, got b.txt"),
         (["tennis.wav", "--mass", "1g", "--save", "no/b.toml"], "there is no folder no"),
         (["tennis.wav", "--mass", "1m"], "--mass must be"),
-        (
-            ["tennis.wav", "tennis-force.csv", "--plot", "a.png"],
-            "--plot draws one file or --heights, got 2",
-        ),
+        (["tennis.wav", "tennis-force.csv", "--plot", "a.png"], "--plot draws one file or --heigh"),
         (["tennis.wav", "--unit", "x"], "--unit must be COLUMN=UNIT, such as x=cm, got 'x'"),
         (["tennis.wav", "--column", "=x"], "--column must be COLUMN=MEANING"),
-        (
-            ["made/phyphox_acceleration.zip"],
-            "data must hold a free fall and a bounce, got no flight",
-        ),
+        (["made/phyphox_acceleration.zip"], "data must hold a free fall and a bounce, got no"),
         (["made/tracker_one.txt"], "made/tracker_one.txt: data must hold a ball that falls"),
         ([], "measure needs a file, --heights, --contact-time or --restitution"),
         (["tennis.wav", "--law", "hook"], "law must be a contact law, got 'hook'"),
@@ -157,10 +151,7 @@ def test_nothing_is_saved_where_no_contact_was_found(measure, tmp_path):
             sb.Hysteretic(1e6, exponent=1.5, restitution=0.8),
         ),
         (
-            [
-                {"contact": {"law": "Hysteretic", "stiffness": 1e3, "restitution": 0.5}},
-                RIGID,
-            ],
+            [{"contact": {"law": "Hysteretic", "stiffness": 1e3, "restitution": 0.5}}, RIGID],
             sb.Hysteretic(1e3, restitution=0.8),
         ),
     ],

@@ -84,10 +84,7 @@ def test_a_picture_with_bands(tmp_path, capsys):
         (["--error", "balls.1.mass=1cm"], "--error balls.1.mass must be a mass"),
         (["--error", "height=1cm"], "--error height: only one error can be given, got two"),
         (["--error", "balls.1.mass=-1g"], "balls.1.mass's error must be 0 or above"),
-        (
-            ["--error", "balls.1.mass=1e308"],
-            "balls.1.mass's error must be at most 1e+100, got 1e+30",
-        ),
+        (["--error", "balls.1.mass=1e308"], "balls.1.mass's error must be at most 1e+100, got"),
         (["--gap", "2 mm ± 1 s"], "gaps.0 must be a length"),
         (["--gap", "2 ± 1) mm"], "gaps.0 must be a length"),
         (["--gap", "2 ± 1e308 mm"], "gaps.0's error must be at most 1e+100, got 1e+305"),

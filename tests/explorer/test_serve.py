@@ -33,10 +33,7 @@ APP = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--workers", 
         (["--port", "70000"], "port must be a whole number from 0 to 65535, got 70000"),
         (["--port", "x"], "'--port': Input should be a valid integer"),
         (["--host", "no.such.host.invalid"], "--host must be an address of this machine"),
-        (
-            ["--host", ""],
-            "--host must be an address of this machine, such as 127.0.0.1, or 0.0.0.0",
-        ),
+        (["--host", ""], "--host must be an address of this machine, such as 127.0.0.1, or"),
         (["--host", "203.0.113.7"], "--host must be an address of this machine"),  # RFC 5737
         (["--workers", "0"], "--workers must be a whole number from 1 to 64, got 0"),
     ],

@@ -168,11 +168,8 @@ def test_the_page_knows_every_number_of_every_law():
     laws = {law["law"]: law for law in list_choices()["laws"]}
     assert list(laws) == list(sb.model.LAWS)
     hunt = {field["name"]: field for field in laws["HuntCrossley"]["fields"]}
-    assert {name: field["unit"] for name, field in hunt.items()} == {
-        "stiffness": "N/m**exponent",
-        "exponent": "",
-        "dissipation": "s/m",
-    }
+    expected = {"stiffness": "N/m**exponent", "exponent": "", "dissipation": "s/m"}
+    assert {name: field["unit"] for name, field in hunt.items()} == expected
     for law in laws.values():
         assert law["formula"]
         assert law["says"]
@@ -351,10 +348,7 @@ def test_a_file_that_is_none(server, content, asked, message):
         ({"vary": "[]"}, "vary: list should have at least 1 item"),
         ({"drop": "{"}, "drop: invalid JSON: EOF while parsing an object"),
         ({"measured": '{"force.0": "force"}'}, "force.0 needs a file with a force over time"),
-        (
-            {"measured": '{"rebound_ratios.0": 1}'},
-            "input should be a valid string, got 1",
-        ),
+        ({"measured": '{"rebound_ratios.0": 1}'}, "input should be a valid string, got 1"),
         ({"measured": '{"collisions.0": "%s"}' % ("9" * 5000)}, "collisions.0"),
         ({"measured": '{"\\ud800": "1"}'}, "measured: invalid JSON"),
         ({"measured": "{}"}, "measured: dictionary should have at least 1 item"),

@@ -7,12 +7,10 @@ import pytest
 from uncertainties import ufloat
 
 import stackbounce as sb
+from drops import STACK
 from stackbounce.errors import InvalidType, InvalidValue, UnitError
 
 STIFFNESS = "contacts.1.stiffness"
-STACK = sb.Drop(
-    [sb.Ball(0.150), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.5
-)
 DATA = {"rebound_ratios.1": (1.6, 0.02)}
 VARY = {STIFFNESS: (500.0, 2000.0)}
 NAN, INF = float("nan"), float("inf")

@@ -7,11 +7,9 @@ import pytest
 from scipy.stats import chi2
 
 import stackbounce as sb
+from drops import STACK
 
 MASS = 0.0567
-STACK = sb.Drop(
-    [sb.Ball(0.150), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.5
-)
 
 
 def test_a_contact_time_gives_the_stiffness_of_one_spring():

@@ -128,18 +128,12 @@ def test_a_force_record_beside_the_file(write, tmp_path):
     ("change", "expected"),
     [
         (("[vary]", "[varied]"), "varied is not a known key; did you mean vary?"),
-        (
-            ("[measured]", "measured = 3\n[tie]"),
-            "measured must be a table of names and values, got",
-        ),
+        (("[measured]", "measured = 3\n[tie]"), "measured must be a table of names and values,"),
         (("impact_speed", "impact"), "impact is not a known key; did you mean impact_speed?"),
         (("prior =", "prier ="), "vary: gaps.0.prier is not a known key; did you mean prior?"),
         (('low = "0 mm", ', ""), "vary: gaps.0 must have both low and high, got"),
         (("3.53", "-1"), "impact_speed must be a positive number"),
-        (
-            ("[measured]", "[measured]\nforce.0 = 7"),
-            "force.0 must be the name of a file with a force, got 7",
-        ),
+        (("[measured]", "[measured]\nforce.0 = 7"), "force.0 must be the name of a file with a"),
         (
             ("[measured]", "[measured]\nforce.0 = {file = 'a.csv', unit = 'N'}"),
             "force.0.unit is not a known key; did you mean units?",
@@ -256,10 +250,7 @@ def test_a_table_fits(write):
         ("rebound_ratio.1,height\n1,2", "did you mean rebound_ratios.1?"),
         ("rebound_ratios.2\n1", "must end in the number of a ball from 0 to 1"),
         ("rebound_ratios\n1", "must end in the number of a ball from 0 to 1"),
-        (
-            "error of height,rebound_ratios.1\n1,2",
-            "'error of height' does not belong to a measured quantity",
-        ),
+        ("error of height,rebound_ratios.1\n1,2", "'error of height' does not belong to a"),
         ("error of rebound_ratios.0,rebound_ratios.1\n1,2", "has no column rebound_ratios.0"),
         ("height,height (cm),rebound_ratios.1\n1,2,3", "column 'height' is there twice"),
         ("height,gaps.0\n1,2", "it has no column of what was measured; known: rebound_ratios.0"),
@@ -274,10 +265,7 @@ def test_a_table_fits(write):
             "rebound_ratios.1,error of rebound_ratios.1\n1.64,-1",
             "row 2, error of rebound_ratios.1 must be a positive number, got -1",
         ),
-        (
-            "height,rebound_ratios.1\n1,1 ± 1\n\n2,x",
-            "row 4, rebound_ratios.1 must be a pure number",
-        ),
+        ("height,rebound_ratios.1\n1,1 ± 1\n\n2,x", "row 4, rebound_ratios.1 must be a pure"),
         ("height (kg),rebound_ratios.1\n1,1 ± 1", "row 2, height (kg) must be a length"),
         ("height,rebound_ratios.1\n-1,1 ± 1", "row 2: height must be a positive number"),
         ("balls.0.mass,rebound_ratios.1\n0,1 ± 1", "row 2: balls.0.mass must be a positive"),
@@ -286,10 +274,7 @@ def test_a_table_fits(write):
         ("name,rebound_ratios.1\nB2 on B1,1 ± 1", "row 2, name must be a name of its own"),
         ("name,rebound_ratios.1\na,1 ± 1\na,1 ± 1", "row 3, name must be a name of its own"),
         ("collisions.0\n1.5", "row 2, collisions.0 must be a whole number, got '1.5'"),
-        (
-            "contacts.1.stiffness;collisions.0\n22,500;1",
-            "row 2, contacts.1.stiffness: 22,500 can be read in two ways",
-        ),
+        ("contacts.1.stiffness;collisions.0\n22,500;1", "row 2, contacts.1.stiffness: 22,500 can"),
         ("height;gaps.0;collisions.0\n1,5;0.2;1", "row 2, height: 1,5 has a comma, but 0.2"),
         ("force.0\ntable.xyz", "table.xyz cannot be read"),
     ],

@@ -11,6 +11,7 @@ BALL = sb.Drop([sb.Ball(0.1)], [sb.Rigid(0.6)], impact_speed=1.0)
 """Its rebound ratio is its restitution."""
 
 TWO = {"a": BALL, "b": sb.Drop([sb.Ball(0.1)], [sb.Rigid(0.5)], impact_speed=1.0)}
+A, B = "a.contacts.0.restitution", "b.contacts.0.restitution"
 DRAWS = 32_000
 
 
@@ -24,12 +25,8 @@ def linear():
             "b": {"rebound_ratios.0": (0.50, 0.03)},
             "mean": {"rebound_ratios.0": (0.56, 0.01)},
         },
-        {"a.contacts.0.restitution": (0.2, 0.9), "b.contacts.0.restitution": (0.2, 0.9)},
-        tie={
-            "mean.contacts.0.restitution": (
-                "0.5 * (a.contacts.0.restitution + b.contacts.0.restitution)"
-            )
-        },
+        {A: (0.2, 0.9), B: (0.2, 0.9)},
+        tie={"mean.contacts.0.restitution": f"0.5 * ({A} + {B})"},
     )
 
 

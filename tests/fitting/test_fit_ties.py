@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
+from drops import STACK
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fitting.formula import read_formula
 
-STACK = sb.Drop(
-    [sb.Ball(0.150), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.5
-)
 DATA = {"rebound_ratios": [(0.39, 0.01), (1.80, 0.01)], "durations.0": (30e-3, 1e-3)}
 UPPER = "contacts.1.stiffness"
 

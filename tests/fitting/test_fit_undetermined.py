@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
+from drops import STACK
 from stackbounce.errors import InvalidValue
 
 BOTH = ["contacts.0.stiffness", "contacts.1.stiffness"]
-STACK = sb.Drop(
-    [sb.Ball(0.150), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.5
-)
 RATIOS = {"rebound_ratios": [(0.39, 0.01), (1.80, 0.01)]}
 ANYWHERE = 12.0**-0.5
 

@@ -5,14 +5,12 @@ import pytest
 import xarray as xr
 
 import stackbounce as sb
+from drops import STACK
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fitting import FitProblem
 from synthetic.waveform import waveform
 
 ONE = sb.Drop([sb.Ball(0.150)], [sb.Spring(2500.0)], impact_speed=3.5)
-TWO = sb.Drop(
-    [sb.Ball(0.150), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.5
-)
 VARY = {"contacts.0.stiffness": (1500.0, 4000.0)}
 RECORD = waveform(ONE, rate=1e4, noise=0.5, seed=1, before=0.01).force
 TIMES, FORCE = RECORD.time.values, RECORD.values
@@ -86,10 +84,10 @@ def test_samples_that_are_no_numbers_are_left_out(bad):
 
 
 def test_two_records_of_one_drop_with_other_sampling():
-    record = waveform(TWO, rate=1e4, noise=0.5, seed=2, before=0.01, contacts=[0, 1])
+    record = waveform(STACK, rate=1e4, noise=0.5, seed=2, before=0.01, contacts=[0, 1])
     vary = {**VARY, "contacts.1.stiffness": (700.0, 1500.0)}
     data = {"force.0": record.force, "force.1": record.force_2[1::3]}
-    found = sb.fit(TWO, data, vary, starts=4)
+    found = sb.fit(STACK, data, vary, starts=4)
     assert within(found, "contacts.0.stiffness", 2500.0)
     assert within(found, "contacts.1.stiffness", 1000.0)
     assert found.names[-1] == "touch"
@@ -97,9 +95,9 @@ def test_two_records_of_one_drop_with_other_sampling():
 
 
 def test_records_whose_clocks_differ_do_not_fit():
-    record = waveform(TWO, rate=1e4, noise=0.5, seed=2, before=0.01, contacts=[0, 1])
+    record = waveform(STACK, rate=1e4, noise=0.5, seed=2, before=0.01, contacts=[0, 1])
     later = (record.time.values + 5.0, record.force_2.values)
-    found = sb.fit(TWO, {"force.0": record.force, "force.1": later}, VARY, starts=4)
+    found = sb.fit(STACK, {"force.0": record.force, "force.1": later}, VARY, starts=4)
     assert found.notes[0].startswith("the model does not describe the data")
 
 
@@ -122,11 +120,7 @@ QUIET = np.random.default_rng(1).normal(0.0, 0.5, len(TIMES))
     ("value", "kind", "message"),
     [
         ((TIMES, QUIET), InvalidValue, "must begin before a contact and contain it, got 4"),
-        (
-            (TIMES[150:], FORCE[150:]),
-            InvalidValue,
-            "must begin before a contact and contain it",
-        ),
+        ((TIMES[150:], FORCE[150:]), InvalidValue, "must begin before a contact and contain it"),
         ((TIMES, np.where(BEFORE, 0.0, 1.0)), InvalidValue, "must begin before a contact"),
         ((TIMES, FORCE * np.nan), InvalidValue, "must"),
         ((TIMES[1:], FORCE), InvalidValue, "must hold time and force of one length"),

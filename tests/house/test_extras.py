@@ -91,11 +91,7 @@ def test_a_plain_install_sweeps():
     [
         (["measure", "sound.wav"], "measure", "stackbounce measure"),
         (["fit", "drop.toml"], "fit", "stackbounce fit"),
-        (
-            ["highest", "B1", "B2", "--in-order", "--masses"],
-            "masses",
-            "a search for masses",
-        ),
+        (["highest", "B1", "B2", "--in-order", "--masses"], "masses", "a search for masses"),
         (["paper", "--out", "paper"], "paper", "stackbounce paper"),
         (["validate", "--out", "validate"], "paper", "stackbounce validate"),
         (["app"], "web", "stackbounce app"),

@@ -38,12 +38,8 @@ class SharpCone(ElasticLaw):
 @pytest.fixture
 def added():
     """Register laws for one test."""
-
-    def add(law):
-        return register(law)
-
     known = list(LAWS)
-    yield add
+    yield register
     for name in set(LAWS) - set(known):
         del LAWS[name]
 
@@ -144,10 +140,8 @@ def sliders(kind):
 def test_the_usual_models_are_those_that_laws_offer():
     drop = sb.Drop([sb.Ball(0.2), sb.Ball(0.1)], [sb.Spring(1e4)] * 2, impact_speed=1.0)
     offered = {name for law in LAWS.values() for name in law.usual_models}
-    assert set(sb.standard_models(drop)) - offered == {
-        "Rigid, one restitution",
-        "Rigid, one for each contact",
-    }
+    others = {"Rigid, one restitution", "Rigid, one for each contact"}
+    assert set(sb.standard_models(drop)) - offered == others
 
 
 def test_a_new_law_with_a_known_form_of_force_is_one_class(added, tmp_path, capfd):

@@ -9,18 +9,15 @@ from pathlib import Path
 import pytest
 
 import stackbounce as sb
-from slow_sweep import DROP, OVER, VALUES, write_some
 from stackbounce.errors import FileError
 from stackbounce.sweeps import grid, write
 from stackbounce.sweeps.progress import only_writer
+from stopped_sweep import DROP, OVER, VALUES, write_some
 
 
 def content(store):
-    return {
-        str(path.relative_to(store)): path.read_bytes()
-        for path in sorted(store.rglob("*"))
-        if path.is_file()
-    }
+    files = [path for path in store.rglob("*") if path.is_file()]
+    return {str(path.relative_to(store)): path.read_bytes() for path in files}
 
 
 @pytest.fixture(scope="module")

@@ -28,10 +28,8 @@ def choose(visit, ball, name):
 def test_a_ball_of_a_class_brings_its_losses(visit):
     page = visit.open()
     groups = page.locator("#controls [data-key='ball-0'] optgroup")
-    assert [one.get_attribute("label") for one in groups.all()] == [
-        "Balls a class owns",
-        "Balls of the paper",
-    ]
+    labels = [group.get_attribute("label") for group in groups.all()]
+    assert labels == ["Balls a class owns", "Balls of the paper"]
     choose(visit, 0, "big basketball")
     choose(visit, 1, "tennis ball")
     chosen = stack(["big basketball", "tennis ball"])

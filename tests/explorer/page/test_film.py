@@ -33,16 +33,9 @@ def changed(drop=FIRST, **values):
 
 
 def tower(masses, law, gaps=None, **values):
-    balls = [{"mass": mass} for mass in masses]
-    contacts = [law] * len(masses)
+    stack = {"balls": [{"mass": mass} for mass in masses], "contacts": [law] * len(masses)}
     gaps = gaps or [0] * (len(masses) - 1)
-    return {
-        "balls": balls,
-        "contacts": contacts,
-        "gaps": gaps,
-        "impact_speed": 3,
-        "gravity": 0,
-    } | values
+    return stack | {"gaps": gaps, "impact_speed": 3, "gravity": 0} | values
 
 
 STIFF = {"law": "Spring", "stiffness": 50_000}

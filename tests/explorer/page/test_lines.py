@@ -97,20 +97,14 @@ def paper_lines(asked, show):
 
 def test_the_paper_s_lines_have_the_paper_s_values(asked):
     found = paper_lines(asked, "rebound_ratio")
-    ends = {
-        name: [c["values"][-1] for c in answer["curves"]] for name, (_, answer) in found.items()
-    }
-    assert round(ends["figure-2a"][1], 2) == 2.64  # read in the text, at m1/m2 = 10
-    assert round(ends["figure-4a"][1], 2) == 1.13
+    for name, end in (("figure-2a", 2.64), ("figure-4a", 1.13)):  # in the text, at m1/m2 = 10
+        assert round(found[name][1]["curves"][1]["values"][-1], 2) == end
     _, stops = found["figure-2b"]
     lower = np.array(stops["curves"][0]["values"])
     ratios = np.array(stops["x"]["values"])
     assert ratios[ratios > 0.3][lower[ratios > 0.3].argmin()] == pytest.approx(0.528, abs=1e-3)
-    lower, upper = found["figure-6-tennis"][1]["curves"]
-    at_fit = [
-        np.interp(2.5, found["figure-6-tennis"][1]["x"]["values"], c["values"])
-        for c in (lower, upper)
-    ]
+    _, tennis = found["figure-6-tennis"]
+    at_fit = [np.interp(2.5, tennis["x"]["values"], c["values"]) for c in tennis["curves"]]
     assert at_fit == pytest.approx([0.38, 1.80], abs=0.005)  # Fig. 9's
 
 
@@ -137,11 +131,9 @@ def test_a_jump_lies_where_the_count_changes(asked):
     closest = (line.across.high - line.across.low) / PARTS
     for low, high in ends:
         assert high - low == pytest.approx(closest)
-        counts = [
-            outcome(at(line.drop.to_mapping(), "mass_ratio", v), "collisions", 0, EVENTS)
-            for v in (low, high)
-        ]
-        assert counts[0] != counts[1]
+        drops = (at(line.drop.to_mapping(), "mass_ratio", value) for value in (low, high))
+        fewer, more = (outcome(drop, "collisions", 0, EVENTS) for drop in drops)
+        assert fewer != more
     assert any(low <= 3.0 <= high for low, high in ends)
     between = [i for i in range(len(values) - 1) if floor["values"][i] != floor["values"][i + 1]]
     assert floor["jumps"] == between

@@ -193,11 +193,8 @@ def contacts(seed, count):
     for batch in range(count):
         (mapping, _) = next(drawn(seed, batch, 1))
         index = chance.randrange(len(mapping["contacts"]))
-        yield (
-            mapping["contacts"][index],
-            10.0 ** chance.uniform(-3, 1),
-            10.0 ** chance.uniform(-2, 2),
-        )
+        mass, speed = 10.0 ** chance.uniform(-3, 1), 10.0 ** chance.uniform(-2, 2)
+        yield mapping["contacts"][index], mass, speed
 
 
 def compare_laws(asked, seed, count):
@@ -205,22 +202,14 @@ def compare_laws(asked, seed, count):
     questions, calls = [], []
     for contact, mass, speed in contacts(seed, count):
         to = chance.choice(list(sb.model.LAWS))
-        e, time = (
-            chance.choice((None, 0.8, 1.0, chance.uniform(0.01, 1))),
-            chance.choice((None, 5e-3)),
-        )
-        like = {
-            "to": to,
-            "mass": mass,
-            "impact_speed": speed,
-            "restitution": e,
-            "contact_time": time,
-        }
+        asked_of = {"mass": mass, "impact_speed": speed}
+        asked_of["restitution"] = chance.choice((None, 0.8, 1.0, chance.uniform(0.01, 1)))
+        asked_of["contact_time"] = chance.choice((None, 5e-3))
+        like = {"to": to, **asked_of}
         if creeps_apart(contact, mass, speed):
             continue
         questions.append(["like", {"contact": contact} | like])
         calls.append(lambda c=contact, to=like: own.converted(read_law(c, "contact"), **to))
-        asked_of = {"mass": mass, "impact_speed": speed, "restitution": e, "contact_time": time}
         asked_of["exponent"] = chance.choice((None, None, 1.0, 1.5, 2.0, 0.5))
         questions.append(["law", {"law": to} | asked_of])
         calls.append(lambda n=to, g=asked_of: own.calibrated(n, **g))
@@ -273,11 +262,8 @@ def test_stacks_of_the_catalogue_are_the_same(asked):
     names = [one.ball.name for one in (*BALLS, *CLASS_BALLS)]
     chance = random.Random(SEED)
     stacks = [[chance.choice(names) for _ in range(chance.randint(1, 6))] for _ in range(400)]
-    compare(
-        asked,
-        [["stack", balls, 0.5] for balls in stacks],
-        [lambda b=balls: own.stacked(b, 0.5) for balls in stacks],
-    )
+    calls = [lambda b=balls: own.stacked(b, 0.5) for balls in stacks]
+    compare(asked, [["stack", balls, 0.5] for balls in stacks], calls)
 
 
 def test_texts_of_a_drop_hold_it(asked):

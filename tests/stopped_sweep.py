@@ -1,7 +1,4 @@
-"""A sweep that is stopped on the way: ``python slow_sweep.py FILE`` is killed by its test."""
-
-import sys
-import time
+"""A sweep that is stopped on the way."""
 
 import stackbounce as sb
 from stackbounce.sweeps import grid, write
@@ -31,13 +28,3 @@ def write_some(out, values=VALUES, block=64):
     except Stopped:
         return seen
     raise AssertionError(f"not stopped: {seen}")
-
-
-def wait(done, _):
-    """Print how many drops are done, and wait."""
-    print(done, flush=True)  # noqa: T201
-    time.sleep(0.05)
-
-
-if __name__ == "__main__":
-    write(sys.argv[1], DROP, VALUES, block=64, progress=wait)
