@@ -1,9 +1,9 @@
 """The command ``stackbounce measure``: files -> their results, and a ball for ``simulate``."""
 
 import shlex
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
@@ -14,16 +14,11 @@ from stackbounce.cli.output import (
     console,
     draw_picture,
     print_json,
-    write_scenario,
 )
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
 from stackbounce.measure.messages import OptionHint
 from stackbounce.measure.options import OPTIONS, Option
-
-if TYPE_CHECKING:
-    from stackbounce.measure.constants import LawConstants
-    from stackbounce.measure.measurement import Measurement
 
 EPILOG = (
     "For example: stackbounce measure bounces.wav --mass 57g --height 1m --save ball.toml, "
@@ -81,6 +76,7 @@ def run(
     """Find restitutions, stiffnesses, speeds and heights in what was measured, with errors."""
     need("measure", "stackbounce measure")
     from stackbounce.cli.measure_tables import print_measured, summary
+    from stackbounce.cli.measured_ball import law_of, save_ball
     from stackbounce.measure.measurement import measure_file, measure_numbers
     from stackbounce.measure.option_values import read_options
 
@@ -90,7 +86,7 @@ def run(
         count = len(files) + (given["heights"] is not None)
         if count != 1:
             raise InvalidValue(f"--plot draws one file or --heights, got {count}")
-    known = read_options(given, lambda one: one.on_command_line)
+    known = read_options(given, lambda option: option.on_command_line)
     if save is not None:
         check_scenario(save, overwrite)
         if "mass" not in known:
@@ -98,8 +94,8 @@ def run(
     done = [measure_file(path, known, _wording) for path in files] + measure_numbers(known)
     if not done:
         raise InvalidValue("measure needs a file, --heights, --contact-time or --restitution")
-    law = _law_of(known, done) if "law" in known else None
-    saved = {} if save is None else _save(done, law, save, known, name, overwrite)
+    law = law_of(known, done) if "law" in known else None
+    saved = {} if save is None else save_ball(done, law, save, known, name, overwrite)
     if plot is not None:
         draw_picture(plot, overwrite, "measured", done[0].data, done[0].found[-1])
     if as_json:
@@ -118,7 +114,7 @@ def _wording(hint: OptionHint) -> str:
     typed = []
     for name, value in hint.options.items():
         columns = value.items() if isinstance(value, Mapping) else ()
-        texts = [f"{key}={one}" for key, one in columns] or [value]
+        texts = [f"{column}={role}" for column, role in columns] or [value]
         typed += [
             known[name] if text is None else f"{known[name]} {shlex.quote(str(text))}"
             for text in texts
@@ -127,38 +123,3 @@ def _wording(hint: OptionHint) -> str:
         return " ".join(["stackbounce measure", shlex.quote(hint.file), *typed])
     all_names = all(value is None for value in hint.options.values())
     return (", " if all_names else " ").join(typed)
-
-
-def _law_of(known: Mapping[str, Any], done: "Sequence[Measurement]") -> "LawConstants":
-    """Return the law of ``--law``, calibrated to the results and the known numbers."""
-    from stackbounce.measure import one_law
-    from stackbounce.measure.setup import Setup
-
-    names = ("mass", "contact_time", "restitution", "exponent")
-    given = {name: known[name] for name in names if name in known}
-    of_fall = ("height", "speed", "gravity", "mass", "diameter", "drag_coefficient", "air_density")
-    speed = Setup.of(of_fall, known).impact_speed
-    found = [finding for each in done for finding in each.found]
-    return one_law(known["law"], found, **given, impact_speed=speed)
-
-
-def _save(
-    done: "Sequence[Measurement]",
-    law: "LawConstants | None",
-    path: Path,
-    known: Mapping[str, Any],
-    name: str | None,
-    overwrite: bool,
-) -> dict[str, Any]:
-    """Write the ball that was measured as a scenario file, and return what is in it."""
-    from stackbounce.measure import one_ball
-
-    parts = [found.parts() for one in done for found in one.found]
-    if law is not None:
-        parts = [{key: part[key] for key in part if key != "contact"} for part in parts]
-        parts.append(law.parts())
-    ball = {key: known[key] for key in ("mass", "diameter") if key in known}
-    plain = {key: getattr(value, "nominal_value", value) for key, value in ball.items()}
-    drop = one_ball(parts, **plain, name=name)
-    write_scenario(drop.to_toml(), path, overwrite)
-    return drop.to_mapping()

@@ -1,0 +1,46 @@
+"""What ``stackbounce measure`` makes of its results: the constants of a law, and a ball."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from stackbounce.cli.output import write_scenario
+
+if TYPE_CHECKING:
+    from stackbounce.measure.constants import LawConstants
+    from stackbounce.measure.measurement import Measurement
+
+
+def law_of(known: Mapping[str, Any], done: "Sequence[Measurement]") -> "LawConstants":
+    """Return the law of ``--law``, calibrated to the results and the known numbers."""
+    from stackbounce.measure import one_law
+    from stackbounce.measure.setup import Setup
+
+    names = ("mass", "contact_time", "restitution", "exponent")
+    given = {name: known[name] for name in names if name in known}
+    of_fall = ("height", "speed", "gravity", "mass", "diameter", "drag_coefficient", "air_density")
+    speed = Setup.of(of_fall, known).impact_speed
+    found = [finding for measurement in done for finding in measurement.found]
+    return one_law(known["law"], found, **given, impact_speed=speed)
+
+
+def save_ball(
+    done: "Sequence[Measurement]",
+    law: "LawConstants | None",
+    path: Path,
+    known: Mapping[str, Any],
+    name: str | None,
+    overwrite: bool,
+) -> dict[str, Any]:
+    """Write the ball that was measured as a scenario file, and return what is in it."""
+    from stackbounce.measure import one_ball
+
+    parts = [found.parts() for measurement in done for found in measurement.found]
+    if law is not None:
+        parts = [{key: part[key] for key in part if key != "contact"} for part in parts]
+        parts.append(law.parts())
+    ball = {key: known[key] for key in ("mass", "diameter") if key in known}
+    plain = {key: getattr(value, "nominal_value", value) for key, value in ball.items()}
+    drop = one_ball(parts, **plain, name=name)
+    write_scenario(drop.to_toml(), path, overwrite)
+    return drop.to_mapping()
