@@ -48,7 +48,7 @@ explorer: kernels  ## write the explorer as one HTML file, build/explorer.html
 	@mkdir -p build
 	@$(BIN)/stackbounce app --export build/explorer.html --overwrite
 
-test: $(DEV) kernels  ## run the fast tests of every kind, in under four minutes on two cores
+test: $(DEV) kernels  ## run the fast tests of every kind, in under three minutes on two cores
 	@$(PYTEST) -m 'not slow' --hypothesis-profile=quick
 
 lowest: kernels  ## the fast tests with the lowest versions of all dependencies that pyproject.toml allows
