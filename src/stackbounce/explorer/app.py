@@ -34,7 +34,7 @@ _PROBLEMS: dict[int | str, dict[str, Any]] = {
         429: "This client asks for too much at once; the detail says when to try again.",
     }.items()
 }
-_Options = Annotated[Json[dict[str, Any]], Form(default_factory=dict)]
+_Options = Annotated[Json[dict[str, Any]] | None, Form()]
 
 
 def create_app(limits: Limits, others: Sequence[Place] = (), framed_by: Sequence[str] = ()) -> Any:
@@ -132,13 +132,13 @@ def _add_jobs(app: FastAPI, workers: Workers, seconds: float) -> None:
     async def measure_record(
         request: Request,
         file: UploadFile,
-        options: _Options,
+        options: _Options = None,
         alone: UploadFile | None = None,
     ) -> Response:
         """Recognise a file of measurements and analyse it."""
         async with turn(request):
             other = None if alone is None else await _read(alone)
-            return await compute(records.measure_record, *await _read(file), options, other)
+            return await compute(records.measure_record, *await _read(file), options or {}, other)
 
     @app.post("/api/fit", response_model=schema.Fitted)
     async def fit_record(
@@ -146,13 +146,13 @@ def _add_jobs(app: FastAPI, workers: Workers, seconds: float) -> None:
         drop: Annotated[Json[schema.Scenario], Form()],
         vary: Annotated[Json[schema.Varied], Form()],
         measured: Annotated[Json[schema.Texts], Form()],
-        options: _Options,
+        options: _Options = None,
         file: UploadFile | None = None,
     ) -> Response:
         """Fit a drop to measured numbers, or to the forces of a file."""
         async with turn(request):
             record = ("", b"") if file is None else await _read(file)
-            return await compute(records.fit_record, drop, vary, measured, *record, options)
+            return await compute(records.fit_record, drop, vary, measured, *record, options or {})
 
 
 async def _read(file: UploadFile) -> tuple[str, bytes]:
