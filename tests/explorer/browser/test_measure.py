@@ -110,7 +110,9 @@ def test_a_fit_that_cannot_be_is_told(visit):
     page = opened(visit)
     page.locator(".fit-value").fill("about 2")
     page.get_by_role("button", name="Fit", exact=True).click()
-    page.locator(".fit .field-error").filter(has_text="rebound_ratios.0").wait_for()
+    refusal = page.locator(".fit .field-error").filter(has_text="rebound_ratios.0")
+    refusal.wait_for()
+    assert "about 2" in refusal.inner_text()
     visit.complaints.clear()  # Chromium logs the answer 422, which is the point here
 
 

@@ -64,7 +64,9 @@ def test_what_it_cannot_do_is_said(visit):
 def test_errors_of_numbers_need_a_server_and_it_says_so(visit):
     page = visit.open()
     visit.type("balls.1.mass", "57 ± 1 g")
-    page.locator("#numbers").get_by_text("“stackbounce app” opens a page that does").wait_for()
+    sentence = page.locator("#numbers").get_by_text("“stackbounce app” opens a page that does")
+    sentence.wait_for()
+    assert sentence.is_visible()
 
 
 def test_without_workers_it_says_what_it_needs(visit):
