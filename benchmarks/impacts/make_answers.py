@@ -21,7 +21,7 @@ from unittest.mock import patch
 
 from mpmath import mp, mpf
 
-from benchmarks.impacts import older_series
+from benchmarks.impacts import hysteretic_series
 from reference import falling, precise, rigid, springs, taylor
 from reference.common import Outcome
 
@@ -34,7 +34,7 @@ NOTHING = mpf(10) ** -28  # speeds below this, in units of v0, are zero where co
 TRIALS, TRIED = 3, 12  # runs with other inputs; how many are tried, as some change a count
 FEW = 3  # balls, for which the older series takes seconds rather than minutes
 EXACT = 40  # rigid collisions that are followed in fractions, which get longer with each
-SMOOTH = ("Spring", "Hertz", "Hysteretic")  # laws that `older_series` knows
+SMOOTH = ("Spring", "Hertz", "Hysteretic")  # laws that `hysteretic_series` knows
 
 Problem = dict[str, Any]
 Solver = Callable[[Problem], "Solution"]
@@ -123,10 +123,10 @@ def by_modes(problem: Problem) -> Solution:
 
 
 def by_older_series(problem: Problem) -> Solution:
-    """Solve springs, Hertz's and hysteretic contacts by other Taylor series (`older_series`)."""
+    """Solve springs, Hertz's and hysteretic contacts by `hysteretic_series`."""
     masses, contacts, gaps, velocities = _inputs(problem)
     laws = [law and _hysteretic(**law) for law in contacts]
-    return finite(problem, older_series.run(masses, laws, gaps, velocities))
+    return finite(problem, hysteretic_series.run(masses, laws, gaps, velocities))
 
 
 def _hysteretic(
@@ -135,10 +135,10 @@ def _hysteretic(
     exponent: Any = 1,
     restitution: Any = None,
     unloading_exponent: Any = None,
-) -> older_series.Law:
+) -> hysteretic_series.Law:
     if restitution is not None:
-        return older_series.Law.of_restitution(stiffness, exponent, restitution)
-    return older_series.Law(stiffness, 1.5 if law == "Hertz" else exponent, unloading_exponent)
+        return hysteretic_series.Law.of_restitution(stiffness, exponent, restitution)
+    return hysteretic_series.Law(stiffness, 1.5 if law == "Hertz" else exponent, unloading_exponent)
 
 
 def by_collisions(problem: Problem, digits: int = 50, limit: int = 10_000) -> Solution:
