@@ -169,7 +169,8 @@ def _new_memory(engine: Engine, balls: int, compiled: bool) -> Memory:
         arguments, none = (Table(stack), Table(space), Table(drop)), Table(as_arrays(samples))
     kernel = kernel_named(engine.run_drop, compiled)
     # addresses, which the Tables keep valid, are taken faster than Tables
-    given = [one.address for one in (*arguments, none)] if compiled else [*arguments, none]
+    tables = [*arguments, none]
+    given = [table.address for table in tables] if compiled else tables
     run = functools.partial(kernel, *given, 0)
     return Memory(compiled, stack, space, drop, arguments, samples, none, run)
 

@@ -50,7 +50,7 @@ def list_places(host: str, port: int) -> list[Place]:
     'http://203.0.113.7:8050/'
     """
     hosts = _own_hosts(with_six=host == "::") if host in _ALL else [host]
-    others = [one for one in hosts if not _is_loopback(one)]
+    others = [host for host in hosts if not _is_loopback(host)]
     return [Place(address, _code(address)) for address in (url(other, port) for other in others)]
 
 
@@ -97,16 +97,16 @@ def _own_hosts(*, with_six: bool) -> list[str]:
     first = [_way_out(family) for family in families]
     up = {name for name, stat in psutil.net_if_stats().items() if stat.isup}
     found = [
-        one.address
+        address.address
         for family in families
         for name, own in psutil.net_if_addrs().items()
         if name in up
-        for one in own
-        if one.family == family
-        and not ipaddress.ip_address(one.address.partition("%")[0]).is_link_local
+        for address in own
+        if address.family == family
+        and not ipaddress.ip_address(address.address.partition("%")[0]).is_link_local
     ]
-    known = [one for one in first if one in found]
-    return [*known, *(one for one in found if one not in known)]
+    known = [address for address in first if address in found]
+    return [*known, *(address for address in found if address not in known)]
 
 
 def _way_out(family: socket.AddressFamily) -> str | None:

@@ -104,6 +104,8 @@ def _named(looks: list[_Look], roles: list[str]) -> dict[str | int, str]:
     """Return roles by columns: by headers where these are plain and differ, else by numbers."""
     names = [look.name for look in looks]
     return {
-        one.name if _PLAIN.fullmatch(one.name) and names.count(one.name) == 1 else one.number: role
-        for one, role in zip(looks, roles, strict=False)
+        look.name
+        if _PLAIN.fullmatch(look.name) and names.count(look.name) == 1
+        else look.number: role
+        for look, role in zip(looks, roles, strict=False)
     }

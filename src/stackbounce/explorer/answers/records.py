@@ -144,7 +144,7 @@ def fit_record(
             "probability": done.probability,
             "notes": [*done.notes, *done.undetermined],
             "residuals": [residual._asdict() for residual in done.residuals],
-            "series": [_align(one, done.drop) for one in done.records],
+            "series": [_align(record, done.drop) for record in done.records],
         }
     )
 
@@ -204,8 +204,8 @@ def _find_channel(drop: Drop, what: str, which: str, record: Measurement) -> "xr
     lasting = _AFTER * run_drop(drop, None).end_time
     own = {
         name: force
-        for one in record.found
-        for name, force in one.forces(record.data, lasting).items()
+        for quantity in record.found
+        for name, force in quantity.forces(record.data, lasting).items()
     }
     if not own:
         holds = a_or_an(record.evidence["holds"])

@@ -66,8 +66,8 @@ def read_lesson(name: str, language: str = "en") -> Lesson:
     """
     text = (files(__package__) / language / f"{name}.toml").read_text("utf-8")
     known = _in_one_line(tomllib.loads(text))
-    known["steps"] = [Step(**one) for one in known["steps"]]
-    known["worksheet"] = [Item(**one) for one in known["worksheet"]]
+    known["steps"] = [Step(**step) for step in known["steps"]]
+    known["worksheet"] = [Item(**item) for item in known["worksheet"]]
     return Lesson(name=name, **known)
 
 
@@ -76,5 +76,5 @@ def _in_one_line(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _in_one_line(one) for key, one in value.items()}
     if isinstance(value, list):
-        return [_in_one_line(one) for one in value]
+        return [_in_one_line(item) for item in value]
     return " ".join(value.split()) if isinstance(value, str) else value

@@ -86,15 +86,15 @@ def _rewritten(path: str, text: str) -> tuple[str, list[str]]:
 
     def passed(match: re.Match[str]) -> str:
         names, other = match.groups()
-        for one in filter(None, (part.strip() for part in names.split(","))):
-            own, _, outer = one.partition(" as ")
+        for name in filter(None, (part.strip() for part in names.split(","))):
+            own, _, outer = name.partition(" as ")
             exported[outer or own] = f"{used(other)}.{own}" if other else own
         return ""
 
     def declared(match: re.Match[str]) -> str:
         kind, name = match.groups()
-        for one in name.strip("{} ").split(","):
-            exported[one.strip()] = one.strip()
+        for part in name.strip("{} ").split(","):
+            exported[part.strip()] = part.strip()
         return f"{kind} {name}"
 
     text = _COMMENT.sub("", text)

@@ -35,7 +35,7 @@ def _told(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _told(one) for key, one in value.items() if one not in ("", [], False)}
     if isinstance(value, list):
-        return [_told(one) for one in value]
+        return [_told(item) for item in value]
     parts = split_links(value) if isinstance(value, str) else []
     return (
         [_link(part) for part in parts] if any(isinstance(part, Link) for part in parts) else value

@@ -40,7 +40,7 @@ def array_in(content: bytes | bytearray) -> NDArray[Any]:
         why = " ".join(str(error).split())[:200]
         raise FileError(f"it is a NumPy array that cannot be read ({why})") from error
     kinds = [kind[name] for name in kind.names] if kind.names else [kind]
-    if any(one.kind not in _NUMBERS for one in kinds):
+    if any(kind.kind not in _NUMBERS for kind in kinds):
         raise FileError(f"it is a NumPy array of {kind}: save one of plain numbers")
     count = math.prod(shape)
     if not 0 < count <= (len(content) - begin) // max(kind.itemsize, 1):
@@ -100,7 +100,7 @@ def joined(members: Mapping[str, bytes]) -> dict[str, bytes]:
     """Return the arrays of an .npz file; those with one column and equally long as one table."""
     found = {name.removesuffix(".npy"): array_in(member) for name, member in members.items()}
     single = {name: value for name, value in found.items() if value.shape[1:] == (1,)}
-    lengths = {len(one) for one in single.values()}
+    lengths = {len(array) for array in single.values()}
     if len(single) < 2 or len(lengths) > 1:
         return dict(members)
     table = np.empty(lengths.pop(), dtype=[(name, np.float64) for name in single])

@@ -191,5 +191,5 @@ def _named(text: Text, index: int, width: int) -> list[str]:
     for pattern in (r"\S+", r"\S+(?: \S+)*", r"\S+(?:\s*[(\[][^)\]]*[)\]])?", r"[^,;]+"):
         found = re.findall(pattern, line)
         if len(found) == width:
-            return [one.strip() for one in found]
+            return [cell.strip() for cell in found]
     return line.split()

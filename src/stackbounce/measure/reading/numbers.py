@@ -16,7 +16,7 @@ from stackbounce.measure.reading.text import MISSING, Text, number, split
 
 _CHUNK = LINE  # characters that are parsed at once, so that no line in them is too long
 _ODD = 2**23  # characters that are parsed cell by cell in Python, at most: some seconds
-_BLANKS = sorted({word for one in MISSING for word in (one, one.upper(), one.title(), "NaN")})
+_BLANKS = sorted({form for word in MISSING for form in (word, word.upper(), word.title(), "NaN")})
 _MOST = 1e30  # beyond any instrument's range, for which oscilloscopes write 9.9E37
 _TRUTH = "uUsS"  # letters of "true" and "false" that occur in no number
 
@@ -146,7 +146,7 @@ def _parsed(chunk: str, text: Text, used: Sequence[int], table: Table) -> Array 
     block: Array = frame[list(used)].to_numpy(dtype=np.float64)
     need = max(used) + 1
     if quoted or np.isnan(block).any():
-        widths = [len(split(one, text.delimiter)) for one in chunk.split("\n") if one.strip()]
+        widths = [len(split(line, text.delimiter)) for line in chunk.split("\n") if line.strip()]
         if len(widths) != len(block):  # a quotation mark that joined lines
             return None
         table.shorter += sum(width < need for width in widths)
@@ -165,13 +165,14 @@ def _cell_by_cell(lines: list[str], text: Text, used: Sequence[int], table: Tabl
         table.shorter += len(cells) < need
         row = [number(cells[k], text.decimal) if k < len(cells) else nan for k in used]
         if None in row:
-            if all(one is None or one != one for one in row):  # a line of words among the numbers
+            # a line of words among the numbers
+            if all(cell is None or cell != cell for cell in row):
                 table.word = table.word or line[:60]
                 table.words += 1
                 continue
             table.first = table.first or next(
                 cells[k] for k, one in zip(used, row, strict=True) if one is None
             )
-            table.strange += [one is None for one in row]
+            table.strange += [cell is None for cell in row]
         rows.append(row)
     return np.array(rows, np.float64).reshape(len(rows), len(used))  # None becomes NaN

@@ -104,7 +104,7 @@ def _tracker(tree: Element) -> Tables:
         ["t (s)", *(f"{axis} ({unit})" for _ in seen for axis in "xy")],
     ]
     for k in sorted(set().union(*seen.values())):
-        places = (cell for one in seen.values() for cell in one.get(k, (None, None)))
+        places = (cell for row in seen.values() for cell in row.get(k, (None, None)))
         rows.append([1e-3 * (begin + step * (k - start)), *places])
     why = "its XML is Tracker's; pixels are converted by its clock, axes and scale"
     return Tables({"tracks": as_text(rows)}, "Tracker", why, "file", ".")
@@ -137,7 +137,7 @@ def _logger_pro(tree: Element) -> Tables:
 
 
 def _objects(tree: Element, of: str) -> Iterator[Element]:
-    return (one for one in tree.iter("object") if one.get("class", "").endswith(of))
+    return (node for node in tree.iter("object") if node.get("class", "").endswith(of))
 
 
 def _first(tree: Element, of: str) -> Element | None:

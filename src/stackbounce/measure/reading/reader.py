@@ -215,11 +215,11 @@ def _from_tables(tables: Tables, options: ReadOptions) -> "xr.Dataset":
             continue
         if read[-1][1].attrs["holds"] != "table":
             break
-    name, data = next((one for one in read if one[1].attrs["holds"] != "table"), read[0])
+    name, data = next((entry for entry in read if entry[1].attrs["holds"] != "table"), read[0])
     if tables.program and not data.attrs["format"].startswith(tables.program):
         data.attrs["format"] = tables.program
     data.attrs["why"] = "; ".join(filter(None, [tables.why, data.attrs["why"]]))
-    others = [one for one in names if one != name]
+    others = [other for other in names if other != name]
     if others:
         hint = OptionHint({"table": others[0]})
         more = Message(f"{name} of it is read; ", hint, " reads another")

@@ -132,7 +132,7 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
         return f"acceleration_{word}", factor, symbol, doubt
     if not told and unit.casefold() in ("frame", "frames"):
         return "frame", 1.0, "", ""
-    role = told or next((one for one, words in _ROLES.items() if words.fullmatch(word)), "")
+    role = told or next((known for known, words in _ROLES.items() if words.fullmatch(word)), "")
     if symbol and role and symbol not in _WANTED.get(role, symbol).split():
         role = ""
     if role == "time" and not unit and "sec" in word:

@@ -238,7 +238,7 @@ def _decimal(head: list[list[str]], delimiter: str) -> tuple[str, list[str]]:
     cells = [cell for row in head for cell in row if "," in cell]
     commas = [cell for cell in cells if re.fullmatch(rf"[+-]?[0-9]*,[0-9]+{_EXPONENT}", cell)]
     point = re.compile(rf"[+-]?[0-9]*\.[0-9]+{_EXPONENT}")
-    points = any(point.fullmatch(one) for row in head for one in row)
+    points = any(point.fullmatch(cell) for row in head for cell in row)
     grouped = [comma for comma in commas if re.fullmatch(r"[+-]?[1-9][0-9]{0,2},[0-9]{3}", comma)]
     if not commas or (points and len(grouped) == len(commas)):
         mixed = [cell for cell in cells if re.fullmatch(r"[+-]?[0-9]+\.[0-9.]*,[0-9]+", cell)]

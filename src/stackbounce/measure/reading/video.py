@@ -51,7 +51,7 @@ def on_frames(
 def _timed(found: list[Column], frame_rate: float | None) -> tuple[list[Column], list[str]]:
     """Return columns in which frames are times, where there are no others."""
     at = next((k for k, member in enumerate(found) if member.role == "frame"), None)
-    if at is None or any(one.role == "time" for one in found):
+    if at is None or any(column.role == "time" for column in found):
         unused = Message(_RATE, " is not used, as the file has times")
         return found, [] if frame_rate is None else [unused]
     said = replace(found[at].heading, unit=FRAME)
@@ -67,7 +67,7 @@ def _scaled(
     found: list[Column], scale: float | None, doubts: list[str]
 ) -> tuple[list[Column], list[str]]:
     """Return columns with positions in m, or in pixels where no scale is known."""
-    by_frame = any(one.role == "time" and one.heading.unit == FRAME for one in found)
+    by_frame = any(column.role == "time" and column.heading.unit == FRAME for column in found)
     places = [k for k, member in enumerate(found) if member.role in ("x", "y")]
     bare = [k for k in places if not found[k].heading.unit and (by_frame or scale is not None)]
     pixels = [k for k in places if found[k].unit == PIXEL or k in bare]
@@ -113,7 +113,7 @@ def _side_by_side(
 ) -> tuple[list[Column], Array, list[str]]:
     ids, counts = np.unique(values[np.isfinite(values[:, at]), at], return_counts=True)
     longest = np.sort(ids[np.argsort(-counts, kind="stable")[:_TRACKS]])
-    rows = [np.flatnonzero(values[:, at] == one) for one in longest]
+    rows = [np.flatnonzero(values[:, at] == track) for track in longest]
     if not rows:
         without = [k for k in range(len(columns)) if k != at]
         return [columns[k] for k in without], values[:, without], []
@@ -123,12 +123,12 @@ def _side_by_side(
     table = np.full((len(times), 1 + len(rows) * len(places)), np.nan)
     table[:, 0] = times
     found = [columns[time]]
-    for one, own in zip(longest, rows, strict=True):
+    for track, own in zip(longest, rows, strict=True):
         own = own[np.isfinite(values[own, time])]
         to = np.searchsorted(times, values[own, time])
         for k in places:
             table[to, len(found)] = values[own, k]
-            found.append(replace(columns[k], track=f"track {one:g}"))
+            found.append(replace(columns[k], track=f"track {track:g}"))
     left = len(ids) - len(longest)
     doubts = [f"{left} shorter tracks are left out"] if left else []
     return found, table, doubts
@@ -166,9 +166,9 @@ def _linked(
     table = np.full((len(values), 1 + 2 * len(tracks)), np.nan)
     table[:, 0] = values[:, time]
     found = [columns[time]]
-    for one in tracks:
+    for track in tracks:
         for axis, own in enumerate(axes):
-            table[list(one), len(found)] = [place[axis] for place in one.values()]
+            table[list(track), len(found)] = [place[axis] for place in track.values()]
             found.append(replace(columns[own[0]], track=f"track {(len(found) + 1) // 2}"))
     return found, table, []
 
@@ -180,10 +180,12 @@ def _together(times: Array, points: Array) -> list[dict[int, Array]]:
     live: list[dict[int, Array]] = []
     done: list[dict[int, Array]] = []
     for row, now in enumerate(times.tolist()):
-        done += [one for one in live if now - times[max(one)] > _LOST and len(one) >= _LEAST]
-        live = [one for one in live if now - times[max(one)] <= _LOST]
+        done += [
+            track for track in live if now - times[max(track)] > _LOST and len(track) >= _LEAST
+        ]
+        live = [track for track in live if now - times[max(track)] <= _LOST]
         left = list(points[row][known[row]])
-        paths = [_expected(one, times, now) for one in live]
+        paths = [_expected(track, times, now) for track in live]
         far = {
             (k, j): float(np.hypot(*(path - place)))
             for k, path in enumerate(paths)
@@ -195,9 +197,11 @@ def _together(times: Array, points: Array) -> list[dict[int, Array]]:
                 live[k][row] = left[j]
                 taken.add(j)
         live += [{row: place} for j, place in enumerate(left) if j not in taken]
-    done += [one for one in live if len(one) >= _LEAST]
-    ranges = [float(np.ptp(list(one.values()), axis=0).max()) for one in done]
-    moving = [one for one, wide in zip(done, ranges, strict=True) if wide > _STILL * max(ranges)]
+    done += [track for track in live if len(track) >= _LEAST]
+    ranges = [float(np.ptp(list(track.values()), axis=0).max()) for track in done]
+    moving = [
+        track for track, wide in zip(done, ranges, strict=True) if wide > _STILL * max(ranges)
+    ]
     return sorted(moving, key=len, reverse=True)[:_TRACKS]
 
 

@@ -137,7 +137,7 @@ def _search(
     table = np.full((len(_POWERS), len(_BENDS), _TIMES), np.inf)
     for i, power in enumerate(_POWERS):
         rise = since**power / noise
-        plain, bent = (_beside(base, one) for one in (rise, rise * since))
+        plain, bent = (_beside(base, slope) for slope in (rise, rise * since))
         along = left @ plain, left @ bent
         size = np.sum(plain**2, axis=0), np.sum(plain * bent, axis=0), np.sum(bent**2, axis=0)
         for j, bend in enumerate(_BENDS):

@@ -41,7 +41,7 @@ def covariance_of(values: Sequence[Number]) -> Array:
     sources = dict.fromkeys(source for slope in slopes for source in slope)
     errors = [[slope.get(source, 0.0) * source.std_dev for source in sources] for slope in slopes]
     spread = np.reshape(np.array(errors, dtype=float), (len(slopes), len(sources)))
-    return np.array([[float(np.sum(one * other)) for other in spread] for one in spread])
+    return np.array([[float(np.sum(column * other)) for other in spread] for column in spread])
 
 
 def least_squares(design: Array, values: Array, covariance: Array) -> Fit:

@@ -68,7 +68,7 @@ def fit_line(
     x = [umath.log(speed) for speed in speeds] if power else list(speeds)
     y = [umath.log(restitution) for restitution in kept] if power else list(kept)
     design = np.vander([nominal(speed) for speed in x], degree + 1, increasing=True)
-    values = np.array([one.nominal_value for one in y])
+    values = np.array([value.nominal_value for value in y])
     slope = 0.0
     if degree:
         rough = covariance_of(y)

@@ -101,8 +101,8 @@ def record_of(data: "xr.Dataset | Any", compliance: float, sign: int | None) -> 
         notes.append(f"The compliance of the machine, {compliance:.3g} m/N, was subtracted.")
     steps = resolution(compression), resolution(force)
     jitter, hiss = (
-        max(difference_noise(one), step / np.sqrt(12.0))
-        for one, step in zip((compression, force), steps, strict=True)
+        max(difference_noise(values), step / np.sqrt(12.0))
+        for values, step in zip((compression, force), steps, strict=True)
     )
     return Record(compression, force, jitter, hiss, steps[1], tuple(notes))
 

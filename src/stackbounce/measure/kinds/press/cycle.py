@@ -71,7 +71,7 @@ def result_of(record: Record, cycle: Cycle) -> Press:
     down = _branch(record, cycle.unloading, len(up.x))
     contact, exponent = rough_contact(up.x, up.y)
     zero = _zero(up, down, contact, cycle.peak, record)
-    up, down = (one._replace(y=one.y - zero.level(one.time)) for one in (up, down))
+    up, down = (branch._replace(y=branch.y - zero.level(branch.time)) for branch in (up, down))
     length = max(cycle.peak - contact, 1e-3 * float(np.ptp(up.x)))
     first = np.array([_top(up.y[::-1]), np.log(exponent), np.log(length)])
     fit, scale = _fit(record, up, cycle.peak, first, 3)
@@ -90,7 +90,7 @@ def result_of(record: Record, cycle: Cycle) -> Press:
         + _quantisation_covariance(rows, record, zero)
     )
     contact, peak = values["contact"], values["peak_force"]
-    curves = [_curve(*one, contact, peak) for one in zip((up, down), fits, strict=False)]
+    curves = [_curve(*fitted, contact, peak) for fitted in zip((up, down), fits, strict=False)]
     return Press(
         **_derived(_correlated(values, covariance)),
         loading=curves[0],
@@ -156,7 +156,7 @@ def _branch(record: Record, places: NDArray[np.intp], first: int) -> _Branch:
     if size > 1:
         edges = np.arange(0, len(places), size)
         counts = np.diff(np.append(edges, len(places)))
-        x, y, time = (np.add.reduceat(one, edges) / counts for one in (x, y, time))
+        x, y, time = (np.add.reduceat(array, edges) / counts for array in (x, y, time))
     return _Branch(first, x, y, time)
 
 

@@ -109,7 +109,7 @@ def split_series(lower: Any, upper: Any, both: Any, *, force: Any = None) -> Spl
     15.5+/-0.1 mm, 6.2+/-0.1 mm, 1.82+/-0.01
     """
     given = {"lower": lower, "upper": upper, "both": both}
-    curves = [one for one in given.values() if isinstance(one, Press)]
+    curves = [curve for curve in given.values() if isinstance(curve, Press)]
     if force is None:
         if len(curves) < 3:
             raise InvalidValue("force must be given with compressions, got None")

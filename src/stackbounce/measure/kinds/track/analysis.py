@@ -207,7 +207,7 @@ def _seen(found: Columns, up: Upward, gravity: float | None) -> str:
     axis = up.axis if "y" not in found.positions[0] else "y"
     every = [position[axis] for position in found.positions]
     known = [heights[np.isfinite(heights)] for heights in every]
-    most = int(np.argmax([float(np.ptp(one)) if one.size else 0.0 for one in known]))
+    most = int(np.argmax([float(np.ptp(heights)) if heights.size else 0.0 for heights in known]))
     sign = up.sign if axis == up.axis else 1.0
     return what_is_seen(found.times[np.isfinite(every[most])], known[most] * sign, axis, gravity)
 
@@ -301,8 +301,8 @@ def _bounce(
     time = 0.5 * (times[before.last - 1] + times[after.first])
     time += motion.meeting(numbers[both], fit.origins[both], time, drag)
     (low, into, fall), (high, out, back) = (
-        motion.state(one, float(time - origin), drag)
-        for one, origin in zip(numbers[both], fit.origins[both], strict=True)
+        motion.state(flight, float(time - origin), drag)
+        for flight, origin in zip(numbers[both], fit.origins[both], strict=True)
     )
     since = (low - high) / (out - into)
     if floor is not None:

@@ -203,7 +203,7 @@ def _usual_acceleration(times: Array, heights: Array) -> float:
             break
         windows = np.lib.stride_tricks.sliding_window_view
         some = slice(None, None, max(1, len(heights) // _MOST_WINDOWS))
-        t, u = (windows(one, wide)[some] for one in (times, heights))
+        t, u = (windows(array, wide)[some] for array in (times, heights))
         found = float(np.median(np.abs(curvatures(t, u))))
         if noise * math.sqrt(720.0 / wide**5) / step**2 < 0.03 * found:
             break

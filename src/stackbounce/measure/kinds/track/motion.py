@@ -109,7 +109,7 @@ def curve(fit: Flights, flight: int, times: Array, drag: Drag | None) -> Array:
     if drag is None:
         return np.asarray(level + speed * since - 0.5 * fall * since**2)
     rate = nominal(drag.rate)
-    ways = [flown(rate, float(speed), one, float(fall))[0] for one in since.tolist()]
+    ways = [flown(rate, float(speed), time, float(fall))[0] for time in since.tolist()]
     return np.asarray(level + np.array(ways))
 
 
@@ -146,8 +146,8 @@ def meeting(flights: Sequence[Numbers], middles: Array, near: float, drag: Drag 
     later = 0.0
     for _ in range(0 if drag is None else _NEWTON_ROUNDS):
         (low, before, _), (high, after, _) = (
-            state(one, float(near - middle) + later, drag)
-            for one, middle in zip(flights, middles, strict=True)
+            state(flight, float(near - middle) + later, drag)
+            for flight, middle in zip(flights, middles, strict=True)
         )
         later += nominal((low - high) / (after - before))
     return later

@@ -109,7 +109,7 @@ def _from_dataset(data: Any) -> Columns:
     known = data["track"].values if "track" in data.coords else [f"ball {k}" for k in range(count)]
     whole = {axis: data[axis].transpose("track", "time").values.astype(float) for axis in axes}
     positions = [{axis: whole[axis][k] for axis in axes} for k in range(count)]
-    return Columns(times, [str(one) for one in known], positions)
+    return Columns(times, [str(name) for name in known], positions)
 
 
 def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
@@ -157,7 +157,7 @@ def _accelerations(times: Array, heights: Array, wide: int) -> Array:
     """Return the accelerations of parabolas through windows of points in which the ball moves."""
     if len(heights) < wide:
         return np.zeros(0)
-    t, u = (np.lib.stride_tricks.sliding_window_view(one, wide) for one in (times, heights))
+    t, u = (np.lib.stride_tricks.sliding_window_view(array, wide) for array in (times, heights))
     moves = np.ptp(u, axis=1) > _LEAST_MOTION * np.ptp(heights)
     t, u = t[moves], u[moves]
     return curvatures(t, u)
@@ -307,7 +307,7 @@ def tilt_of(balls: Sequence[tuple[Array, Array, Array, list[Flight]]]) -> tuple[
         kept = [Flight(a, b) for a, b in own if good[a:b].all()]
         if not kept:
             continue
-        first, second = (fit_flights(t, np.where(good, one, 0.0), kept) for one in (up, side))
+        first, second = (fit_flights(t, np.where(good, axis, 0.0), kept) for axis in (up, side))
         fall, drift = first.values[0], second.values[0]
         angles.append(math.atan2(drift, fall))
         error = math.sqrt(max(second.covariance[0, 0], 0.0)) / max(abs(fall), 1e-300)

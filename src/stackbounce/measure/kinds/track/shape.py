@@ -114,7 +114,7 @@ def _polynomials(
     The time runs from -1 to 1 in each flight.
     """
     own = [flight for flight in flights if flight.last - flight.first >= least]
-    found = [_polynomial(times, heights, one, degree) for one in own]
+    found = [_polynomial(times, heights, flight, degree) for flight in own]
     if not found:
         return []
     rest = np.concatenate([one for *_, one in found])

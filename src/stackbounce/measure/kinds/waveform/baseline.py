@@ -62,7 +62,7 @@ def first_guess(record: Record) -> tuple[float, float]:
     """
     values = record.values
     level = _densest(values)
-    ends = np.concatenate([one[: max(3, len(values) // 50)] for one in (values, values[::-1])])
+    ends = np.concatenate([side[: max(3, len(values) // 50)] for side in (values, values[::-1])])
     limits = (values == values.max()) | (values == values.min())
     at_limit = level in (values.max(), values.min())
     if at_limit and not limits.all() and abs(np.median(ends) - level) > _FAR * np.ptp(values):
@@ -157,7 +157,7 @@ def _tone(times: Array, record: Record, quiet: NDArray[np.bool_]) -> float:
     width = max(1, int(_BLOCK / record.step))
     count = len(times) // width * width
     calm = quiet[:count].reshape(-1, width).all(axis=1)
-    t, y = (one[:count].reshape(-1, width).mean(axis=1)[calm] for one in (times, record.values))
+    t, y = (array[:count].reshape(-1, width).mean(axis=1)[calm] for array in (times, record.values))
     every = np.ones(len(t), dtype=bool)
     line = np.stack([np.ones_like(t), t], axis=1)
     if len(t) < _LEAST_SAMPLES:

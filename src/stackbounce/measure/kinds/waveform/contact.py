@@ -106,7 +106,7 @@ def measure_contact(
         fall.time if fall else float(part.times[part.last]),
     )
     area = impulse_of(part.times, part.values, part.density, part.offset, inside)
-    start, end = (known_to(one.time, one.error) if one else None for one in (rise, fall))
+    start, end = (known_to(flank.time, flank.error) if flank else None for flank in (rise, fall))
     times = [known_to(peak.time, peak.time_error) for peak in peaks]
     forces = [known_to(peak.force, hypot(peak.force_error, part.offset)) for peak in peaks]
     return Contact(

@@ -165,7 +165,7 @@ def _averages(
     half = 0.5 * (t[1] - t[0])
     inner = 0.5 * (t[width - 1 : -1 : width] + t[width::width])
     edges = np.concatenate([[t[0] - half], inner, [t[-1] + half]])
-    t, y = (one.reshape(-1, width).mean(axis=1) for one in (t, y))
+    t, y = (array.reshape(-1, width).mean(axis=1) for array in (t, y))
     return t, edges, y, float(sigma / np.sqrt(width)), float(t[-1] - t[0]), 2.0 * half
 
 
@@ -216,7 +216,7 @@ def _closer(
         mean, spread = _moments(logs, rows)
         reach = _REACH * max(spread, 0.5 * (logs[1] - logs[0]))
         powers = np.linspace(mean - reach, mean + reach, len(logs))
-    middle, half = (np.interp(powers, logs, one) for one in (middles, wide))
+    middle, half = (np.interp(powers, logs, array) for array in (middles, wide))
     top = np.minimum(middle + half, end - 1e-9 * half)
     return np.linspace(middle - half, top, starts.shape[1], axis=1), powers
 

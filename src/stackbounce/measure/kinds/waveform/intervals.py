@@ -76,17 +76,21 @@ def find_stretches(
     if least is None:
         clear, least = _ABOVE_NOISE, _RINGING * float(signal.max())
     rough = _runs(signal, noise, max(clear * noise, least), 2)
-    wide = np.sort([len(one) for one in rough if len(one) >= _LEAST_SAMPLES])
+    wide = np.sort([len(interval) for interval in _longer(rough, _LEAST_SAMPLES)])
     if not len(wide):
         return [], len(rough)
     # the median length by samples, as noise breaks the flanks of long contacts into short pieces
     usual = int(wide[np.searchsorted(np.cumsum(wide), 0.5 * wide.sum())])
     width = 2 * (min(usual, _MOST_SAMPLES) // _AVERAGES // 2) + 1
     if width == 1:
-        return [one for one in rough if len(one) >= _LEAST_SAMPLES], len(rough) - len(wide)
+        return _longer(rough, _LEAST_SAMPLES), len(rough) - len(wide)
     calm = density / np.sqrt(width)
     found = _runs(smoothed(signal, width), calm, max(clear * calm, least), width)
-    return [one for one in found if len(one) >= _LEAST_SAMPLES + width], len(rough) - len(wide)
+    return _longer(found, _LEAST_SAMPLES + width), len(rough) - len(wide)
+
+
+def _longer(intervals: list[Stretch], least: int) -> list[Stretch]:
+    return [interval for interval in intervals if len(interval) >= least]
 
 
 def _runs(signal: Array, noise: float, high: float, join: int) -> list[Stretch]:

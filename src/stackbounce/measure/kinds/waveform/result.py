@@ -143,7 +143,7 @@ class Waveform(Finding):
         highest: Any = contact.peak_force
         impulse: Any = contact.impulse
         if contact.clipped:
-            highest, impulse = (f"above {one.nominal_value:.4g}" for one in (highest, impulse))
+            highest, impulse = (f"above {value.nominal_value:.4g}" for value in (highest, impulse))
         rows: list[tuple[str, Any, str]] = [
             ("contact time", contact.time, "s"),
             ("touch", contact.start, "s"),
@@ -187,7 +187,9 @@ class Waveform(Finding):
         begin = first.start.nominal_value
         lasts = 0.0 if first.end is None else first.end.nominal_value - begin
         end = begin + max(2.0 * lasts, lasting)
-        later = [nominal(one.start) for one in self.contacts[1:] if one.start is not None]
+        later = [
+            nominal(contact.start) for contact in self.contacts[1:] if contact.start is not None
+        ]
         beyond = [start for start in later if start > end]
         return record.sel(time=slice(None, 0.5 * (end + min(beyond)))) if beyond else record
 

@@ -49,12 +49,12 @@ def _closed_up(text: Text, first: int, width: int) -> bool:
 def results(text: Text) -> Layout | None:
     """Recognise a results table of ImageJ, or of its manual tracking: X and Y, by slice or row."""
     names = [cell.casefold() for cell in text.head[0]]
-    pair = next((one for one in (("x", "y"), ("xm", "ym")) if set(one) <= set(names)), None)
+    pair = next((pair for pair in (("x", "y"), ("xm", "ym")) if set(pair) <= set(names)), None)
     if pair is None or not _MEASURED & set(names) or {"t", "time"} & set(names):
         return None
     found = [column(names.index(name), heading(name[0].upper()), name[0]) for name in pair]
     others = [column(k, heading(cell)) for k, cell in enumerate(text.head[0]) if cell]
     others = [other for other in others if other.role in ("frame", "track_id")]
-    first = first_row(text, 1, [one.index for one in found])
+    first = first_row(text, 1, [column.index for column in found])
     why = f"{', '.join(filter(None, text.head[0][:8]))} are columns of ImageJ's results"
     return Layout("ImageJ", why, (*others, *found), first)

@@ -17,7 +17,7 @@ def sensor_logger(text: Text) -> Layout | None:
     if not {"seconds_elapsed", "x", "y", "z"} <= set(names):
         return None
     name = text.name.casefold()
-    other = next((one for one in _OTHERS if one in name), None)
+    other = next((sensor for sensor in _OTHERS if sensor in name), None)
     if other is not None:
         raise FileError(f"it is the {other} of Sensor Logger: take its Accelerometer.csv")
     if "total" in name:

@@ -10,7 +10,7 @@ from stackbounce.measure.reading.text import Text, number
 def tektronix_mdo(text: Text) -> Layout | None:
     """Recognise Tektronix MDO: lines of keys and values, then ``TIME,CH2``."""
     k = next((k for k, row in enumerate(text.head) if row[:1] == ["TIME"] and len(row) > 1), 0)
-    keys = {one[0]: one[1:] for one in text.head[:k] if one}
+    keys = {row[0]: row[1:] for row in text.head[:k] if row}
     if not {"Sample Interval", "Record Length"} & set(keys):
         return None
     row = text.head[k]

@@ -86,11 +86,11 @@ def floor_gap(
     True
     """
     both, single = (
-        one if isinstance(one, Waveform) else waveform(one, time_constant=time_constant)
-        for one in (stack, alone)
+        record if isinstance(record, Waveform) else waveform(record, time_constant=time_constant)
+        for record in (stack, alone)
     )
     pressed, free = _first("stack", both), _first("alone", single)
-    touch, touch_alone = (one.start.nominal_value for one in (pressed, free))
+    touch, touch_alone = (contact.start.nominal_value for contact in (pressed, free))
     lasting = free.time.nominal_value
     times, force = both.times - touch, single.force
     since = single.times - touch_alone
@@ -194,7 +194,7 @@ def _limits(both: Waveform, kink: Kink, lasting: float) -> tuple[tuple[float, fl
 
 def _thrown_back(both: Waveform, lasting: float) -> float | None:
     """Return when the lower ball hit the floor again in the same impact, or None."""
-    starts = [nominal(one.start) for one in both.contacts[:2] if one.start is not None]
+    starts = [nominal(contact.start) for contact in both.contacts[:2] if contact.start is not None]
     back = float(np.ptp(starts))
     return back if 0.0 < back < _SAME_IMPACT * lasting else None
 
