@@ -1,6 +1,7 @@
 """The balls that a class owns do what their figures say, and each figure has a source."""
 
 import math
+import re
 
 import pytest
 
@@ -22,6 +23,27 @@ def test_each_figure_has_a_source_and_a_kind(entry):
     assert all(source.strip() for _, source in entry.sources)
     assert set(dict(entry.kinds)) <= FIGURES
     assert {entry.kind_of(figure) for figure in FIGURES} <= set(KINDS)
+
+
+@pytest.mark.parametrize("figure", ["mass", "diameter", "restitution", "contact_time"])
+def test_a_figure_is_what_its_source_says(figure):
+    words, derived = {
+        "mass": (r"(\d+) to (\d+) g", lambda low, high: 0.5e-3 * (low + high)),
+        "diameter": (r"(\d+) to (\d+) cm round", lambda low, high: 5e-3 * (low + high) / math.pi),
+        "restitution": (
+            r"(?:([\d.]+) to )?([\d.]+) m from ([\d.]+) m",
+            lambda low, high, fall: math.sqrt(0.5 * (low + high) / fall),
+        ),
+        "contact_time": (r"([\d.]+) mm times v", lambda slope: 1e-3 * math.pi * slope),
+    }[figure]
+    found = 0
+    for entry in (*BALLS, *CLASS_BALLS):
+        said = re.search(words, dict(entry.sources).get(figure, ""))
+        if said:
+            found += 1
+            given = [float(number or said[2]) for number in said.groups()]
+            assert entry.to_mapping()[figure] == pytest.approx(derived(*given), rel=1e-15)
+    assert found >= 4
 
 
 @pytest.mark.parametrize("entry", CLASS_BALLS, ids=NAMES)
