@@ -13,19 +13,19 @@ from stackbounce.cross2007.checks import (
     DIFFERS,
     SCALES,
     WITHIN_ERROR,
-    Section,
     half_unit,
     run_check,
     source_of,
 )
+from stackbounce.cross2007.claims import CLAIMS, Claim
+from stackbounce.cross2007.data import Input
 from stackbounce.cross2007.drops import fallen_speed
-from stackbounce.cross2007.paper import FIGURES, SECTIONS
+from stackbounce.cross2007.paper import COMPUTED, FIGURES, READINGS
 from stackbounce.cross2007.stacks import heavier_b1, small_fit, smallest_fit
 from stackbounce.cross2007.style import use_style
 from stackbounce.cross2007.tables import make_table_one, make_table_two
 from stackbounce.units import quantity
 
-CHECKS = [check for section in SECTIONS for check in section.checks]
 # Inputs that a row reads without depending on them: they drop out of its formula, or concern what
 # comes later than the moment that the row is about.
 DROPS_OUT = {
@@ -189,32 +189,32 @@ def test_the_calls_can_be_run_and_give_the_computed_number(done):
     assert seen >= 15
 
 
-@pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.id)
-def test_one_percent_of_an_input_moves_the_rows_that_depend_on_it(check):
+@pytest.mark.parametrize("name", CLAIMS)
+def test_one_percent_of_an_input_moves_the_rows_that_depend_on_it(name):
     bench = Bench(PAPER)
-    before = check.compute(bench)
+    before = COMPUTED[name](bench)
     for key in bench.read:
-        after = check.compute(Bench(changed(PAPER, key, 0.99)))
-        if not check.counted:
-            assert moved(after, before) == (key not in DROPS_OUT.get(check.id, "").split()), key
+        after = COMPUTED[name](Bench(changed(PAPER, key, 0.99)))
+        if not CLAIMS[name].counted:
+            assert moved(after, before) == (key not in DROPS_OUT.get(name, "").split()), key
 
 
-@pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.id)
-def test_all_other_inputs_leave_a_row_alone(check):
+@pytest.mark.parametrize("name", CLAIMS)
+def test_all_other_inputs_leave_a_row_alone(name):
     bench = Bench(PAPER)
-    before = check.compute(bench)
+    before = COMPUTED[name](bench)
     data = PAPER
     for key in PAPER:
         if key not in bench.read:
             data = changed(data, key, 0.99)
-    assert check.compute(Bench(data)) == before
+    assert COMPUTED[name](Bench(data)) == before
 
 
 @pytest.mark.slow
 def test_every_input_is_used():
     used = set()
-    computed = [compute for check in CHECKS for _, _, compute in check.others]
-    computed += [check.compute for check in CHECKS]
+    computed = [reading.compute for readings in READINGS.values() for reading in readings]
+    computed += COMPUTED.values()
     with use_style():
         for make in (*computed, make_table_one, make_table_two, *FIGURES.values()):
             bench = Bench(PAPER)
@@ -227,12 +227,12 @@ def test_every_input_is_used():
 def test_every_other_input_moves_a_row(key):
     data = changed(PAPER, key, 0.99)
 
-    def moves(check):
+    def moves(compute):
         bench = Bench(PAPER)
-        before = check.compute(bench)
-        return key in bench.read and moved(check.compute(Bench(data)), before)
+        before = compute(bench)
+        return key in bench.read and moved(compute(Bench(data)), before)
 
-    assert any(map(moves, CHECKS))
+    assert any(map(moves, COMPUTED.values()))
 
 
 @pytest.mark.parametrize("key", PAPER)
@@ -262,27 +262,29 @@ def test_values_are_the_printed_ones(key):
     )
 
 
-def row_of(number, computed, **more):
-    section = Section("here")
-
-    @section.check("x", "a number", number, **more)
-    def _(_):
-        return computed
-
-    return run_check(section.checks[0], PAPER)
+def row_of(number, computed, error=0.0, *, counted=False):
+    read = Input("x", str(computed), computed, "", error, "here", "a number")
+    claim = Claim("x", "here", "a number", number, counted=counted)
+    return run_check(claim, lambda b: b("x"), (), {"x": read})
 
 
 def test_verdicts():
     assert row_of("2.64", 2.6449).verdict == AGREES
     assert row_of("2.64", 2.6451).verdict == DIFFERS
-    assert row_of("2.64", 2.6451, stated=0.01).verdict == WITHIN_ERROR
+    assert row_of("2.64", 2.6451, 0.01).verdict == WITHIN_ERROR
     assert row_of("3", 3.0, counted=True).verdict == AGREES
     assert row_of("3", 4.0, counted=True).verdict == DIFFERS
 
 
 def test_an_error_as_large_as_the_number_lets_nothing_pass():
-    assert row_of("1", 2.8, stated=1.7).verdict == DIFFERS
-    assert row_of("2", 2.8, stated=1.7).verdict == WITHIN_ERROR
+    assert row_of("1", 2.8, 1.7).verdict == DIFFERS
+    assert row_of("2", 2.8, 1.7).verdict == WITHIN_ERROR
+
+
+def test_each_claim_is_computed_once():
+    assert set(COMPUTED) == set(CLAIMS)
+    assert set(READINGS) <= set(CLAIMS)
+    assert all(CLAIMS[name].reason for name in READINGS)
 
 
 def test_only_two_numbers_are_read_as_cut_off(done):

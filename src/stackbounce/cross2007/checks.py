@@ -1,6 +1,6 @@
-"""The audit's checks: each number that the paper prints, and the function that computes it.
+"""The audit's checks: each claim of the paper, beside what its function computes.
 
-A check has the place of a number in the paper, its printed form and its function. Running a check
+The claims stand in ``claims.toml``, and the functions in the modules ``checks_*``. Running a check
 on a bench gives a row: the computed value, the verdict, the source of the function, and the library
 calls and the inputs that the bench recorded.
 """
@@ -8,14 +8,14 @@ calls and the inputs that the bench recorded.
 import ast
 import inspect
 import linecache
-import math
 import textwrap
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from decimal import Decimal
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from stackbounce.cross2007.bench import Bench, propagate_error, write_call
+from stackbounce.cross2007.claims import Claim
 from stackbounce.cross2007.data import Data
 
 AGREES = "agrees"
@@ -31,47 +31,15 @@ Number: TypeAlias = float | Any
 Compute = Callable[[Bench], Number]
 
 
-@dataclass(frozen=True)
-class Check:
-    """A printed number and how to compute it.
+class Reading(NamedTuple):
+    """Another reading of a claim: what it assumes, how it is computed, and what it is compared to.
 
-    Parameters
-    ----------
-    id : str
-        Its name.
-    where : str
-        Section, figure or table.
-    what : str
-        What it is.
-    printed : str
-        As printed, without the unit.
-    number : str
-        The same in digits; the tolerance follows from its last one.
-    unit : str
-        A key of `SCALES`.
-    compute : callable
-        Computes the number, in SI units, on a bench.
-    counted : bool
-        Whether it is a count, which must be equal.
-    stated : float
-        The error in `unit` that the paper states for the printed number, or 0.
-    reason : str
-        The reason for a difference, or a remark on an agreement.
-    others : tuple of (str, str, callable)
-        Other readings: the assumption, the digits to compare with, and the computation.
+    ``number`` is the number to compare with, in digits, by default that of the claim.
     """
 
-    id: str
-    where: str
-    what: str
-    printed: str
-    number: str
-    unit: str
+    text: str
     compute: Compute
-    counted: bool = False
-    stated: float = 0.0
-    reason: str = ""
-    others: tuple[tuple[str, str, Compute], ...] = ()
+    number: str = ""
 
 
 @dataclass(frozen=True)
@@ -87,10 +55,10 @@ class Attempt:
 
 @dataclass(frozen=True)
 class Row:
-    """A printed number beside the computed one; see `Check` for the first five.
+    """A printed number beside the computed one; see `Claim` for the first five.
 
     ``number`` is the printed value and ``tolerance`` half a unit in its last digit. ``error`` is
-    the standard error that follows from the inputs and from the printed number itself, in `unit`.
+    the standard error that follows from the inputs, in `unit`.
     ``source`` is the text of the function that computed the number, ``calls`` are the library calls
     that it made and ``inputs`` the keys of the data that it read.
     """
@@ -120,62 +88,17 @@ class Row:
         return bool(self.attempts) and any(attempt.verdict != DIFFERS for attempt in self.attempts)
 
 
-@dataclass
-class Section:
-    """The checks of one section of the paper, in the order of its text.
-
-    Examples
-    --------
-    >>> section = Section("Sec. I")
-    >>> @section.check("nine", "bounce over drop height", "9")
-    ... def nine(bench):
-    ...     return 9.0
-    >>> section.checks[0].id, section.checks[0].where
-    ('nine', 'Sec. I')
-    """
-
-    where: str
-    checks: list[Check] = field(default_factory=list)
-
-    def check(
-        self,
-        name: str,
-        what: str,
-        printed: str,
-        unit: str = "",
-        *,
-        number: str = "",
-        counted: bool = False,
-        stated: float = 0.0,
-        where: str = "",
-        reason: str = "",
-    ) -> Callable[[Compute], Compute]:
-        """Return a decorator that adds a check; see `Check` for the arguments."""
-
-        def add(compute: Compute) -> Compute:
-            digits = number or printed
-            place = where or self.where
-            self.checks.append(
-                Check(name, place, what, printed, digits, unit, compute, counted, stated, reason)
-            )
-            return compute
-
-        return add
-
-    def other(self, reading: str, compute: Compute, *, number: str = "") -> None:
-        """Add another reading to the latest check: what it assumes and how it is computed."""
-        latest = self.checks[-1]
-        more = (reading, number or latest.number, compute)
-        self.checks[-1] = replace(latest, others=(*latest.others, more))
-
-
-def run_check(check: Check, data: Data) -> Row:
-    """Return the row of a check.
+def run_check(claim: Claim, compute: Compute, readings: Sequence[Reading], data: Data) -> Row:
+    """Return the row of a claim.
 
     Parameters
     ----------
-    check : Check
-        The printed number and its computation.
+    claim : Claim
+        The printed number.
+    compute : callable
+        Computes it, in SI units, on a bench.
+    readings : sequence of Reading
+        Other readings of it.
     data : mapping of str to Input
         The paper's numbers.
 
@@ -183,23 +106,22 @@ def run_check(check: Check, data: Data) -> Row:
     -------
     Row
     """
-    computed, error, verdict, bench = _compared(check, check.number, check.compute, data)
-    attempts = [_attempt(check, *other, data) for other in check.others]
+    computed, error, verdict, bench = _compared(claim, claim.digits, compute, data)
     return Row(
-        id=check.id,
-        where=check.where,
-        what=check.what,
-        printed=check.printed,
-        digits=check.number,
-        number=float(check.number),
-        unit=check.unit,
+        id=claim.id,
+        where=claim.where,
+        what=claim.what,
+        printed=claim.printed,
+        digits=claim.digits,
+        number=float(claim.digits),
+        unit=claim.unit,
         computed=computed,
-        tolerance=_tolerance(check, check.number),
+        tolerance=_tolerance(claim, claim.digits),
         error=error,
         verdict=verdict,
-        reason=check.reason,
-        attempts=tuple(attempts),
-        source=source_of(check.compute),
+        reason=claim.reason,
+        attempts=tuple(_attempt(claim, reading, data) for reading in readings),
+        source=source_of(compute),
         calls=tuple(dict.fromkeys(write_call(drop) for drop in bench.drops)),
         inputs=tuple(bench.read),
     )
@@ -295,26 +217,26 @@ class _Filled(ast.NodeTransformer):
         return ast.Constant("".join(texts)) if len(texts) == len(parts) else node
 
 
-def _attempt(check: Check, reading: str, number: str, compute: Compute, data: Data) -> Attempt:
-    computed, _, verdict, _ = _compared(check, number, compute, data)
-    return Attempt(reading, number, computed, verdict, source_of(compute))
+def _attempt(claim: Claim, reading: Reading, data: Data) -> Attempt:
+    number = reading.number or claim.digits
+    computed, _, verdict, _ = _compared(claim, number, reading.compute, data)
+    return Attempt(reading.text, number, computed, verdict, source_of(reading.compute))
 
 
 def _compared(
-    check: Check, number: str, compute: Compute, data: Data
+    claim: Claim, number: str, compute: Compute, data: Data
 ) -> tuple[float, float, str, Bench]:
     """Return the computed number, its error, the verdict, and the bench that it was made on."""
     bench = Bench(data)
-    scale = SCALES[check.unit]
+    scale = SCALES[claim.unit]
     computed = float(compute(bench)) / scale
-    spread = 0.0 if check.counted else propagate_error(compute, data, bench.read) / scale
-    error = math.hypot(spread, check.stated)
-    verdict = _verdict(computed, float(number), _tolerance(check, number), error)
+    error = 0.0 if claim.counted else propagate_error(compute, data, bench.read) / scale
+    verdict = _verdict(computed, float(number), _tolerance(claim, number), error)
     return computed, error, verdict, bench
 
 
-def _tolerance(check: Check, number: str) -> float:
-    return 0.0 if check.counted else half_unit(number)
+def _tolerance(claim: Claim, number: str) -> float:
+    return 0.0 if claim.counted else half_unit(number)
 
 
 def _verdict(computed: float, number: float, tolerance: float, error: float) -> str:

@@ -1,5 +1,6 @@
 """The whole paper: its audit, figures and tables, in the order of its text."""
 
+import itertools
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -17,24 +18,25 @@ from stackbounce.cross2007 import (
 )
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import AGREES, DIFFERS, WITHIN_ERROR, Row, run_check
+from stackbounce.cross2007.claims import CLAIMS
 from stackbounce.cross2007.data import PAPER, Data
 from stackbounce.cross2007.style import Picture, use_style
 from stackbounce.extras import need
 from stackbounce.version import __version__
 
-SECTIONS = (
-    checks_models.INTRODUCTION,
-    checks_models.MODELS,
-    checks_basketball.BASKETBALL,
-    checks_tables.TABLE_ONE,
-    checks_superballs.STEEL,
-    checks_tables.TABLE_TWO,
-    checks_superballs.SUPERBALLS,
-    checks_records.RECORDS,
-    checks_fits.FITS,
-    checks_fits.CONCLUSION,
+_MODULES = (
+    checks_models,
+    checks_basketball,
+    checks_tables,
+    checks_superballs,
+    checks_records,
+    checks_fits,
 )
-"""The sections of checks, in the order of the paper."""
+COMPUTED = {name: compute for module in _MODULES for name, compute in module.COMPUTED.items()}
+"""The function that computes each claim, by name."""
+
+READINGS = {name: found for module in _MODULES for name, found in module.READINGS.items()}
+"""Other readings of some claims, by name."""
 
 FIGURES: dict[str, Callable[[Bench], Picture]] = {
     "2a": figures_models.draw_figure_2a,
@@ -114,9 +116,12 @@ def audit(data: Data = PAPER, progress: Callable[[str], None] = lambda _: None) 
     """
     need("paper", "stackbounce paper")
     rows: list[Row] = []
-    for section in SECTIONS:
-        progress(f"audit of {section.where}: {len(section.checks)} numbers")
-        rows.extend(run_check(check, data) for check in section.checks)
+    for _, section in itertools.groupby(CLAIMS.values(), lambda claim: claim.id.partition(".")[0]):
+        claims = list(section)
+        progress(f"audit of {claims[0].where}: {len(claims)} numbers")
+        for claim in claims:
+            readings = READINGS.get(claim.id, ())
+            rows.append(run_check(claim, COMPUTED[claim.id], readings, data))
     return Audit(tuple(rows), data)
 
 

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.checks_tables import HEIGHTS, RATIOS
+from stackbounce.cross2007.checks_tables import PAIRS
+from stackbounce.cross2007.claims import CLAIMS
 from stackbounce.measure.constants import dynamic_stiffness
 
 if TYPE_CHECKING:
@@ -75,7 +76,7 @@ def make_table_two(bench: Bench) -> Table:
     masses = {ball: bench.measured(f"{ball}.mass") for ball in balls}
     heavier = bench.measured("B1_on_B1.mass_ratio") * masses["B1"]
     rows = []
-    for pair, ratio in RATIOS.items():
+    for pair in PAIRS:
         upper, lower = pair.split("_on_")
         below, above = masses[lower], masses[upper]
         with_heavier = (heavier if lower == "B1" else below) / (
@@ -85,14 +86,14 @@ def make_table_two(bench: Bench) -> Table:
         row = {
             "bottom": lower,
             "top": upper,
-            "m1/m2 printed": ratio,
+            "m1/m2 printed": CLAIMS[f"T2.{pair}.ratio"].printed,
             "from Table I": "" if lower == upper else _text(below / above),
             "B1 = 105 g": _text(with_heavier) if "B1" in (lower, upper) else "",
             "e1": _text(e1),
             "e2": _text(e2),
-            "h1/h0 printed": HEIGHTS[pair][0],
+            "h1/h0 printed": CLAIMS[f"T2.{pair}.lower_height"].printed,
             "e1 squared": _text(e1**2),
-            "h2/h0 printed": HEIGHTS[pair][1],
+            "h2/h0 printed": CLAIMS[f"T2.{pair}.upper_height"].printed,
             "e2 squared": _text(e2**2),
         }
         rows.append(row)

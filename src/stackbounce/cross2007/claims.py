@@ -1,0 +1,65 @@
+"""The numbers that the paper prints, from ``claims.toml``: where, what, and why one differs."""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from types import MappingProxyType
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A number that the paper prints.
+
+    Parameters
+    ----------
+    id : str
+        Its name.
+    where : str
+        Section, figure or table.
+    what : str
+        What it is.
+    printed : str
+        As printed, without the unit.
+    number : str
+        The same in digits, by default `printed`; the tolerance follows from its last one.
+    unit : str
+        A key of `SCALES`.
+    counted : bool
+        Whether it is a count, which must be equal.
+    reason : str
+        The reason for a difference, or a remark on an agreement.
+    """
+
+    id: str
+    where: str
+    what: str
+    printed: str
+    number: str = ""
+    unit: str = ""
+    counted: bool = False
+    reason: str = ""
+
+    @property
+    def digits(self) -> str:
+        """The printed number in digits."""
+        return self.number or self.printed
+
+
+def _read_claims() -> dict[str, Claim]:
+    read = tomllib.loads((files(__package__) / "claims.toml").read_text("utf-8"))
+    claims = {}
+    for name, entry in read["claims"].items():
+        reason = entry.pop("reason", "").format(**read["reasons"])
+        claims[name] = Claim(name, reason=reason, **entry)
+    return claims
+
+
+CLAIMS: Mapping[str, Claim] = MappingProxyType(_read_claims())
+"""The claims by name, in the order of the paper.
+
+Examples
+--------
+>>> CLAIMS["II.ten_springs"].printed
+'1.13'
+"""
