@@ -1,7 +1,12 @@
-"""The paper's cases for the explorer: every drop that it computes or measures, by name."""
+"""The paper's cases for the explorer: every drop that it computes or measures, by name.
 
+Their words stand in ``cases.toml``.
+"""
+
+import tomllib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from importlib.resources import files
 
 from stackbounce.cross2007 import datasets, stacks
 from stackbounce.cross2007.bench import Bench
@@ -50,9 +55,9 @@ def list_cases() -> Iterator[Case]:
 'figure-9-other', 'measured-basketball-tennis']
     """
     bench = Bench(PAPER)
-    for group, made in _GROUPS.items():
-        for name, title, says, make in made:
-            yield Case(name, group, title, says, _sized(bench, make(bench)))
+    cases = tomllib.loads((files(__package__) / "cases.toml").read_text("utf-8"))
+    for name, words in cases.items():
+        yield Case(name, **words, drop=_sized(bench, _DROPS[name](bench)))
 
 
 def _sized(bench: Bench, drop: Drop) -> Drop:
@@ -104,140 +109,26 @@ def _on_b1(make: Callable[[Bench, float], Drop]) -> Callable[[Bench], Drop]:
     return lambda b: make(b, stacks.heavier_b1(b))
 
 
-_Made = tuple[str, str, str, Callable[[Bench], Drop]]
-_GROUPS: dict[str, tuple[_Made, ...]] = {
-    "Separate collisions": (
-        (
-            "textbook",
-            "The textbook: a lower ball 1000 times as heavy",
-            "Nothing lost, the upper ball leaves at 3 times its speed, for 9 times the height.",
-            _textbook("models.lossless", 1000.0),
-        ),
-        (
-            "separate",
-            "Basketball and tennis ball, nothing lost",
-            "The textbook's 1.9 times the speed; Figure 9 has balls that stay in contact.",
-            _textbook("models.lossless"),
-        ),
-        (
-            "separate-lossy",
-            "The same with a restitution of 0.9",
-            "A tenth of the speed lost at each collision leaves 1.62 times.",
-            _textbook("stack.restitution"),
-        ),
-    ),
-    "Two masses on springs": (
-        (
-            "equal",
-            "Equal masses, equal springs",
-            "Simultaneous contacts: the upper ball leaves at 1.19 times its speed, not at 1.",
-            _section_two(1.0),
-        ),
-        (
-            "figure-4a",
-            "Figure 4(a): lower ball three times as heavy",
-            "On equal springs the balls are in contact for nearly as long as the floor is pressed.",
-            _section_two(3.0),
-        ),
-        (
-            "figure-4b",
-            "Figure 4(b): the floor's contact 20 times as stiff",
-            "A stiff floor contact ends early: the collisions are nearly separate.",
-            _section_two(3.0, 20.0),
-        ),
-        (
-            "figure-5",
-            "Figure 5: two impacts on the floor",
-            "The lower ball comes back to the floor after the two have parted.",
-            _figure_5,
-        ),
-    ),
-    "Basketball and tennis ball": (
-        (
-            "figure-8",
-            "Figure 8: dropped from 30 cm",
-            "The forces begin together if the balls touch.",
-            stacks.spring_record,
-        ),
-        (
-            "figure-8-gap",
-            "Figure 8 with a gap of 2 mm",
-            "Two millimetres of air delay the force between the balls by 7 ms.",
-            lambda b: stacks.spring_record(b, b("stack.gap")),
-        ),
-        (
-            "figure-8-hollow",
-            "Figure 8 with a hollow ball",
-            "A ball that is stiff until it buckles: the floor's force rises at once.",
-            stacks.hollow_record,
-        ),
-        (
-            "figure-8-hollow-gap",
-            "Figure 8 with a hollow ball and a gap of 2 mm",
-            "The early force stops the basketball early: the balls touch after 5 ms, not 7.",
-            lambda b: stacks.hollow_record(b, b("stack.gap")),
-        ),
-        (
-            "figure-9",
-            "Figure 9: the paper's fit",
-            "Springs of 2.5 and 1 kN/m give both measured speeds.",
-            stacks.better_fit,
-        ),
-        (
-            "figure-9-other",
-            "The fit that the text rejects",
-            "Other springs throw the tennis ball up nearly as fast, the basketball slower.",
-            stacks.other_fit,
-        ),
-        (
-            "measured-basketball-tennis",
-            "Dropped from 71 cm, as it was measured",
-            "With heights, delay and duration to compare: fit cross2007/basketball-tennis.",
-            _measured("basketball-tennis"),
-        ),
-    ),
-    "Superballs": (
-        (
-            "figure-13",
-            "Figure 13: B2 on B1",
-            "A gap of 1 mm and a lossy floor contact fit the measured speeds.",
-            _on_b1(stacks.small_fit),
-        ),
-        (
-            "B3-on-B1",
-            "B3 on B1, section V's fit",
-            "The lightest ball, 2.4 mm above, leaves at more than twice its speed.",
-            _on_b1(stacks.smallest_fit),
-        ),
-        (
-            "B1-on-B2",
-            "B1 on B2, the heavy ball on top",
-            "It leaves at little more than the speed that it came with.",
-            lambda b: stacks.reversed_pair(b, 0.0),
-        ),
-        (
-            "B1-on-B3-early",
-            "B1 on B3, meeting after 2 ms",
-            "The light ball below is pressed to the floor three times.",
-            stacks.early_pair,
-        ),
-        (
-            "B1-on-B3-late",
-            "B1 on B3, meeting after 7 ms",
-            "The light ball below bounces to and fro: the two meet five times.",
-            stacks.late_pair,
-        ),
-        (
-            "B1-on-B1",
-            "B1 on B1, 12 ms on the floor",
-            "Two nearly equal balls, apart enough for the measured duration.",
-            stacks.late_twins,
-        ),
-        (
-            "B1-on-B1-parted",
-            "B1 on B1, meeting as the lower one leaves the floor",
-            "Entirely separate collisions: the balls all but exchange their speeds.",
-            stacks.parted_twins,
-        ),
-    ),
+_DROPS: dict[str, Callable[[Bench], Drop]] = {
+    "textbook": _textbook("models.lossless", 1000.0),
+    "separate": _textbook("models.lossless"),
+    "separate-lossy": _textbook("stack.restitution"),
+    "equal": _section_two(1.0),
+    "figure-4a": _section_two(3.0),
+    "figure-4b": _section_two(3.0, 20.0),
+    "figure-5": _figure_5,
+    "figure-8": stacks.spring_record,
+    "figure-8-gap": lambda b: stacks.spring_record(b, b("stack.gap")),
+    "figure-8-hollow": stacks.hollow_record,
+    "figure-8-hollow-gap": lambda b: stacks.hollow_record(b, b("stack.gap")),
+    "figure-9": stacks.better_fit,
+    "figure-9-other": stacks.other_fit,
+    "measured-basketball-tennis": _measured("basketball-tennis"),
+    "figure-13": _on_b1(stacks.small_fit),
+    "B3-on-B1": _on_b1(stacks.smallest_fit),
+    "B1-on-B2": lambda b: stacks.reversed_pair(b, 0.0),
+    "B1-on-B3-early": stacks.early_pair,
+    "B1-on-B3-late": stacks.late_pair,
+    "B1-on-B1": stacks.late_twins,
+    "B1-on-B1-parted": stacks.parted_twins,
 }
