@@ -1,4 +1,4 @@
-/** Building elements in one line. */
+/** Building elements in one line, and finding those of the page's HTML. */
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -30,6 +30,17 @@ function fill(element, attributes, children) {
   }
   element.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined));
   return element;
+}
+
+/** Return the elements that the page's HTML has within one, by what `data-part` calls them. */
+export function partsOf(root) {
+  return Object.fromEntries([...root.querySelectorAll("[data-part]")].map((part) => [part.dataset.part, part]));
+}
+
+/** Show in an element what the page's HTML has for it in a template, which is used once; returns its parts. */
+export function fillFrom(root, template) {
+  root.replaceChildren(document.getElementById(template).content);
+  return partsOf(root);
 }
 
 /** Set an attribute only where it changes, so that a frame costs no needless work. */

@@ -69,7 +69,7 @@ const loadMeasure = () => import(MEASURE);
 mountTabs(store, {
   line: (section) => open(loadLine, section),
   map: (section) => open(loadMap, section),
-  measure: (section) => (hasServer ? open(loadMeasure, section) : explain(section)),
+  measure: (section) => hasServer && open(loadMeasure, section),
 });
 store.watch(["view"], () => placeSetUp());
 place("skip").addEventListener("click", (event) => {
@@ -135,14 +135,6 @@ function placeSetUp() {
   const there = place(store.get().view).querySelector(".set-up-place");
   const form = place("controls");
   if (there && form.parentElement !== there) there.append(form);
-}
-
-/** Say what cannot be done without stackbounce itself. */
-function explain(section) {
-  const says = t(
-    "Reading a measurement and fitting a drop to it need stackbounce itself: install it as its documentation says, and start “stackbounce app”, which opens this page with both.",
-  );
-  section.append(h("div", { class: "prose" }, h("h2", { text: t("Measure and fit") }), h("p", { text: says })));
 }
 
 for (const part of document.querySelectorAll("[data-home]")) part.hidden = (part.dataset.home === "server") !== hasServer;

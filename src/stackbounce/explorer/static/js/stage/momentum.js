@@ -1,6 +1,6 @@
 /** Bars of momentum below the stage: each ball's and their sum, now, before and after the impact. */
 
-import { h, hide, put, s, write } from "../dom.js";
+import { hide, partsOf, put, s, write } from "../dom.js";
 import { t } from "../words/language.js";
 import { fixed } from "../words/units.js";
 import { shortBall } from "../words/words.js";
@@ -11,8 +11,7 @@ const VALUES = 78; // px for the numbers at the right
 
 /** Draw the bars into `root` while the state asks for them, at the clock's time. */
 export function mountMomentum(root, store, clock) {
-  const svg = s("svg", { class: "momentum-bars", role: "img", "aria-label": t("Momentum of each ball and of all, up is to the right") });
-  root.append(h("p", { class: "note", text: t("Momentum in kg m/s: up to the right. Thin marks: before (│) and after (┃) the impact.") }), svg);
+  const { bars: svg } = partsOf(root);
   let bars = null;
   let width = 0;
 

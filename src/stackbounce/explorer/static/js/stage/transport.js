@@ -1,36 +1,25 @@
 /** Playback: play, replay, events, the film's speed, and what the stage shows. */
 
-import { button, h, put, write } from "../dom.js";
+import { button, h, partsOf, put, write } from "../dom.js";
 import { GRAVITY } from "../set_up/drops.js";
 import { check, choice } from "../set_up/fields.js";
 import { t } from "../words/language.js";
 import { format } from "../words/units.js";
 import { moment } from "../words/words.js";
 
-const STEPS = 2000; // of the cursor
+const STEPS = 2000; // of the cursor, as its HTML has them
 const MAGNIFY = [1, 2, 3, 5, 8, 10, 20, 30, 50];
 const STRIDE = 1 / 200; // of the film, that an arrow key moves the cursor; ten times that for a page
-const SPEEDS = { min: -3, max: 2, step: 0.25 }; // the film's, as powers of two
 
-/** Build the transport into `root`; it drives the clock, and follows it. */
+/** Let the transport in `root` drive the clock, and follow it. */
 export function mountTransport(root, store, clock) {
-  const play = button("", toggle, { class: "play", "aria-label": t("Play") });
-  const cursor = h("input", {
-    type: "range",
-    class: "cursor",
-    min: 0,
-    max: STEPS,
-    step: "any",
-    value: 0,
-    "aria-label": t("Time"),
-    "aria-describedby": "keys",
-    oninput: () => {
-      clock.pause();
-      clock.wind((clock.film?.length ?? 0) * (Number(cursor.value) / STEPS));
-    },
+  const { play, cursor, options, ...others } = partsOf(root);
+  mountActions(others, store, clock);
+  play.addEventListener("click", toggle);
+  cursor.addEventListener("input", () => {
+    clock.pause();
+    clock.wind((clock.film?.length ?? 0) * (Number(cursor.value) / STEPS));
   });
-  const options = h("div", { class: "options" });
-  root.replaceChildren(h("div", { class: "transport-main" }, play, cursor), actions(store, clock), options);
 
   function toggle() {
     if (clock.playing) clock.pause();
@@ -81,41 +70,27 @@ function keep(store, clock) {
   if (store.get().result) store.set({ t: clock.time });
 }
 
-/** Return the row of what is done with the film. */
-function actions(store, clock) {
-  const small = (text, act) => button(text, act, { class: "small" });
+/** Let the row of what is done with the film do it. */
+function mountActions({ replay, previous, next, loop, speed: slider, told }, store, clock) {
   const step = (forward) => () => {
     clock.pause();
     clock.step(forward);
     keep(store, clock);
   };
-  const slider = h("input", {
-    type: "range",
-    class: "speed",
-    id: "film-speed",
-    ...SPEEDS,
-    oninput: () => store.set({ speed: 2 ** Number(slider.value) }),
-  });
-  const told = h("output", { class: "speed-told", for: "film-speed", "aria-live": "off" });
-  const loop = check(t("Loop"), false, (on) => store.set({ loop: on }));
+  replay.addEventListener("click", () => clock.replay());
+  previous.addEventListener("click", step(false));
+  next.addEventListener("click", step(true));
+  loop.addEventListener("change", () => store.set({ loop: loop.checked }));
+  slider.addEventListener("input", () => store.set({ speed: 2 ** Number(slider.value) })); // its steps are powers of two
   const show = () => {
     const { speed, loop: again } = store.get();
     slider.value = Math.log2(speed);
-    loop.querySelector("input").checked = again;
+    loop.checked = again;
     write(told, `×${format(speed, 2)}`);
     put(slider, "aria-valuetext", t("{times} times", { times: format(speed, 2) }));
   };
   store.watch(["speed", "loop"], show);
   show();
-  return h(
-    "div",
-    { class: "actions" },
-    small(t("Replay"), () => clock.replay()),
-    small(t("Previous event"), step(false)),
-    small(t("Next event"), step(true)),
-    loop,
-    h("span", { class: "film-speed" }, h("label", { for: "film-speed", text: t("Speed of the film") }), slider, told),
-  );
 }
 
 const SHOWN = [

@@ -1,7 +1,6 @@
 /** Undo and redo of the drop's numbers: one movement of a slider is one step. */
 
-import { button } from "../dom.js";
-import { t } from "../words/language.js";
+import { partsOf } from "../dom.js";
 import { FIRST_DROP, withExample } from "./store.js";
 
 const KEPT = ["drop", "errors", "until", "notes"]; // of the state, in a step
@@ -9,14 +8,13 @@ const MOST = 200; // steps
 const PAUSE = 700; // ms, after which the same number changes in another step
 const TYPED = "input:not([type]), input[type=text], input[type=search], textarea, [contenteditable]";
 
-/** Build the buttons into `root`, and take the keys that undo and redo on any page. */
+/** Let the buttons in `root` undo and redo, and the keys that do so on any page. */
 export function mountHistory(root, store) {
   const steps = record(store);
-  const anew = () => store.set(withExample(store.get(), FIRST_DROP));
-  const named = (key) => ({ class: "small", "data-key": key, "aria-keyshortcuts": KEYS[key] });
-  const undo = button(t("Undo"), steps.undo, named("undo"));
-  const redo = button(t("Redo"), steps.redo, named("redo"));
-  root.replaceChildren(undo, redo, button(t("Reset"), anew, named("anew")));
+  const { undo, redo, anew } = partsOf(root);
+  undo.addEventListener("click", steps.undo);
+  redo.addEventListener("click", steps.redo);
+  anew.addEventListener("click", () => store.set(withExample(store.get(), FIRST_DROP)));
   const show = () => {
     enable(undo, steps.canUndo(), redo);
     enable(redo, steps.canRedo(), undo);
@@ -30,8 +28,6 @@ export function mountHistory(root, store) {
     steps[act]();
   });
 }
-
-const KEYS = { undo: "Control+Z", redo: "Control+Shift+Z" };
 
 /** Return what keys ask for: "undo", "redo" or null. */
 function asked({ key, ctrlKey, metaKey, shiftKey, altKey }) {

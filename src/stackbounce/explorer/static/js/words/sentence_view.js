@@ -1,6 +1,6 @@
 /** The sentence at the head of the play view, and the same for screen readers. */
 
-import { h, put, write } from "../dom.js";
+import { partsOf, put, write } from "../dom.js";
 import { t } from "./language.js";
 import { called, storyOf } from "./sentence.js";
 import { metres } from "./words.js";
@@ -9,9 +9,7 @@ const SETTLED = 700; // ms without a new result before it is said
 
 /** Write what happened into `root`, and into `live`; before a guess, the question. */
 export function mountSentence(root, live, store) {
-  const lead = h("p", { class: "sentence-lead" });
-  const more = h("p", { class: "sentence-more" });
-  root.append(lead, more);
+  const { lead, more } = partsOf(root);
   let timer = 0;
   const show = () => {
     const { result, until, predict, guess } = store.get();

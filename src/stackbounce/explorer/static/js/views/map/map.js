@@ -1,7 +1,6 @@
 /** The map: how a number of the outcome depends on two numbers of the drop. */
 
 import { scaleOfColors } from "../../plots/colors.js";
-import { h } from "../../dom.js";
 import { sideOf } from "../drawing/axes.js";
 import { DrawingView } from "../drawing/view.js";
 import { t, translated } from "../../words/language.js";
@@ -14,33 +13,29 @@ import { capital } from "../../words/words.js";
 
 /** Build the view into `root`. */
 export function mount(root, store, api, clock) {
-  const field = h("canvas", { class: "map-field", "aria-hidden": "true" });
-  const marks = h("canvas", { class: "map-marks", "aria-hidden": "true" });
   new DrawingView(root, store, clock, {
     name: "map",
-    keys: t("Arrow keys move a crosshair, with Shift in larger steps, Home goes to the present drop. Enter plays the drop there."),
+    role: t("map"),
     here: t("The cross is the present drop."),
     outside: t("The present drop lies outside of this map."),
     sides: 2,
     margin: 0,
     step: 1 / 60,
-    drawing: field,
-    marks,
     form: mapForm((map) => store.set({ map })),
     requests: (tell) => mapper(api, tell),
     sidesOf,
-    draw(_size, { answer: english, settings }) {
+    draw(_size, { answer: english, settings }, { drawing }) {
       const answer = inOurLanguage(english);
       const { label, x, y } = answer;
       const isCount = answer.show.startsWith("collisions");
       return {
-        frame: drawMap(field, answer, settings, scaleOfColors(answer.values, isCount), palette()),
+        frame: drawMap(drawing, answer, settings, scaleOfColors(answer.values, isCount), palette()),
         title: capital(label),
         label: t("Map: {what}; across, {x}; up, {y}", { what: label, x: x.label, y: y.label }),
         summary: summary(answer),
       };
     },
-    mark: (_news, present, pointed) => drawMarks(marks, present, pointed, palette()),
+    mark: (_news, present, pointed, { marks }) => drawMarks(marks, present, pointed, palette()),
     told: toldAt,
   });
 }
