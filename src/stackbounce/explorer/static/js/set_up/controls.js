@@ -1,8 +1,8 @@
 /** The controls: presets, how the tower comes in, and the tower. */
 
-import { h, hide, write } from "../dom.js";
+import { h, write } from "../dom.js";
 import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withValue } from "./drops.js";
-import { NumberField, check, choice } from "./fields.js";
+import { NumberField, check, choice, sayProblem } from "./fields.js";
 import { t, translated, writeTold } from "../words/language.js";
 import { asMeasured, changeLaw, lawMemory } from "./laws.js";
 import { withError } from "../asking/prediction.js";
@@ -158,8 +158,7 @@ function showError(fields, general, error) {
   const detail = error && !error.offline ? error.detail : null;
   const named = detail && fields.filter(({ path }) => mentions(detail, path)).sort((a, b) => b.path.length - a.path.length)[0];
   for (const field of fields) field.fail(field === named ? detail.slice(field.path.length).trim() : null);
-  hide(general, !detail || Boolean(named));
-  writeTold(general, general.hidden ? "" : detail);
+  sayProblem(general, named ? null : detail);
 }
 
 function mentions(detail, path) {

@@ -164,14 +164,10 @@ export function check(text, checked, set, attributes = {}) {
   return h("label", { class: "check" }, box, text);
 }
 
-/** Return `{element, show(message)}`: where an error is said; without one it is hidden. `tell` writes it. */
-export function problemLine(tell = writeTold, attributes = {}) {
-  const element = h("p", { class: "field-error", role: "alert", hidden: true, ...attributes });
-  const show = (message = null) => {
-    tell(element, message ?? "");
-    element.hidden = !message;
-  };
-  return { element, show };
+/** Say an error in its line, which is hidden without one; `tell` writes it. */
+export function sayProblem(line, message = null, tell = writeTold) {
+  tell(line, message ?? "");
+  line.hidden = !message;
 }
 
 /** Return a labelled choice; `groups` is a list of `[title, [[value, text], …]]`, without title for none. */

@@ -1,7 +1,7 @@
 /** The choice of a number that varies, between which ends: for the sides of a map, and for a line. */
 
 import { h, write } from "../../dom.js";
-import { check, choice, problemLine } from "../../set_up/fields.js";
+import { check, choice, sayProblem } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
 import { firstSide, isSide } from "./axes.js";
 import { clean, format, pretty, read, shownUnit } from "../../words/units.js";
@@ -13,13 +13,13 @@ import { capital } from "../../words/words.js";
  */
 export function sideForm(key, title, current, paths, set) {
   const side = current();
-  const problem = problemLine(write, { id: `${key}-error` });
+  const problem = h("p", { class: "field-error", role: "alert", id: `${key}-error`, hidden: true });
   const { unit } = paths.find(({ path }) => path === side.path);
   const shown = shownUnit(unit);
   const change = (patch) => {
     const next = { ...current(), ...patch };
     const message = problemOf(next);
-    problem.show(message);
+    sayProblem(problem, message, write);
     if (!message) set(next);
   };
   const end = (which, label) => {
@@ -28,7 +28,7 @@ export function sideForm(key, title, current, paths, set) {
       inputmode: "decimal",
       class: "field-number",
       "data-key": `${key}-${which}`,
-      "aria-describedby": problem.element.id,
+      "aria-describedby": problem.id,
       value: format(clean(side[which] / shown.size), 6),
       onchange: () => change({ [which]: read(input.value, unit, shown) }),
     });
@@ -54,7 +54,7 @@ export function sideForm(key, title, current, paths, set) {
       h("span", { class: "unit", text: pretty(shown.unit) }),
       check(t("logarithmic"), side.log, (log) => change({ log }), { "data-key": `${key}-log` }),
     ),
-    problem.element,
+    problem,
   );
 }
 

@@ -28,9 +28,8 @@ const EXAMPLES = {
   collisions: "1",
 };
 
-/** Return `{element, add(), fill(measured), values(), haveClocks()}`; `fill` takes texts by quantity, `values` returns them. */
-export function measuredRows(store) {
-  const element = h("ul", { class: "fit-rows" });
+/** Return `{add(), fill(measured), values(), haveClocks()}` of a list; `fill` takes texts by quantity, `values` returns them. */
+export function measuredRows(element, store) {
   const add = (name = null, value = "") => {
     const row = rowOf(store.get().drop, name, value);
     element.append(row);
@@ -50,7 +49,7 @@ export function measuredRows(store) {
     return Object.fromEntries(used);
   };
   const haveClocks = () => [...element.querySelectorAll("select")].some(({ value }) => /^(force|dur|first|last)/.test(value));
-  return { element, add, fill, values, haveClocks };
+  return { add, fill, values, haveClocks };
 }
 
 /** Return a row; a force is a channel of the file. */

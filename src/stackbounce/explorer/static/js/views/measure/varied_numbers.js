@@ -6,9 +6,8 @@ import { t, translated } from "../../words/language.js";
 import { lossOf } from "../../set_up/laws.js";
 import { capital } from "../../words/words.js";
 
-/** Return `{element, offer(laws, drop, paths, haveClocks), chosen(), labels()}`; `labels` are the words of all numbers by path. */
-export function variedNumbers() {
-  const element = h("fieldset", { class: "fit-vary" });
+/** Return `{offer(laws, drop, paths, haveClocks), chosen(), labels()}` of a fieldset; `labels` are the words of all numbers by path. */
+export function variedNumbers(element) {
   let labels = {};
   const offer = (laws, drop, paths, haveClocks) => {
     const own = paths.filter(({ path }) => !path.endsWith("_ratio"));
@@ -22,7 +21,7 @@ export function variedNumbers() {
     if (paths.length === 0) throw new Error(t("Choose at least one parameter to vary."));
     return paths;
   };
-  return { element, offer, chosen, labels: () => labels };
+  return { offer, chosen, labels: () => labels };
 }
 
 /** Return whether a number is usually unknown: losses are; stiffnesses are where times were measured, else only their ratio matters. */

@@ -1,13 +1,11 @@
 /** The choice of one ball of the stack; of several none is guessed. */
 
-import { h } from "../../dom.js";
 import { choice } from "../../set_up/fields.js";
 import { t } from "../../words/language.js";
 import { ballName, capital } from "../../words/words.js";
 
-/** Return `{element, ask(drop), ball()}`; the button that needs the choice is disabled without it. */
-export function whichBall(label, key, button) {
-  const element = h("div");
+/** Offer the choice in an element; returns `{ask(drop), ball()}`. The button that needs the choice is disabled without it. */
+export function whichBall(element, label, key, button) {
   let chosen = "";
   const take = (value) => {
     chosen = value;
@@ -21,5 +19,5 @@ export function whichBall(label, key, button) {
     const entries = isOne ? named : [["", t("Choose a ball")], ...named];
     element.replaceChildren(choice({ label, key, groups: [["", entries]], value: chosen, set: take }));
   };
-  return { element, ask, ball: () => Number(chosen) };
+  return { ask, ball: () => Number(chosen) };
 }
