@@ -37,9 +37,14 @@ export function partsOf(root) {
   return Object.fromEntries([...root.querySelectorAll("[data-part]")].map((part) => [part.dataset.part, part]));
 }
 
-/** Show in an element what the page's HTML has for it in a template, which is used once; returns its parts. */
+/** Return a copy of what a template of the page's HTML holds. */
+export function copyOf(template) {
+  return document.getElementById(template).content.cloneNode(true);
+}
+
+/** Show in an element what a template of the page's HTML holds; returns its parts. */
 export function fillFrom(root, template) {
-  root.replaceChildren(document.getElementById(template).content);
+  root.replaceChildren(copyOf(template));
   return partsOf(root);
 }
 

@@ -197,10 +197,7 @@ class Panel {
       for (const { index, time, impulse } of this.panel.stems ?? []) {
         ctx.strokeStyle = colorOf(this.colors, index);
         ctx.lineWidth = 3 * devicePixelRatio;
-        ctx.beginPath();
-        ctx.moveTo(plot.valToPos(time, "x", true), plot.valToPos(0, "y", true));
-        ctx.lineTo(plot.valToPos(time, "x", true), plot.valToPos(impulse, "y", true));
-        ctx.stroke();
+        ctx.stroke(new Path2D(`M${plot.valToPos(time, "x", true)} ${plot.valToPos(0, "y", true)}V${plot.valToPos(impulse, "y", true)}`));
       }
     });
   }

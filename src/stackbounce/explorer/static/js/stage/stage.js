@@ -1,6 +1,6 @@
 /** The stage: the balls at the clock's time, the textbook's as outlines, and a ruler beside them. */
 
-import { h, put, s, write } from "../dom.js";
+import { copyOf, partsOf, put, s, write } from "../dom.js";
 import { filmOf, pieceAt } from "./film.js";
 import { cameraOf } from "./camera.js";
 import { t } from "../words/language.js";
@@ -24,21 +24,10 @@ let stages = 0;
 /** Draw the stage into `root` and keep it at the clock's time; `onRuler` hears in each frame where the ruler is. */
 export function mountStage(root, store, clock, onRuler = () => null) {
   stages += 1;
-  const light = `light-${stages}`; // a gradient of a hidden stage would not be drawn
-  const svg = s("svg", { class: "scene" }); // an image once it has words, see below
-  const time = s("text", { class: "scene-time", x: 12, y: 22 });
-  const scale = s("text", { class: "scene-note", x: 12, y: 42 });
-  const ground = s("g", { class: "ground" });
-  const ruler = s("g", { class: "ruler" });
-  const trails = s("g", { class: "trails" });
-  const kept = s("g", { class: "kept" });
-  const ghosts = s("g", { class: "ghosts" });
-  const balls = s("g", { class: "balls" });
-  const centre = s("path", { class: "mass-centre", d: "M-9 0H9M0 -9V9M-5 0A5 5 0 0 0 5 0A5 5 0 0 0 -5 0" });
-  svg.append(shading(light), ruler, ground, trails, kept, balls, ghosts, centre, time, scale);
-  root.append(svg);
-  const nothing = h("p", { class: "stage-empty note", text: t("Computing the first drop …") });
-  root.append(nothing);
+  const copy = copyOf("scene-parts");
+  const { svg, light, time, scale, ground, ruler, trails, kept, ghosts, balls, centre, nothing } = partsOf(copy); // svg is an image once it has words
+  light.id = `light-${stages}`; // a gradient of a hidden stage would not be drawn
+  root.append(copy);
   let scene = null;
   let size = null; // of the stage in px; asked for at each change, it would have the whole page laid out
   let stack = ""; // whose balls are drawn
@@ -65,7 +54,7 @@ export function mountStage(root, store, clock, onRuler = () => null) {
     scene.moveRuler = drawRuler(ruler, scene);
     const names = JSON.stringify(result.drop.balls.map((_, ball) => ballName(result.drop, ball)));
     if (names !== stack) {
-      balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball, light)));
+      balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball, light.id)));
       trails.replaceChildren(...result.drop.balls.map((_, ball) => s("line", { class: "trail", "--ball": `var(--ball-${ball % 6})` })));
     }
     if (names !== stack || Boolean(film.ghosts) !== ghosts.hasChildNodes()) ghosts.replaceChildren(...(film.ghosts ? ghostGroup(result.drop) : []));
@@ -175,11 +164,4 @@ function spoken({ result, film }, time, { position, velocity }) {
     return t("{ball} at {place} {unit}, {speed} m/s {way}", { ball: ballName(drop, ball), place: format(place, 3), unit, speed: format(Math.abs(velocity[ball]), 3), way });
   });
   return t("The stack at {time}, from below: {balls}.", { time: moment(time, film.whole), balls: balls.join("; ") });
-}
-
-function shading(id) {
-  const stop = (offset, opacity) =>
-    s("stop", { offset, "stop-color": "#fff", "stop-opacity": opacity });
-  const light = s("radialGradient", { id, cx: 0.36, cy: 0.3, r: 0.75 }, stop(0, 0.45), stop(0.6, 0.06), stop(1, 0));
-  return s("defs", {}, light);
 }

@@ -6,27 +6,17 @@ import { t } from "../../words/language.js";
 import { pointed } from "../../words/units.js";
 import { ballName, capital, contactName } from "../../words/words.js";
 
-const BY_BALL = {
-  rebound_ratios: t("rebound speed over v₀"),
-  rebound_speeds: t("rebound speed"),
-  rebound_heights: t("rebound height"),
-};
-const BY_CONTACT = {
-  durations: t("contact time"),
-  first_touch: t("first touch"),
-  last_release: t("last release"),
-  collisions: t("collisions"),
-};
-const EXAMPLES = {
-  rebound_ratios: "1.64 ± 0.02",
-  rebound_speeds: "5.8 ± 0.1 m/s",
-  rebound_heights: "1.72 ± 0.03 m",
-  durations: "30.0 ± 0.2 ms",
-  first_touch: "1.2 ± 0.1 ms",
-  last_release: "34.0 ± 0.2 ms",
-  energy_retained: "0.85 ± 0.02",
-  collisions: "1",
-};
+/** What can be measured: its name, what names the ball or contact that it is of, its words, and how a value is typed. */
+const QUANTITIES = [
+  ["rebound_ratios", ballName, t("rebound speed over v₀"), "1.64 ± 0.02"],
+  ["rebound_speeds", ballName, t("rebound speed"), "5.8 ± 0.1 m/s"],
+  ["rebound_heights", ballName, t("rebound height"), "1.72 ± 0.03 m"],
+  ["durations", contactName, t("contact time"), "30.0 ± 0.2 ms"],
+  ["first_touch", contactName, t("first touch"), "1.2 ± 0.1 ms"],
+  ["last_release", contactName, t("last release"), "34.0 ± 0.2 ms"],
+  ["collisions", contactName, t("collisions"), "1"],
+  ["energy_retained", null, t("Kinetic energy retained"), "0.85 ± 0.02"],
+];
 
 /** Return `{add(), fill(measured), values(), haveClocks()}` of a list; `fill` takes texts by quantity, `values` returns them. */
 export function measuredRows(element, store) {
@@ -57,7 +47,7 @@ function rowOf(drop, name, value) {
   const isChannel = Boolean(name?.startsWith("force."));
   const names = isChannel ? forces(drop) : quantities(drop);
   const own = name ?? names[0][0];
-  const example = (quantity) => EXAMPLES[quantity.split(".")[0]];
+  const example = (quantity) => QUANTITIES.find(([known]) => known === quantity.split(".")[0])?.[3];
   const text = h("input", {
     type: "text",
     class: "fit-value",
@@ -88,9 +78,7 @@ function forces(drop) {
 }
 
 function quantities(drop) {
-  const each = (names, placeOf) =>
-    Object.entries(names).flatMap(([name, number]) =>
-      drop.balls.map((_, i) => [`${name}.${i}`, capital(t("{number} of {place}", { number, place: placeOf(drop, i) }))]),
-    );
-  return [...each(BY_BALL, ballName), ...each(BY_CONTACT, contactName), ["energy_retained", t("Kinetic energy retained")]];
+  return QUANTITIES.flatMap(([name, placeOf, number]) =>
+    placeOf ? drop.balls.map((_, i) => [`${name}.${i}`, capital(t("{number} of {place}", { number, place: placeOf(drop, i) }))]) : [[name, number]],
+  );
 }
