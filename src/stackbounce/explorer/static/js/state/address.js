@@ -41,11 +41,8 @@ export function read(fragment) {
   const settings = {};
   const errors = {};
   const unknown = [];
-  for (const pair of fragment.replace(/^#/, "").split("&")) {
-    const cut = pair.indexOf("=");
-    if (cut < 1) continue;
-    const key = decode(pair.slice(0, cut));
-    const text = decode(pair.slice(cut + 1));
+  const pairs = fragment.replace(/^#/, "").split("&").filter((pair) => pair.indexOf("=") > 0);
+  for (const [key, text] of new URLSearchParams(pairs.join("&"))) {
     const parts = key.split(".");
     const taken = DROP.includes(parts[0])
       ? insert(drop, parts, text)
@@ -199,12 +196,4 @@ function number(text) {
 
 function escape(text) {
   return encodeURIComponent(text).replaceAll("%20", "+").replaceAll("%2F", "/");
-}
-
-function decode(text) {
-  try {
-    return decodeURIComponent(text.replaceAll("+", " "));
-  } catch {
-    return text;
-  }
 }
