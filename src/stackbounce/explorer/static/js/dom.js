@@ -54,11 +54,6 @@ export function put(element, name, value) {
   if (element.getAttribute(name) !== text) element.setAttribute(name, text);
 }
 
-/** Hide an element or show it, only where that changes. */
-export function hide(element, hidden) {
-  if (element.hidden !== hidden) element.hidden = hidden;
-}
-
 /** Set a text only where it changes. */
 export function write(element, text) {
   if (element.textContent === text) return;

@@ -5,7 +5,7 @@ import * as api from "./asking/api.js";
 import { mountLooks } from "./stage/looks.js";
 import { Clock } from "./stage/clock.js";
 import { mountControls } from "./set_up/controls.js";
-import { button, h, hide, write } from "./dom.js";
+import { button, h, write } from "./dom.js";
 import { takeFiles } from "./views/measure/dropped.js";
 import { mountEmbed } from "./embed.js";
 import { direct } from "./stage/director.js";
@@ -161,7 +161,7 @@ function showBanner() {
     runner.again();
   });
   const show = ({ error, busy }) => {
-    hide(place("banner"), !error?.offline);
+    place("banner").hidden = !error?.offline;
     writeTold(text, error?.offline ? error.detail : "");
     document.body.classList.toggle("busy", busy);
   };

@@ -4,7 +4,7 @@ import uPlot from "../../vendor/uplot/uPlot.esm.js";
 import { between, locate } from "../stage/clock.js";
 import { chartOptions, clipped, drawDots, legendItem } from "./chart.js";
 import { describePanel, panels } from "./curves.js";
-import { h, hide, write } from "../dom.js";
+import { h, write } from "../dom.js";
 import { extentOf } from "../extent.js";
 import { Pace } from "../pace.js";
 import { colorOf, onRepaint, palette } from "./palette.js";
@@ -38,7 +38,7 @@ export function mountPlots(root, store, clock) {
       root.replaceChildren();
       shown = wanted.map((panel) => new Panel(root, panel, colors, clock, zoom));
     }
-    hide(zoom.element, false);
+    zoom.element.hidden = false;
     due = false;
     pace.watch();
     clock.touch();

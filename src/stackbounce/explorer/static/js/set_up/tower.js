@@ -1,7 +1,7 @@
 /** The tower: cards of the balls, with cards of the contacts between them. */
 
 import { gapsOf, incidenceOf, valueAt, withBall, withSwap, withValue, withoutBall } from "./drops.js";
-import { button, h, hide, write } from "../dom.js";
+import { button, h, write } from "../dom.js";
 import { NumberField, choice } from "./fields.js";
 import { t, translated } from "../words/language.js";
 import { firstContact } from "./laws.js";
@@ -76,7 +76,7 @@ function namer(select, note, drop, ball, { catalogue }) {
     const known = isOfCatalogue(catalogue, { name: own.name, mass });
     select.value = known ? own.name : OWN;
     write(select.options[0], known ? t("another ball") : entry ? t("{ball}, changed", { ball: translated(own.name) }) : ballName(drop, ball));
-    hide(note, known || !entry);
+    note.hidden = known || !entry;
     if (note.hidden) return;
     const values = { ball: translated(own.name), mass: format(entry.mass * 1e3) };
     write(note, t("The {ball} of the catalogue has {mass} g. Stiffnesses do not follow the mass.", values));

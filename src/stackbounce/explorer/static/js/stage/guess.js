@@ -1,6 +1,6 @@
 /** "Predict first": a mark on the ruler that is dragged to where the highest ball is thought to rise, then let go. */
 
-import { hide, partsOf, put, write } from "../dom.js";
+import { partsOf, put, write } from "../dom.js";
 import { t } from "../words/language.js";
 import { metres } from "../words/words.js";
 
@@ -57,8 +57,8 @@ export function mountGuess(root, store, clock) {
     put(svg, "class", isAsked() ? "guess" : "guess hidden");
     put(mark, "class", isOpen() ? "guess-mark" : "guess-mark fixed");
     put(mark, "tabindex", isOpen() ? 0 : -1);
-    hide(go, !isOpen());
-    hide(again, !isAsked() || store.get().guess === null);
+    go.hidden = !isOpen();
+    again.hidden = !isAsked() || store.get().guess === null;
     document.body.classList.toggle("guessing", isAsked() && store.get().guess === null);
     follow();
   };

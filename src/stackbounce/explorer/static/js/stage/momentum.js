@@ -1,6 +1,6 @@
 /** Bars of momentum below the stage: each ball's and their sum, now, before and after the impact. */
 
-import { hide, partsOf, put, s, write } from "../dom.js";
+import { partsOf, put, s, write } from "../dom.js";
 import { t } from "../words/language.js";
 import { fixed } from "../words/units.js";
 import { shortBall } from "../words/words.js";
@@ -17,7 +17,7 @@ export function mountMomentum(root, store, clock) {
 
   const build = () => {
     const { result, momentum } = store.get();
-    hide(root, !momentum || !result);
+    root.hidden = !momentum || !result;
     if (root.hidden || !clock.film) return;
     if (width < NAMES + VALUES) return;
     bars = barsOf(result.drop, clock.film, width);

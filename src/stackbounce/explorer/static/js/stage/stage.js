@@ -31,7 +31,6 @@ export function mountStage(root, store, clock, onRuler = () => null) {
   let scene = null;
   let size = null; // of the stage in px; asked for at each change, it would have the whole page laid out
   let stack = ""; // whose balls are drawn
-  let soil = ""; // where the ground is drawn
 
   const build = () => {
     const { result, until, magnify, kept: other, predict } = store.get();
@@ -48,9 +47,7 @@ export function mountStage(root, store, clock, onRuler = () => null) {
     const [middle, beside] = also ? PAIR.map((part) => part * width) : [MIDDLE * width];
     const fastest = Math.max(1e-9, ...result.frames.velocity.flat().map(Math.abs));
     scene = { result, film, camera, fastest, floor: height - FOOT, middle, also, beside, width };
-    const where = `${Boolean(film.floor)} ${width} ${scene.floor}`;
-    if (where !== soil) drawGround(ground, scene, width);
-    soil = where;
+    drawGround(ground, scene, width);
     scene.moveRuler = drawRuler(ruler, scene);
     const names = JSON.stringify(result.drop.balls.map((_, ball) => ballName(result.drop, ball)));
     if (names !== stack) {

@@ -130,7 +130,8 @@ const FIRST_SHOWN = Object.fromEntries(
   ["view", "until", ...SWITCHES, "guess", "speed", "magnify", "t", "notes", ...Object.keys(SETTINGS)].map((name) => [name, FIRST[name]]),
 );
 
-function flatten(path, value, pairs) {
+/** List what a value holds as `[path, member]`; `pairs` takes them. */
+export function flatten(path, value, pairs) {
   if (value === null || value === undefined) return;
   if (typeof value !== "object") {
     pairs.push([path, value]);
@@ -174,19 +175,15 @@ function insertError(errors, parts, text) {
 /** Take one setting of the page; tell whether it is one. */
 function readOne(patch, key, text) {
   const value = number(text);
-  const finite = typeof value === "number" && Number.isFinite(value);
-  const takes = {
-    view: () => VIEWS.includes(text) && [text],
-    lang: () => isLanguage(text) && [text],
-    lesson: () => LESSON.test(text) && [text],
-    t: () => finite && [value],
-  };
-  for (const name of SWITCHES) takes[name] = () => [text !== "0"];
-  for (const name of ["until", "speed", "magnify"]) takes[name] = () => finite && value > 0 && [value];
-  if (GONE.includes(key)) return true;
-  const taken = Object.hasOwn(takes, key) && takes[key]();
-  if (taken) [patch[key]] = taken;
-  return Boolean(taken);
+  const finite = Number.isFinite(value);
+  if (SWITCHES.includes(key)) patch[key] = text !== "0";
+  else if (key === "view" && VIEWS.includes(text)) patch.view = text;
+  else if (key === "lang" && isLanguage(text)) patch.lang = text;
+  else if (key === "lesson" && LESSON.test(text)) patch.lesson = text;
+  else if (key === "t" && finite) patch.t = value;
+  else if (["until", "speed", "magnify"].includes(key) && finite && value > 0) patch[key] = value;
+  else return GONE.includes(key);
+  return true;
 }
 
 function number(text) {

@@ -1,5 +1,6 @@
 /** Undo and redo of the drop's numbers: one movement of a slider is one step. */
 
+import { flatten } from "./address.js";
 import { partsOf } from "../dom.js";
 import { FIRST_DROP, withExample } from "./store.js";
 
@@ -114,11 +115,7 @@ function changedPaths(state, before) {
 }
 
 function numbers({ drop, errors, until }) {
-  const found = new Map();
-  const visit = (path, value) => {
-    if (value === null || typeof value !== "object") found.set(path, value);
-    else for (const [key, member] of Object.entries(value)) visit(`${path}.${key}`, member);
-  };
-  visit("", { drop, errors, until });
-  return found;
+  const pairs = [];
+  flatten("", { drop, errors, until }, pairs);
+  return new Map(pairs);
 }

@@ -162,10 +162,9 @@ function inWords(text, drop) {
     .replaceAll("_", " ");
 }
 
-const HEADS = () => [t("Contact"), t("from ms"), t("to ms"), t("for ms"), t("peak force N"), t("compression mm"), t("impulse N s")];
-
 /** The table of the contact intervals. */
 function intervalTable({ drop, intervals }) {
+  const heads = [t("Contact"), t("from ms"), t("to ms"), t("for ms"), t("peak force N"), t("compression mm"), t("impulse N s")];
   const ms = (time) => (time === null ? "–" : fixed(time * 1e3, 3));
   const rows = intervals.slice(0, 200).map((interval) =>
     row(
@@ -184,7 +183,7 @@ function intervalTable({ drop, intervals }) {
     "table",
     {},
     h("caption", { text: `${t("Each time a contact was closed.")}${more}` }),
-    h("thead", {}, columns(...HEADS())),
+    h("thead", {}, columns(...heads)),
     h("tbody", {}, rows),
   );
 }

@@ -2,7 +2,7 @@
 
 import { partsOf, write } from "../../dom.js";
 import { sayProblem } from "../../set_up/fields.js";
-import { describeFit, describeVerdict } from "./fit_words.js";
+import { describeFit, describeVerdict } from "./found.js";
 import { t } from "../../words/language.js";
 import { converted, lossOf } from "../../set_up/laws.js";
 import { measuredRows, quantityNames } from "./measured_rows.js";
