@@ -56,8 +56,5 @@ export function put(element, name, value) {
 
 /** Set a text only where it changes. */
 export function write(element, text) {
-  if (element.textContent === text) return;
-  const { firstChild: only } = element;
-  if (only?.nodeType === Node.TEXT_NODE && !only.nextSibling) only.data = text;
-  else element.textContent = text;
+  if (element.textContent !== text) element.textContent = text;
 }

@@ -147,12 +147,6 @@ function scaleOf(low, high) {
   };
 }
 
-/** Return a labelled box to tick; `set` hears whether it is. */
-export function check(text, checked, set, attributes = {}) {
-  const box = h("input", { type: "checkbox", checked, onchange: (event) => set(event.target.checked), ...attributes });
-  return h("label", { class: "check" }, box, text);
-}
-
 /** Say an error in its line, which is hidden without one; `tell` writes it. */
 export function sayProblem(line, message = null, tell = writeTold) {
   tell(line, message ?? "");

@@ -12,14 +12,14 @@ const STILL = 0.005; // m/s, the speed below which none is written
 const HEAD = 58; // px from the top of the stage, below its title
 const LETTERS = 16; // of a name
 
-/** Return a group that shows a ball; `light` is the id of its shading. */
-export function ballGroup(drop, ball, light) {
+/** Return a group that shows a ball. */
+export function ballGroup(drop, ball) {
   const group = s("g", { class: "ball", "data-ball": ball, "--ball": `var(--ball-${ball % 6})` });
   const name = s("text", { class: "ball-name", "text-anchor": "end", y: 4, text: shortened(ballName(drop, ball)) });
   group.append(
     s("path", { class: "ball-body" }),
     patternOf(group, drop.balls[ball]),
-    s("path", { class: "ball-light", fill: `url(#${light})` }),
+    s("path", { class: "ball-light", fill: "url(#light)" }),
     s("path", { class: "ball-arrow" }),
     name,
     s("text", { class: "ball-speed", y: 4 }),

@@ -19,14 +19,10 @@ const GUESSED = 5; // times the drop height that can be guessed, at least
 const WORDY = 320; // px, from which there is room for a whole sentence
 const NEARLY = 1e-9; // of the film's time: at an event
 
-let stages = 0;
-
 /** Draw the stage into `root` and keep it at the clock's time; `onRuler` hears in each frame where the ruler is. */
 export function mountStage(root, store, clock, onRuler = () => null) {
-  stages += 1;
   const copy = copyOf("scene-parts");
-  const { svg, light, time, scale, ground, ruler, trails, kept, ghosts, balls, centre, nothing } = partsOf(copy); // svg is an image once it has words
-  light.id = `light-${stages}`; // a gradient of a hidden stage would not be drawn
+  const { svg, time, scale, ground, ruler, trails, kept, ghosts, balls, centre, nothing } = partsOf(copy); // svg is an image once it has words
   root.append(copy);
   let scene = null;
   let size = null; // of the stage in px; asked for at each change, it would have the whole page laid out
@@ -51,7 +47,7 @@ export function mountStage(root, store, clock, onRuler = () => null) {
     scene.moveRuler = drawRuler(ruler, scene);
     const names = JSON.stringify(result.drop.balls.map((_, ball) => ballName(result.drop, ball)));
     if (names !== stack) {
-      balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball, light.id)));
+      balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball)));
       trails.replaceChildren(...result.drop.balls.map((_, ball) => s("line", { class: "trail", "--ball": `var(--ball-${ball % 6})` })));
     }
     if (names !== stack || Boolean(film.ghosts) !== ghosts.hasChildNodes()) ghosts.replaceChildren(...(film.ghosts ? ghostGroup(result.drop) : []));

@@ -1,8 +1,7 @@
 /** Playback: play, replay, events, the film's speed, and what the stage shows. */
 
-import { button, h, partsOf, put, write } from "../dom.js";
+import { partsOf, put, write } from "../dom.js";
 import { GRAVITY } from "../set_up/drops.js";
-import { check, choice } from "../set_up/fields.js";
 import { t } from "../words/language.js";
 import { format } from "../words/units.js";
 import { moment } from "../words/words.js";
@@ -13,8 +12,9 @@ const STRIDE = 1 / 200; // of the film, that an arrow key moves the cursor; ten 
 
 /** Let the transport in `root` drive the clock, and follow it. */
 export function mountTransport(root, store, clock) {
-  const { play, cursor, options, ...others } = partsOf(root);
+  const { play, cursor, ...others } = partsOf(root);
   mountActions(others, store, clock);
+  mountSwitches(root, store);
   play.addEventListener("click", toggle);
   cursor.addEventListener("input", () => {
     clock.pause();
@@ -47,7 +47,6 @@ export function mountTransport(root, store, clock) {
     act();
   });
 
-  const showOptions = () => options.replaceChildren(...switches(store));
   let played = false;
   clock.subscribe(() => {
     cursor.value = (STEPS * clock.reel) / (clock.film?.length || 1);
@@ -60,9 +59,6 @@ export function mountTransport(root, store, clock) {
   cursor.addEventListener("change", () => keep(store, clock));
   addEventListener("pointerup", () => !clock.playing && keep(store, clock));
   addEventListener("keyup", () => !clock.playing && keep(store, clock));
-  store.watch(["until", "magnify", "overlays", "predict", "kept", ...SHOWN.map(([name]) => name)], showOptions);
-  store.watch(["result"], ({ result }, before) => Boolean(result?.separate) !== Boolean(before.result?.separate) && showOptions());
-  showOptions();
 }
 
 /** Keep the cursor's place in the state, and so in the address. */
@@ -93,35 +89,30 @@ function mountActions({ replay, previous, next, loop, speed: slider, told }, sto
   show();
 }
 
-const SHOWN = [
-  ["ghosts", t("Textbook’s balls")],
-  ["arrows", t("Velocities")],
-  ["momentum", t("Momentum")],
-  ["centre", t("Centre of mass")],
-  ["sound", t("Sound")],
-];
-
-/** Return the row of what the stage shows. */
-function switches(store) {
-  const { magnify, until, result, overlays, predict, kept } = store.get();
-  const hasTextbook = !result || result.separate;
-  const parts = SHOWN.filter(([name]) => name !== "ghosts" || hasTextbook).map(([name, text]) =>
-    check(text, store.get()[name], (on) => store.set({ [name]: on })),
-  );
-  parts.push(check(t("Whole drop"), until !== null, (on) => store.set(on ? whole(store.get()) : alone(store.get()))));
-  if (until === null) {
-    const sizes = [...new Set(magnify === null ? MAGNIFY : [...MAGNIFY, magnify])].sort((a, b) => a - b).map((times) => [times, `×${format(times, 3)}`]);
-    const set = (value) => store.set({ magnify: value === "" ? null : Number(value) });
-    parts.push(
-      check(t("Predict first"), predict, (on) => store.set({ predict: on, guess: null })),
-      button(kept ? t("Let go what was kept") : t("Keep this one to compare"), () => store.set({ kept: kept ? null : store.get().result }), { class: "small" }),
-      choice({ label: t("Movement"), groups: [["", [["", t("auto")], ...sizes]]], value: magnify ?? "", set }),
-    );
-  }
-  if (until === null && overlays.some(({ what }) => what === "position")) {
-    parts.push(h("p", { class: "note", text: t("The measured track is of the whole drop: show that to see it.") }));
-  }
-  return parts;
+/** Let the row of what the stage shows choose it, and follow the state. */
+function mountSwitches(root, store) {
+  const { textbook, wholeDrop, predictFirst, predict: first, keeper, movement, magnifier, track } = partsOf(root);
+  const boxes = [...root.querySelectorAll("[data-switch]")];
+  for (const box of boxes) box.addEventListener("change", () => store.set({ [box.dataset.switch]: box.checked }));
+  wholeDrop.addEventListener("change", () => store.set(wholeDrop.checked ? whole(store.get()) : alone(store.get())));
+  first.addEventListener("change", () => store.set({ predict: first.checked, guess: null }));
+  keeper.addEventListener("click", () => store.set({ kept: store.get().kept ? null : store.get().result }));
+  magnifier.addEventListener("change", () => store.set({ magnify: magnifier.value === "" ? null : Number(magnifier.value) }));
+  const show = (state) => {
+    const { magnify, until, result, overlays, predict, kept } = state;
+    for (const box of boxes) box.checked = state[box.dataset.switch];
+    textbook.hidden = Boolean(result) && !result.separate;
+    wholeDrop.checked = until !== null;
+    first.checked = predict;
+    for (const part of [predictFirst, keeper, movement]) part.hidden = until !== null;
+    write(keeper, kept ? t("Let go what was kept") : t("Keep this one to compare"));
+    const sizes = [...new Set(magnify === null ? MAGNIFY : [...MAGNIFY, magnify])].sort((a, b) => a - b);
+    magnifier.replaceChildren(new Option(t("auto"), ""), ...sizes.map((times) => new Option(`×${format(times, 3)}`, times)));
+    magnifier.value = magnify ?? "";
+    track.hidden = until !== null || !overlays.some(({ what }) => what === "position");
+  };
+  store.watch(["until", "magnify", "overlays", "predict", "kept", "result", ...boxes.map(({ dataset }) => dataset.switch)], show);
+  show(store.get());
 }
 
 let before = 0; // m/s², gravity during the impact, when a whole drop was asked for

@@ -3,8 +3,7 @@
 import { h } from "../dom.js";
 import { GRAVITY, speedOf } from "../set_up/drops.js";
 import { t, translated } from "../words/language.js";
-import { withSpread } from "../words/quantity.js";
-import { fixed, format } from "../words/units.js";
+import { fixed, format, withSpread } from "../words/units.js";
 import { ballName, capital, contactName, count, highest, percent, setUp, shortContact } from "../words/words.js";
 
 /** Write the numbers into `root`, and the contact intervals into `table`. */

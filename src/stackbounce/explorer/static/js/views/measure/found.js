@@ -3,8 +3,7 @@
 import { button, h } from "../../dom.js";
 import { withError } from "../../asking/prediction.js";
 import { t, translated } from "../../words/language.js";
-import { formatMeasured } from "../../words/quantity.js";
-import { fixed, format } from "../../words/units.js";
+import { fixed, format, formatMeasured } from "../../words/units.js";
 import { capital } from "../../words/words.js";
 
 /** Return the kind and format of a file, the evidence for them, and a doubt if there is one. */

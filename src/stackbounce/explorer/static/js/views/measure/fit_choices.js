@@ -1,8 +1,9 @@
-/** The measured values that a drop is fitted to: a row each, of a quantity and its value. */
+/** The choices of a fit: the measured values that a drop is fitted to, a row each, and the numbers of the drop that it varies. */
 
 import { button, h } from "../../dom.js";
 import { choice } from "../../set_up/fields.js";
-import { t } from "../../words/language.js";
+import { lossOf } from "../../set_up/laws.js";
+import { t, translated } from "../../words/language.js";
 import { pointed } from "../../words/units.js";
 import { ballName, capital, contactName } from "../../words/words.js";
 
@@ -81,4 +82,34 @@ function quantities(drop) {
   return QUANTITIES.flatMap(([name, placeOf, number]) =>
     placeOf ? drop.balls.map((_, i) => [`${name}.${i}`, capital(t("{number} of {place}", { number, place: placeOf(drop, i) }))]) : [[name, number]],
   );
+}
+
+/** Return `{offer(laws, drop, paths, haveClocks), chosen(), labels()}` of a fieldset; `labels` are the words of all numbers by path. */
+export function variedNumbers(element) {
+  let labels = {};
+  const offer = (laws, drop, paths, haveClocks) => {
+    const own = paths.filter(({ path }) => !path.endsWith("_ratio"));
+    labels = { touch: t("First touch on the record’s clock") };
+    for (const { path, label } of own) labels[path] = capital(translated(label));
+    const box = ({ path }) => {
+      const checked = isLikely(laws, path, drop, haveClocks);
+      return h("label", { class: "check" }, h("input", { type: "checkbox", name: "vary", value: path, checked }), labels[path]);
+    };
+    element.replaceChildren(h("legend", { text: t("Parameters to vary") }), ...own.map(box));
+  };
+  const chosen = () => {
+    const paths = [...element.querySelectorAll("input:checked")].map(({ value }) => value);
+    if (paths.length === 0) throw new Error(t("Choose at least one parameter to vary."));
+    return paths;
+  };
+  return { offer, chosen, labels: () => labels };
+}
+
+/** Return whether a number is usually unknown: losses are; stiffnesses are where times were measured, else only their ratio matters. */
+function isLikely(laws, path, drop, haveClocks) {
+  const [part, index, field] = path.split(".");
+  if (part !== "contacts") return false;
+  if (field === lossOf(laws, drop.contacts[index])) return true;
+  const isLossless = !drop.contacts.some((contact) => lossOf(laws, contact));
+  return field === "stiffness" && (haveClocks || (isLossless && Number(index) === drop.contacts.length - 1));
 }
