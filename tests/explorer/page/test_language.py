@@ -178,7 +178,7 @@ def test_a_comma_is_decimal_where_it_is_so(asked, code):
         ["words/units", "format", 1234.5, 5],
         ["words/units", "format", 1.25e-7, 3],
         ["words/units", "fixed", -0.5, 2],
-        ["words/quantity", "formatMeasured", 0.03, 0.00006, "s"],
+        ["words/units", "formatMeasured", 0.03, 0.00006, "s"],
         ["words/units", "splitError", "63,5 ± 0,5 cm"],
         ["words/units", "splitError", "(63,5 ± 0,5) cm"],
         ["words/units", "splitError", "63,5 ± 0,5) cm"],

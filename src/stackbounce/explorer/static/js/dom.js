@@ -48,6 +48,16 @@ export function fillFrom(root, template) {
   return partsOf(root);
 }
 
+/** Let an element be dragged where `may` returns true; `move` hears each event, the first one too. */
+export function letDrag(element, may, move) {
+  element.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0 || !may()) return;
+    element.setPointerCapture(event.pointerId);
+    move(event);
+  });
+  element.addEventListener("pointermove", (event) => element.hasPointerCapture(event.pointerId) && move(event));
+}
+
 /** Set an attribute only where it changes, so that a frame costs no needless work. */
 export function put(element, name, value) {
   const text = String(value);

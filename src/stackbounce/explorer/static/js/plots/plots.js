@@ -4,7 +4,7 @@ import uPlot from "../../vendor/uplot/uPlot.esm.js";
 import { between, locate } from "../stage/clock.js";
 import { chartOptions, clipped, drawDots, legendItem } from "./chart.js";
 import { describePanel, panels } from "./curves.js";
-import { h, write } from "../dom.js";
+import { h, letDrag, write } from "../dom.js";
 import { extentOf } from "../extent.js";
 import { Pace } from "../pace.js";
 import { colorOf, onRepaint, palette } from "./palette.js";
@@ -81,7 +81,7 @@ class Panel {
       h("figure", { class: "plot" }, h("figcaption", {}, title, h("ul", { class: "legend" }, items)), this.host),
     );
     this.line = h("div", { class: "cursor-line" });
-    this.dots = panel.lines.map((line) => this.dot(line));
+    this.dots = panel.lines.map((line) => h("div", { class: "cursor-dot", hidden: !line.values, "--ball": this.color(line) }));
     this.panel = panel;
     this.plot = new uPlot(this.options(), this.data(), this.host);
     this.plot.over.append(this.line, ...this.dots);
@@ -149,10 +149,6 @@ class Panel {
   legendItem(line, value) {
     const look = line.dash ? (line.dash[0] > line.dash[1] ? "dashed" : "dotted") : "";
     return legendItem(this.color(line), look, h("span", { class: "legend-label", text: line.label }), value);
-  }
-
-  dot(line) {
-    return h("div", { class: "cursor-dot", hidden: !line.values, "--ball": this.color(line) });
   }
 
   options() {
@@ -231,17 +227,8 @@ class Panel {
 /** Let the cursor be dragged on a plot. */
 function grab(plot, clock, scale) {
   const { over } = plot;
-  const move = (event) => {
-    const left = event.clientX - over.getBoundingClientRect().left;
-    clock.seek(plot.posToVal(left, "x") / scale());
-  };
-  over.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    over.setPointerCapture(event.pointerId);
+  letDrag(over, () => true, (event) => {
     clock.pause();
-    move(event);
-  });
-  over.addEventListener("pointermove", (event) => {
-    if (over.hasPointerCapture(event.pointerId)) move(event);
+    clock.seek(plot.posToVal(event.clientX - over.getBoundingClientRect().left, "x") / scale());
   });
 }

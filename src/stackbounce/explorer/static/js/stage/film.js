@@ -88,7 +88,7 @@ function partsOf({ intervals }, { fall, last, leap }) {
     return isClosed ? slow * (to - from) : Math.min(slow * (to - from), most);
   };
   const length = (slow) => spans.reduce((sum, span) => sum + lasts(span, slow), 0);
-  const slow = closed > 0 ? inTwoDigits(Math.max(bisected((times) => length(times) < IMPACT, 0, IMPACT / closed), 1)) : INSTANT;
+  const slow = closed > 0 ? Number(Math.max(bisected((times) => length(times) < IMPACT, 0, IMPACT / closed), 1).toPrecision(2)) : INSTANT;
   const before = Math.min(NEAR / slow, 0.5 * fall);
   const after = Math.min(NEAR / slow, 0.5 * leap);
   const parts = [
@@ -119,10 +119,6 @@ function contactSpans(intervals, last) {
 
 function total(spans) {
   return spans.reduce((sum, { from, to }) => sum + to - from, 0);
-}
-
-function inTwoDigits(value) {
-  return Number(value.toPrecision(2));
 }
 
 /** Return what happens, by time: begin, touch, parting, top, end. */

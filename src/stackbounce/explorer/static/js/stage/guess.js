@@ -1,6 +1,6 @@
 /** "Predict first": a mark on the ruler that is dragged to where the highest ball is thought to rise, then let go. */
 
-import { partsOf, put, write } from "../dom.js";
+import { letDrag, partsOf, put, write } from "../dom.js";
 import { t } from "../words/language.js";
 import { metres } from "../words/words.js";
 
@@ -62,14 +62,8 @@ export function mountGuess(root, store, clock) {
     document.body.classList.toggle("guessing", isAsked() && store.get().guess === null);
     follow();
   };
-  const drag = (event) => set((place.zero - (event.clientY - svg.getBoundingClientRect().top)) / place.scale);
-  mark.addEventListener("pointerdown", (event) => {
-    if (!isOpen() || event.button !== 0) return;
-    mark.setPointerCapture(event.pointerId);
-    drag(event);
-  });
+  letDrag(mark, isOpen, (event) => set((place.zero - (event.clientY - svg.getBoundingClientRect().top)) / place.scale));
   mark.addEventListener("touchstart", (event) => isOpen() && event.preventDefault(), { passive: false }); // the page stays
-  mark.addEventListener("pointermove", (event) => mark.hasPointerCapture(event.pointerId) && drag(event));
   mark.addEventListener("keydown", (event) => {
     const moves = { ArrowUp: STEP, ArrowRight: STEP, ArrowDown: -STEP, ArrowLeft: -STEP, PageUp: 5 * STEP, PageDown: -5 * STEP };
     if (!isOpen() || !moves[event.key]) return;

@@ -21,14 +21,12 @@ const REST = 300; // ms without a change
 /** Return a state as the text of a fragment: a drop by the paths of its numbers, as sweeps name them. */
 export function write(state) {
   const pairs = [["view", state.view]];
-  if (state.lang !== FIRST.lang) pairs.push(["lang", state.lang]);
-  if (state.lesson !== null) pairs.push(["lesson", state.lesson]);
+  for (const name of ["lang", "lesson"]) if (state[name] !== FIRST[name]) pairs.push([name, state[name]]);
   flatten("", state.drop, pairs);
   for (const [path, error] of Object.entries(state.errors)) pairs.push([`error.${path}`, error]);
   if (state.until !== FIRST.until) pairs.push(["until", state.until]);
   for (const name of SWITCHES) if (state[name] !== FIRST[name]) pairs.push([name, Number(state[name])]);
-  if (state.speed !== FIRST.speed) pairs.push(["speed", state.speed]);
-  if (state.magnify !== FIRST.magnify) pairs.push(["magnify", state.magnify]);
+  for (const name of ["speed", "magnify"]) if (state[name] !== FIRST[name]) pairs.push([name, state[name]]);
   if (state.t !== null) pairs.push(["t", Number(state.t.toPrecision(6))]);
   for (const view of Object.keys(SETTINGS)) if (state[view]) flatten(`${view}.`, state[view], pairs);
   return pairs.map(([key, value]) => `${key}=${escape(String(value))}`).join("&");

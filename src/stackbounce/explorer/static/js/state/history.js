@@ -11,8 +11,8 @@ const TYPED = "input:not([type]), input[type=text], input[type=search], textarea
 
 /** Let the buttons in `root` undo and redo, and the keys that do so on any page. */
 export function mountHistory(root, store) {
-  const steps = record(store);
   const { undo, redo, anew } = partsOf(root);
+  const steps = record(store, () => show());
   undo.addEventListener("click", steps.undo);
   redo.addEventListener("click", steps.redo);
   anew.addEventListener("click", () => store.set(withExample(store.get(), FIRST_DROP)));
@@ -20,7 +20,6 @@ export function mountHistory(root, store) {
     enable(undo, steps.canUndo(), redo);
     enable(redo, steps.canRedo(), undo);
   };
-  steps.subscribe(show);
   show();
   addEventListener("keydown", (event) => {
     const act = !event.defaultPrevented && !event.target.closest?.(TYPED) && asked(event);
@@ -48,17 +47,13 @@ function enable(button, can, other) {
   }
 }
 
-/** Keep the steps of a store: `{undo(), redo(), canUndo(), canRedo(), subscribe(listener)}`. */
-export function record(store) {
+/** Keep the steps of a store: `{undo(), redo(), canUndo(), canRedo()}`; `tell` is called after each change of them. */
+function record(store, tell) {
   let done = [];
   let undone = [];
   let held = false; // a button of the mouse or a finger is down: what changes until it is up is one step
   let open = null; // {at, paths}: the step that a change may still join
   let present = taken(store.get());
-  const listeners = new Set();
-  const tell = () => {
-    for (const listener of listeners) listener();
-  };
   store.subscribe(() => {
     const state = store.get(); // a listener before this one may have changed it further
     if (KEPT.every((name) => state[name] === present[name])) return;
@@ -99,7 +94,6 @@ export function record(store) {
     redo: () => move(undone, done),
     canUndo: () => done.length > 0,
     canRedo: () => undone.length > 0,
-    subscribe: (listener) => listeners.add(listener),
   };
 }
 

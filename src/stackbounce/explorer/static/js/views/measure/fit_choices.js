@@ -1,6 +1,6 @@
 /** The choices of a fit: the measured values that a drop is fitted to, a row each, and the numbers of the drop that it varies. */
 
-import { button, h } from "../../dom.js";
+import { copyOf, h, partsOf, put, write } from "../../dom.js";
 import { choice } from "../../set_up/fields.js";
 import { lossOf } from "../../set_up/laws.js";
 import { t, translated } from "../../words/language.js";
@@ -49,23 +49,13 @@ function rowOf(drop, name, value) {
   const names = isChannel ? forces(drop) : quantities(drop);
   const own = name ?? names[0][0];
   const example = (quantity) => QUANTITIES.find(([known]) => known === quantity.split(".")[0])?.[3];
-  const text = h("input", {
-    type: "text",
-    class: "fit-value",
-    value,
-    readonly: isChannel,
-    spellcheck: "false",
-    placeholder: example(own),
-    "aria-label": isChannel ? t("Channel of the file") : t("Value with its error"),
-  });
+  const { row, text, remove } = partsOf(copyOf("measured-row"));
+  Object.assign(text, { value, readOnly: isChannel, placeholder: example(own) ?? "" });
+  put(text, "aria-label", isChannel ? t("Channel of the file") : t("Value with its error"));
+  write(remove, "×");
+  remove.addEventListener("click", () => row.remove());
   const set = (chosen) => (text.placeholder = example(chosen) ?? "");
-  const row = h(
-    "li",
-    { class: "fit-row" },
-    choice({ label: t("Quantity"), quiet: true, groups: [["", names]], value: own, set }),
-    text,
-    button("×", () => row.remove(), { class: "icon", "aria-label": t("Leave this out") }),
-  );
+  row.prepend(choice({ label: t("Quantity"), quiet: true, groups: [["", names]], value: own, set }));
   return row;
 }
 

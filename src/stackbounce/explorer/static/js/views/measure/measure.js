@@ -42,7 +42,6 @@ class MeasureView {
   /** Take a file, and the drop that is known of it. */
   take(file, known = null) {
     this.file = file;
-    this.parts.found.hidden = true; // it is of the file before
     this.clear();
     if (known) this.store.set({ drop: known, until: null });
     this.ask();
@@ -52,7 +51,6 @@ class MeasureView {
     this.newest += 1;
     this.file = null;
     write(this.parts.recognised, "");
-    this.parts.found.hidden = true;
     this.clear();
     this.parts.choose.focus();
   }
@@ -93,7 +91,6 @@ class MeasureView {
     write(this.parts.recognised, "");
     sayProblem(this.parts.fileProblem, error.message);
     this.parts.unsaid.open = true;
-    this.parts.found.hidden = true;
     this.clear();
   }
 
@@ -107,7 +104,9 @@ class MeasureView {
     if (answer.series.length) this.overlay.show({ series: answer.series, zero: 0 });
   }
 
+  /** Forget what was found in the file before. */
   clear() {
+    this.parts.found.hidden = true;
     this.overlay.clear();
     this.showPress([]);
     this.use.offer(null);
