@@ -2,7 +2,7 @@
 
 import { h } from "../dom.js";
 import { LETTERS, onRepaint } from "./palette.js";
-import { format } from "../words/units.js";
+import { format } from "../words/words.js";
 
 const LEAST = 40; // px of width, below which nothing is drawn
 

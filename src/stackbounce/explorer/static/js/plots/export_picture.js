@@ -5,8 +5,7 @@ import { extentOf } from "../extent.js";
 import { t } from "../words/language.js";
 import { ticks } from "../views/drawing/axes.js";
 import { colorOf, paperPalette } from "./palette.js";
-import { format } from "../words/units.js";
-import { ballName, setUp } from "../words/words.js";
+import { ballName, format, setUp } from "../words/words.js";
 
 /** Of all pictures that are saved. */
 export const WIDTH = 720;

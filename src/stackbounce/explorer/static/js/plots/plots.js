@@ -9,7 +9,7 @@ import { extentOf } from "../extent.js";
 import { Pace } from "../pace.js";
 import { colorOf, onRepaint, palette } from "./palette.js";
 import { PlotZoom } from "./zoom.js";
-import { format } from "../words/units.js";
+import { format } from "../words/words.js";
 
 /** Draw the plots into `root` and keep their cursor at the clock's time. */
 export function mountPlots(root, store, clock) {

@@ -6,7 +6,7 @@ import { partsOf } from "../dom.js";
 import { extentOf } from "../extent.js";
 import { t, translated } from "../words/language.js";
 import { colorOf, palette } from "./palette.js";
-import { format, shownUnit } from "../words/units.js";
+import { format, shownUnit } from "../words/words.js";
 
 const MM = 1e-3; // m
 

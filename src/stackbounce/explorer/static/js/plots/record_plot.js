@@ -6,7 +6,7 @@ import { partsOf, write } from "../dom.js";
 import { extentOf } from "../extent.js";
 import { t } from "../words/language.js";
 import { colorOf, palette } from "./palette.js";
-import { format, shownUnit } from "../words/units.js";
+import { format, shownUnit } from "../words/words.js";
 
 const SLIDER = 400; // steps to either side, as its HTML has them
 

@@ -2,8 +2,7 @@
 
 import { copyOf, h, partsOf, put, write } from "../dom.js";
 import { t, writeTold } from "../words/language.js";
-import { clean, format, numeric, pretty, read, shownUnit, splitError } from "../words/units.js";
-import { capital } from "../words/words.js";
+import { capital, clean, format, numeric, pretty, read, shownUnit, splitError } from "../words/words.js";
 
 const STEPS = 1000; // of a slider, as its HTML has them
 

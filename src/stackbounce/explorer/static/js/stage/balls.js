@@ -4,8 +4,7 @@ import { inksOf, patternOf, squash } from "./looks.js";
 import { put, s, write } from "../dom.js";
 import { t } from "../words/language.js";
 import { clamp, flattening, outline } from "./shape.js";
-import { fixed } from "../words/units.js";
-import { ballName } from "../words/words.js";
+import { ballName, fixed } from "../words/words.js";
 
 const ARROW = 46; // px of the fastest ball's arrow
 const STILL = 0.005; // m/s, the speed below which none is written

@@ -2,8 +2,7 @@
 
 import { partsOf, put, s, write } from "../dom.js";
 import { t } from "../words/language.js";
-import { fixed } from "../words/units.js";
-import { shortBall } from "../words/words.js";
+import { fixed, shortBall } from "../words/words.js";
 
 const ROW = 18; // px
 const NAMES = 92; // px for the names at the left

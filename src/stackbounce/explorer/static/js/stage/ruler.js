@@ -2,8 +2,7 @@
 
 import { put, s } from "../dom.js";
 import { t } from "../words/language.js";
-import { format } from "../words/units.js";
-import { ballName, metres } from "../words/words.js";
+import { ballName, format, metres } from "../words/words.js";
 
 const APART = 44; // px between two lines, at least
 const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1e3, 1e4];

@@ -7,8 +7,7 @@ import { t } from "../words/language.js";
 import { radii, stacked } from "./shape.js";
 import { ballGroup, ghostGroup, height as heightAt, keptGroups, moveBalls, moveGhosts, moveKept } from "./balls.js";
 import { drawRuler } from "./ruler.js";
-import { format } from "../words/units.js";
-import { ballName, happening, moment, pace } from "../words/words.js";
+import { ballName, format, happening, moment, pace } from "../words/words.js";
 
 const FOOT = 30; // px below the floor line
 const HEAD = 64; // px above the highest ball, for the time

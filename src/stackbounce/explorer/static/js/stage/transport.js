@@ -3,8 +3,7 @@
 import { partsOf, put, write } from "../dom.js";
 import { GRAVITY } from "../set_up/drops.js";
 import { t } from "../words/language.js";
-import { format } from "../words/units.js";
-import { moment } from "../words/words.js";
+import { format, moment } from "../words/words.js";
 
 const STEPS = 2000; // of the cursor, as its HTML has them
 const MAGNIFY = [1, 2, 3, 5, 8, 10, 20, 30, 50];

@@ -1,8 +1,7 @@
 /** What happened in a drop, what the textbook says, and why they differ: in sentences that are true for every drop. */
 
 import { isTranslated, t, translated } from "./language.js";
-import { fixed, format } from "./units.js";
-import { capital, highest, metres } from "./words.js";
+import { capital, fixed, format, highest, metres } from "./words.js";
 
 const SAME = 0.005; // part of the larger of two speeds by which they may differ and still be called the same
 const NEARLY = 0.1;

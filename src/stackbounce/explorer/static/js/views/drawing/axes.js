@@ -1,6 +1,6 @@
 /** The axes of a line or a map: scales, ticks, titles, and the initial range of each number. */
 
-import { clean, format, pretty, shownUnit } from "../../words/units.js";
+import { clean, format, pretty, shownUnit } from "../../words/words.js";
 
 /** Return `{part(value), value(part)}`: a side's places from 0 to 1. */
 export function sideOf({ low, high, log }) {

@@ -1,7 +1,7 @@
 /** The numbers of a drop that lie along the sides of a drawing: in words, and put into the drop. */
 
 import { complete, gapsOf, valueAt, withValue } from "../../set_up/drops.js";
-import { clean, format, pretty, shownUnit } from "../../words/units.js";
+import { clean, format, pretty, shownUnit } from "../../words/words.js";
 
 /** Return a number with a convenient unit. */
 export function quantity(value, unit) {

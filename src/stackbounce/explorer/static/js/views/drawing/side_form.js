@@ -4,8 +4,7 @@ import { copyOf, partsOf, put, write } from "../../dom.js";
 import { choice, sayProblem } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
 import { firstSide, isSide } from "./axes.js";
-import { clean, format, pretty, read, shownUnit } from "../../words/units.js";
-import { capital } from "../../words/words.js";
+import { capital, clean, format, pretty, read, shownUnit } from "../../words/words.js";
 
 /**
  * Return the fields of a side: which number, between which ends, logarithmic or not.

@@ -5,7 +5,7 @@ import { MANY, colorAt, css, isLight } from "../../plots/colors.js";
 import { contour, labelPlace } from "../../plots/contours.js";
 import { fitting, marks, ticks } from "../drawing/axes.js";
 import { LETTERS } from "../../plots/palette.js";
-import { format, pretty } from "../../words/units.js";
+import { format, pretty } from "../../words/words.js";
 
 const KEY = { top: 4, height: 12 }; // of the colours
 const LABEL_ROOM = 26; // px around the label of a line

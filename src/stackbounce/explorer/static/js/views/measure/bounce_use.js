@@ -5,8 +5,7 @@ import { withValue } from "../../set_up/drops.js";
 import { sayProblem } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
 import { asBounced } from "../../set_up/laws.js";
-import { formatMeasured } from "../../words/units.js";
-import { ballName, capital, contactName, lawName } from "../../words/words.js";
+import { ballName, capital, contactName, formatMeasured, lawName } from "../../words/words.js";
 import { whichBall } from "./which_ball.js";
 
 /** Return `{offer(answer), follow()}` of the card in `root`: `offer` takes the answer to a file, or null. */

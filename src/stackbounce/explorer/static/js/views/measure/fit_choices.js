@@ -4,8 +4,7 @@ import { copyOf, h, partsOf, put, write } from "../../dom.js";
 import { choice } from "../../set_up/fields.js";
 import { lossOf } from "../../set_up/laws.js";
 import { t, translated } from "../../words/language.js";
-import { pointed } from "../../words/units.js";
-import { ballName, capital, contactName } from "../../words/words.js";
+import { ballName, capital, contactName, pointed } from "../../words/words.js";
 
 /** What can be measured: its name, what names the ball or contact that it is of, its words, and how a value is typed. */
 const QUANTITIES = [

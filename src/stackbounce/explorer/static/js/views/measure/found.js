@@ -3,8 +3,7 @@
 import { button, h } from "../../dom.js";
 import { withError } from "../../asking/prediction.js";
 import { t, translated } from "../../words/language.js";
-import { fixed, format, formatMeasured } from "../../words/units.js";
-import { capital } from "../../words/words.js";
+import { capital, fixed, format, formatMeasured } from "../../words/words.js";
 
 /** Return the kind and format of a file, the evidence for them, and a doubt if there is one. */
 export function describeFile({ file, format, why, doubt, holds }) {
