@@ -15,6 +15,15 @@ export function button(text, onclick, attributes = {}) {
   return h("button", { type: "button", text, onclick, ...attributes });
 }
 
+/** Return a table in a box that scrolls, which a label names; the cells that a row lacks are empty. A region has it as its caption, too. */
+export function tableBox(role, label, heads, rows) {
+  const caption = role === "region" ? h("caption", { class: "quiet", text: label }) : null;
+  const top = heads.map((text) => (text ? h("th", { scope: "col", text }) : h("td")));
+  const cells = (row) => heads.map((_, i) => (i === 0 && row[0] ? h("th", { scope: "row", text: row[0] }) : h("td", { text: row[i] ?? "" })));
+  const inside = h("table", {}, caption, h("thead", {}, h("tr", {}, top)), h("tbody", {}, rows.map((row) => h("tr", {}, cells(row)))));
+  return h("div", { class: "scroll", tabindex: 0, role, "aria-label": label }, inside);
+}
+
 /** As `h`, for SVG. */
 export function s(tag, attributes = {}, ...children) {
   return fill(document.createElementNS(SVG, tag), attributes, children);

@@ -1,6 +1,6 @@
 /** The lessons beside the page: the list of them, or one with its steps, its answers and its worksheet, which can be printed. */
 
-import { button, fillFrom, h, s, write } from "../dom.js";
+import { button, fillFrom, h, s, tableBox, write } from "../dom.js";
 import { embedded } from "../embed.js";
 import { t } from "../words/language.js";
 import { language } from "../words/language_choice.js";
@@ -79,7 +79,7 @@ function showLesson(root, lesson, open) {
   parts.steps.append(...lesson.steps.map((step) => stepOf(step, say)));
   for (const part of [parts.exampleTitle, parts.example]) part.hidden = !lesson.example;
   parts.example.append(...say(lesson.example ?? []));
-  if (lesson.table) parts.teacher.append(table(lesson.table, t("Answers for the teacher")));
+  if (lesson.table) parts.teacher.append(tableOf(lesson.table, t("Answers for the teacher")));
   parts.teacher.append(...lesson.remarks.map((text) => h("p", {}, say(text))));
   write(parts.name, lesson.title);
   parts.worksheet.append(...lesson.worksheet.map(taskOf));
@@ -103,16 +103,12 @@ function lookThere() {
   addEventListener("hashchange", () => document.querySelector("main > [role=tabpanel]:not([hidden])").scrollIntoView(), { once: true });
 }
 
-/** Return a table in a box that scrolls, which a label names; the cells that a row lacks are empty. */
-function table([heads, ...rows], label) {
-  const cells = (row) => heads.map((_, i) => (i === 0 && row[0] ? h("th", { scope: "row", text: row[0] }) : h("td", { text: row[i] ?? "" })));
-  const top = heads.map((text) => (text ? h("th", { scope: "col", text }) : h("td")));
-  const inside = h("table", {}, h("thead", {}, h("tr", {}, top)), h("tbody", {}, rows.map((row) => h("tr", {}, cells(row)))));
-  return h("div", { class: "scroll", tabindex: 0, role: "group", "aria-label": label }, inside);
+function tableOf([heads, ...rows], label) {
+  return tableBox("group", label, heads, rows);
 }
 
 function taskOf({ text, table: rows, grid, after }) {
-  return h("li", {}, text, rows ? table(rows, text) : null, grid ? emptyGrid() : null, after ? h("p", { text: after }) : null);
+  return h("li", {}, text, rows ? tableOf(rows, text) : null, grid ? emptyGrid() : null, after ? h("p", { text: after }) : null);
 }
 
 function emptyGrid() {

@@ -11,8 +11,8 @@ import { colorOf, onRepaint, palette } from "./palette.js";
 import { PlotZoom } from "./zoom.js";
 import { format } from "../words/words.js";
 
-/** Draw the plots into `root` and keep their cursor at the clock's time. */
-export function mountPlots(root, store, clock) {
+/** Draw the plots into `root` and keep their cursor at the clock's time; the buttons in `zoom` choose the time that is shown. */
+export function mountPlots({ root, zoom: zoomRoot }, store, clock) {
   const pace = new Pace();
   let shown = [];
   let due = false; // what is shown has changed
@@ -21,9 +21,7 @@ export function mountPlots(root, store, clock) {
     for (const panel of shown) panel.plot.setData(panel.data());
     clock.touch();
   };
-  const zoom = new PlotZoom(clock, () => extent, redraw);
-  zoom.element.hidden = true;
-  root.before(zoom.element);
+  const zoom = new PlotZoom(zoomRoot, clock, () => extent, redraw);
   const build = () => {
     const { result, until, overlays, prediction, view } = store.get();
     if (!result || view !== "play") return;
@@ -38,7 +36,7 @@ export function mountPlots(root, store, clock) {
       root.replaceChildren();
       shown = wanted.map((panel) => new Panel(root, panel, colors, clock, zoom));
     }
-    zoom.element.hidden = false;
+    zoomRoot.hidden = false;
     due = false;
     pace.watch();
     clock.touch();

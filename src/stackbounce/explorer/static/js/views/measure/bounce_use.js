@@ -6,7 +6,7 @@ import { sayProblem } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
 import { asBounced } from "../../set_up/laws.js";
 import { ballName, capital, contactName, formatMeasured, lawName } from "../../words/words.js";
-import { whichBall } from "./which_ball.js";
+import { whichBall } from "./fit_choices.js";
 
 /** Return `{offer(answer), follow()}` of the card in `root`: `offer` takes the answer to a file, or null. */
 export function bounceUse(root, store, api) {

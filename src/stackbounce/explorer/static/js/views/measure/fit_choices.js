@@ -1,4 +1,4 @@
-/** The choices of a fit: the measured values that a drop is fitted to, a row each, and the numbers of the drop that it varies. */
+/** The choices of a fit: the measured values that a drop is fitted to, the numbers of the drop that it varies, and which ball was measured. */
 
 import { copyOf, h, partsOf, put, write } from "../../dom.js";
 import { choice } from "../../set_up/fields.js";
@@ -101,4 +101,22 @@ function isLikely(laws, path, drop, haveClocks) {
   if (field === lossOf(laws, drop.contacts[index])) return true;
   const isLossless = !drop.contacts.some((contact) => lossOf(laws, contact));
   return field === "stiffness" && (haveClocks || (isLossless && Number(index) === drop.contacts.length - 1));
+}
+
+/** Offer the choice of one ball in an element, of several none is guessed; returns `{ask(drop), ball()}`. The button that needs the choice is disabled without it. */
+export function whichBall(element, label, key, button) {
+  let chosen = "";
+  const take = (value) => {
+    chosen = value;
+    button.disabled = value === "";
+  };
+  const ask = (drop) => {
+    const { balls } = drop;
+    const named = balls.map((_, ball) => [String(ball), capital(ballName(drop, ball))]);
+    const isOne = balls.length === 1;
+    take(isOne ? "0" : "");
+    const entries = isOne ? named : [["", t("Choose a ball")], ...named];
+    element.replaceChildren(choice({ label, key, groups: [["", entries]], value: chosen, set: take }));
+  };
+  return { ask, ball: () => Number(chosen) };
 }

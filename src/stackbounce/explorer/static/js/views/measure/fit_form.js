@@ -5,8 +5,7 @@ import { sayProblem } from "../../set_up/fields.js";
 import { describeFit, describeVerdict } from "./found.js";
 import { t } from "../../words/language.js";
 import { converted, lossOf } from "../../set_up/laws.js";
-import { measuredRows, quantityNames, variedNumbers } from "./fit_choices.js";
-import { whichBall } from "./which_ball.js";
+import { measuredRows, quantityNames, variedNumbers, whichBall } from "./fit_choices.js";
 
 const START = 0.75; // the restitution that a fit begins with where the law lost no energy
 
