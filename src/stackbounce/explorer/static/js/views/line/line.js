@@ -7,7 +7,7 @@ import { t, translated } from "../../words/language.js";
 import { drawLine, drawLineMarks } from "./draw.js";
 import { lineForm } from "./form.js";
 import { liner } from "./request.js";
-import { fileOf } from "./save.js";
+import { saved } from "./save.js";
 import { SHOWS, summary, told, valueAt } from "./in_words.js";
 import { palette } from "../../plots/palette.js";
 import { download } from "../../state/share.js";
@@ -27,7 +27,7 @@ export async function mount(root, store, api, clock) {
   const save = async (kind) => {
     if (!view.news) return;
     const { answer } = view.news;
-    download(await fileOf(kind, answer, measured(answer)), `stackbounce-line.${kind}`);
+    download(await saved(kind, answer, measured(answer)), `stackbounce-line.${kind}`);
   };
   const view = new DrawingView(root, store, clock, {
     name: "line",
