@@ -1,12 +1,10 @@
 /** The lessons beside the page: the list of them, or one with its steps, its answers and its worksheet, which can be printed. */
 
-import { button, fillFrom, h, s, tableBox, write } from "../dom.js";
+import { button, copyOf, fillFrom, h, tableBox, write } from "../dom.js";
 import { embedded } from "../embed.js";
 import { t } from "../words/language.js";
 import { language } from "../words/language_choice.js";
 import { LESSON_LIST } from "../state/store.js";
-
-const GRID = { width: 160, height: 90, step: 10 }; // of squares to draw in
 
 /** Show the store's lesson in `root`, and let the button open the list; returns what gives the lessons, by language. */
 export function mountLessons({ root, button }, store) {
@@ -108,17 +106,7 @@ function tableOf([heads, ...rows], label) {
 }
 
 function taskOf({ text, table: rows, grid, after }) {
-  return h("li", {}, text, rows ? tableOf(rows, text) : null, grid ? emptyGrid() : null, after ? h("p", { text: after }) : null);
-}
-
-function emptyGrid() {
-  const { width, height, step } = GRID;
-  let lines = "";
-  for (let x = step; x <= width; x += step) lines += `M${x} 0V${height}`;
-  for (let y = 0; y < height; y += step) lines += `M0 ${y}H${width}`;
-  const svg = s("svg", { class: "worksheet-grid", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": t("An empty grid") });
-  svg.append(s("path", { class: "thin", d: lines }), s("path", { d: `M0 0V${height}H${width}` }));
-  return svg;
+  return h("li", {}, text, rows ? tableOf(rows, text) : null, grid ? copyOf("empty-grid") : null, after ? h("p", { text: after }) : null);
 }
 
 /** Print the worksheet and nothing else. */

@@ -4,7 +4,7 @@ import { panels } from "./curves.js";
 import { s } from "../dom.js";
 import { extentOf } from "../extent.js";
 import { t } from "../words/language.js";
-import { ticks } from "../views/drawing/axes.js";
+import { ticks } from "../views/drawing/sides.js";
 import { colorOf, paperPalette } from "./palette.js";
 import { ballName, format, setUp } from "../words/words.js";
 

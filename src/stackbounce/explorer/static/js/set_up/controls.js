@@ -1,10 +1,10 @@
 /** The controls: presets, how the tower comes in, and the tower. */
 
 import { fillFrom, write } from "../dom.js";
-import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withValue } from "./drops.js";
+import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withBall, withIncidence, withValue } from "./drops.js";
 import { NumberField, choice, sayProblem } from "./fields.js";
 import { t, translated, writeTold } from "../words/language.js";
-import { asMeasured, changeLaw, lawMemory } from "./laws.js";
+import { asMeasured, changeLaw, firstContact, lawMemory } from "./laws.js";
 import { withError } from "../asking/prediction.js";
 import { restacked } from "./restack.js";
 import { withExample } from "../state/store.js";
@@ -12,7 +12,7 @@ import { shapeOf, towerOf, withChosen } from "./tower.js";
 
 /** Build the controls into `root`; they change the store's drop and follow it. */
 export function mountControls(root, store, api, catalogue) {
-  const { said, general, gravity, tower } = fillFrom(root, "controls-parts");
+  const { said, general, gravity, add, tower } = fillFrom(root, "controls-parts");
   const radios = [...root.querySelectorAll("[name=incidence]")];
   const pull = gravity.querySelector("input");
   let fields = [];
@@ -63,7 +63,8 @@ export function mountControls(root, store, api, catalogue) {
     const focused = document.activeElement?.closest?.("[data-key], [data-path], [data-slider]");
     const open = [...root.querySelectorAll("details[open]")].map((details) => details.dataset.key);
     const built = towerOf(drop, tools, notes);
-    tower.replaceChildren(built.element);
+    tower.replaceChildren(...built.items);
+    add.disabled = drop.balls.length >= catalogue.limits.balls;
     for (const { element } of falls) element.remove();
     falls = fallFields(drop, until, tools);
     gravity.before(...falls.map(({ element }) => element));
@@ -97,6 +98,7 @@ export function mountControls(root, store, api, catalogue) {
     store.set(withExample(store.get(), example));
   });
   root.prepend(presets);
+  add.addEventListener("click", () => arrange((now) => withBall(now, firstContact(catalogue.laws))));
   for (const radio of radios) radio.addEventListener("change", () => change(withIncidence(store.get().drop, radio.value)));
   pull.addEventListener("change", () => set("gravity", pull.checked ? GRAVITY : 0));
   new IntersectionObserver(([{ isIntersecting }]) => root.classList.toggle("seen", isIntersecting)).observe(root);

@@ -1,17 +1,16 @@
 /** The tower: cards of the balls, with cards of the contacts between them. */
 
-import { gapsOf, incidenceOf, valueAt, withBall, withSwap, withValue, withoutBall } from "./drops.js";
+import { gapsOf, incidenceOf, valueAt, withSwap, withValue, withoutBall } from "./drops.js";
 import { button, copyOf, h, partsOf, write } from "../dom.js";
 import { NumberField, choice } from "./fields.js";
 import { t, translated } from "../words/language.js";
-import { firstContact } from "./laws.js";
 import { isOfCatalogue } from "./restack.js";
 import { ballName, contactName, format, lawName } from "../words/words.js";
 
 const OWN = "";
 
 /**
- * Return `{element, fields}` of the tower of a drop.
+ * Return `{items, fields}` of the tower of a drop.
  * @param {object} tools `{catalogue, set(path, value), choose(ball, name), arrange(act), relaw(contact, name), measured(contact, values)}`
  */
 export function towerOf(drop, tools, notes) {
@@ -26,10 +25,7 @@ export function towerOf(drop, tools, notes) {
   for (let ball = drop.balls.length - 1; ball >= 0; ball -= 1) {
     items.push(ballCard(drop, ball, tools, field), contactCard(drop, ball, tools, field, notes[ball]));
   }
-  const full = drop.balls.length >= tools.catalogue.limits.balls;
-  const addBall = () => tools.arrange((now) => withBall(now, firstContact(tools.catalogue.laws)));
-  const add = button(t("Add a ball on top"), addBall, { class: "small", "data-key": "add", disabled: full });
-  return { element: h("div", {}, add, h("ol", { class: "tower" }, items)), fields };
+  return { items, fields };
 }
 
 function ballCard(drop, ball, tools, field) {

@@ -23,10 +23,6 @@ export function mountNumbers({ root, table }, store) {
   store.watch(["result", "prediction", "kept"], show);
 }
 
-function columns(...names) {
-  return h("tr", {}, names.map((name) => h("th", { scope: "col" }, ...[name].flat())));
-}
-
 function row(name, index, ...cells) {
   const swatch = h("span", { class: "swatch", "aria-hidden": "true", "--ball": `var(--ball-${index % 6})` });
   return h("tr", {}, h("th", { scope: "row" }, swatch, name), cells.map((cell) => h("td", {}, cell)));
@@ -52,7 +48,7 @@ function ballTable(result, until, prediction) {
     "table",
     { class: until === null ? "numbers-table" : "numbers-table whole" },
     h("caption", { class: "quiet", text: t("Speeds and heights of the balls, the highest ball first") }),
-    h("thead", {}, h("tr", { class: "groups" }, groups), columns(t("Ball"), ...all.map(({ name }) => name))),
+    h("thead", {}, h("tr", { class: "groups" }, groups), h("tr", {}, [t("Ball"), ...all.map(({ name }) => name)].map((name) => h("th", { scope: "col" }, name)))),
     h("tbody", {}, rows.reverse()),
   );
 }

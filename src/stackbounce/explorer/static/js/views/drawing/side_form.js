@@ -3,7 +3,7 @@
 import { copyOf, partsOf, put, write } from "../../dom.js";
 import { choice, sayProblem } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
-import { firstSide, isSide } from "./axes.js";
+import { firstSide, isSide } from "./sides.js";
 import { capital, clean, format, pretty, read, shownUnit } from "../../words/words.js";
 
 /**

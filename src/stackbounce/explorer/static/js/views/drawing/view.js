@@ -1,8 +1,7 @@
 /** A view of one drawing over numbers of the drop, a line or a map: asks for it, draws it, and marks the present drop in it. */
 
 import { fillFrom, write } from "../../dom.js";
-import { sideOf } from "./axes.js";
-import { haveSameDrawing, numberIn, withNumbers } from "./numbers.js";
+import { haveSameDrawing, numberIn, sideOf, withNumbers } from "./sides.js";
 import { isInside, point } from "./pointing.js";
 import { t, writeTold } from "../../words/language.js";
 import { onRepaint } from "../../plots/palette.js";

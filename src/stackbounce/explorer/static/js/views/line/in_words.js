@@ -2,8 +2,7 @@
 
 import { t, translated } from "../../words/language.js";
 import { between, locate } from "../../stage/clock.js";
-import { sideOf } from "../drawing/axes.js";
-import { brief, extremes, quantity } from "../drawing/numbers.js";
+import { brief, extremes, quantity, sideOf } from "../drawing/sides.js";
 import { ballName, capital, contactName, count, format, height, percent } from "../../words/words.js";
 
 const FEW = 3; // curves whose textbook is told, too

@@ -1,6 +1,6 @@
 /** The line: the rebound over one number of the drop, with the present drop as a point on it. */
 
-import { haveSameDrawing, brief } from "../drawing/numbers.js";
+import { brief, haveSameDrawing } from "../drawing/sides.js";
 import { DrawingView } from "../drawing/view.js";
 import { complete } from "../../set_up/drops.js";
 import { t, translated } from "../../words/language.js";

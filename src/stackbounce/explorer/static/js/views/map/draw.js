@@ -3,7 +3,7 @@
 import { clipped } from "../../plots/chart.js";
 import { MANY, colorAt, css, isLight } from "../../plots/colors.js";
 import { contour, labelPlace } from "../../plots/contours.js";
-import { fitting, marks, ticks } from "../drawing/axes.js";
+import { fitting, marks, ticks } from "../drawing/sides.js";
 import { LETTERS } from "../../plots/palette.js";
 import { format, pretty } from "../../words/words.js";
 

@@ -4,7 +4,7 @@ import { button } from "../../dom.js";
 import { choice } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
 import { drawingForm } from "../drawing/form.js";
-import { depends } from "../drawing/numbers.js";
+import { depends } from "../drawing/sides.js";
 import { sideForm } from "../drawing/side_form.js";
 import { capital } from "../../words/words.js";
 

@@ -1,8 +1,7 @@
 /** The map: how a number of the outcome depends on two numbers of the drop. */
 
 import { scaleOfColors } from "../../plots/colors.js";
-import { sideOf } from "../drawing/axes.js";
-import { brief, extremes, quantity } from "../drawing/numbers.js";
+import { brief, extremes, quantity, sideOf } from "../drawing/sides.js";
 import { DrawingView } from "../drawing/view.js";
 import { t, translated } from "../../words/language.js";
 import { drawMap, drawMarks } from "./draw.js";

@@ -1,8 +1,7 @@
 /** Asks for maps, from coarse to fine. */
 
 import { lawOf } from "../../set_up/laws.js";
-import { firstSide, isSide } from "../drawing/axes.js";
-import { depends } from "../drawing/numbers.js";
+import { depends, firstSide, isSide } from "../drawing/sides.js";
 import { oneAtATime } from "../../asking/questions.js";
 
 const COARSE = [24, 18];
