@@ -16,7 +16,7 @@ export function button(text, onclick, attributes = {}) {
 }
 
 /** Return a table in a box that scrolls, which a label names; the cells that a row lacks are empty. A region has it as its caption, too. */
-export function tableBox(role, label, heads, rows) {
+export function tableBox(role, label, heads, ...rows) {
   const caption = role === "region" ? h("caption", { class: "quiet", text: label }) : null;
   const top = heads.map((text) => (text ? h("th", { scope: "col", text }) : h("td")));
   const cells = (row) => heads.map((_, i) => (i === 0 && row[0] ? h("th", { scope: "row", text: row[0] }) : h("td", { text: row[i] ?? "" })));

@@ -23,7 +23,7 @@ import { mountPlots } from "./plots/plots.js";
 import { carryErrors } from "./asking/prediction.js";
 import { retry } from "./asking/retry.js";
 import { run } from "./asking/runner.js";
-import { mountSentence } from "./words/sentence_view.js";
+import { mountSentence } from "./words/sentence.js";
 import { mountShare } from "./state/share.js";
 import { mountSound } from "./stage/sound.js";
 import { mountStage } from "./stage/stage.js";

@@ -74,17 +74,13 @@ function showLesson(root, lesson, open) {
   parts.all.addEventListener("click", () => open(LESSON_LIST));
   parts.time.append(minutes(lesson));
   parts.printer.addEventListener("click", printWorksheet);
-  parts.steps.append(...lesson.steps.map((step) => stepOf(step, say)));
+  parts.steps.append(...lesson.steps.map((step) => h("li", {}, h("strong", {}, `${step.title} (`, minutes(step), "). "), say(step.text))));
   for (const part of [parts.exampleTitle, parts.example]) part.hidden = !lesson.example;
   parts.example.append(...say(lesson.example ?? []));
-  if (lesson.table) parts.teacher.append(tableOf(lesson.table, t("Answers for the teacher")));
+  if (lesson.table) parts.teacher.append(tableBox("group", t("Answers for the teacher"), ...lesson.table));
   parts.teacher.append(...lesson.remarks.map((text) => h("p", {}, say(text))));
   write(parts.name, lesson.title);
   parts.worksheet.append(...lesson.worksheet.map(taskOf));
-}
-
-function stepOf(step, say) {
-  return h("li", {}, h("strong", {}, `${step.title} (`, minutes(step), "). "), say(step.text));
 }
 
 /** Return the parts of a text: of a link either the page's own address, which sets its state, or another lesson. */
@@ -101,12 +97,8 @@ function lookThere() {
   addEventListener("hashchange", () => document.querySelector("main > [role=tabpanel]:not([hidden])").scrollIntoView(), { once: true });
 }
 
-function tableOf([heads, ...rows], label) {
-  return tableBox("group", label, heads, rows);
-}
-
 function taskOf({ text, table: rows, grid, after }) {
-  return h("li", {}, text, rows ? tableOf(rows, text) : null, grid ? copyOf("empty-grid") : null, after ? h("p", { text: after }) : null);
+  return h("li", {}, text, rows ? tableBox("group", text, ...rows) : null, grid ? copyOf("empty-grid") : null, after ? h("p", { text: after }) : null);
 }
 
 /** Print the worksheet and nothing else. */

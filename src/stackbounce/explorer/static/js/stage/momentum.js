@@ -17,8 +17,7 @@ export function mountMomentum(root, store, clock) {
   const build = () => {
     const { result, momentum } = store.get();
     root.hidden = !momentum || !result;
-    if (root.hidden || !clock.film) return;
-    if (width < NAMES + VALUES) return;
+    if (root.hidden || !clock.film || width < NAMES + VALUES) return;
     bars = barsOf(result.drop, clock.film, width);
     put(svg, "viewBox", `0 0 ${width} ${ROW * bars.rows.length}`);
     put(svg, "height", ROW * bars.rows.length);

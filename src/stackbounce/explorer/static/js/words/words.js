@@ -124,8 +124,7 @@ const QUANTITY = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;
 
 /** Return the unit in which people read an SI unit, and how many SI units one of it is. */
 export function shownUnit(unit, large = false) {
-  if (large) return { unit, size: 1 };
-  const [name, size] = SHOWN[unit] ?? [unit, 1];
+  const [name, size] = (!large && SHOWN[unit]) || [unit, 1];
   return { unit: name, size };
 }
 

@@ -15,7 +15,7 @@ export class DrawingView {
   /**
    * Build a view into `root`.
    * @param {object} kind `name`, of the view, of its settings in the store and of its HTML; `role`, what it is in words; `sides`,
-   * `margin` and `step`, as `point` takes them; `form`; `requests(tell)`, which asks for drawings;
+   * `margin` and `step`, as `point` takes them; `form(element)`, which returns what fills it with news; `requests(tell)`, which asks for drawings;
    * `sidesOf(news)`; `draw(size, news, parts)`, which returns `{frame, title, label, summary}`; `mark(news, present, pointed, parts)`;
    * `told(news, place)`; and the sentences `here` and `outside` on the present drop
    */
@@ -27,7 +27,7 @@ export class DrawingView {
     this.asked = {}; // the drop and the settings that are shown, or will be
     const { parts } = this;
     parts.board.setAttribute("aria-roledescription", kind.role);
-    parts.side.prepend(kind.form.element);
+    this.fillForm = kind.form(parts.form);
     mountStage(parts.stage, store, clock);
     this.requests = kind.requests((news) => this.hear(news));
     this.pointed = point(parts, kind, this, clock);
@@ -50,7 +50,7 @@ export class DrawingView {
 
   hear(news) {
     const { figure, message, again } = this.parts;
-    if (news.settings) this.kind.form.update(news);
+    if (news.settings) this.fillForm(news);
     figure.classList.toggle("stale", Boolean(news.problem));
     if (!news.answer && !news.problem) return;
     writeTold(message, news.problem ?? "");

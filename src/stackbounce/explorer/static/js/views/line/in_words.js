@@ -50,13 +50,10 @@ function outcome(answer, curve, part) {
   return `${name} ${said}`;
 }
 
-function timesOf(value, times) {
-  return times ? t("{times} times", { times: value }) : value;
-}
-
 /** Return a value as it is read. */
 function written(show, value, times = true) {
-  if (show === "rebound_ratio") return timesOf(format(Math.abs(value) < 5e-4 ? 0 : value, 3), times);
+  const ratio = format(Math.abs(value) < 5e-4 ? 0 : value, 3);
+  if (show === "rebound_ratio") return times ? t("{times} times", { times: ratio }) : ratio;
   if (show === "rebound_height") return height(value);
   return show === "collisions" ? count(value) : percent(value);
 }

@@ -37,7 +37,7 @@ export async function mount(root, store, api, clock) {
     sides: 1,
     margin: 4,
     step: 1 / 100,
-    form: lineForm(figures, figureIn, { set: (line) => store.set({ line }), use, save }),
+    form: (element) => lineForm(element, figures, figureIn, { set: (line) => store.set({ line }), use, save }),
     requests: (tell) => liner(api, tell),
     sidesOf: ({ answer }) => [answer.x],
     draw(size, { answer }, { drawing }) {

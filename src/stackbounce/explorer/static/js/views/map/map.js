@@ -20,7 +20,7 @@ export function mount(root, store, api, clock) {
     sides: 2,
     margin: 0,
     step: 1 / 60,
-    form: mapForm((map) => store.set({ map })),
+    form: (element) => mapForm(element, (map) => store.set({ map })),
     requests: (tell) => mapper(api, tell),
     sidesOf,
     draw(_size, { answer: english, settings }, { drawing }) {

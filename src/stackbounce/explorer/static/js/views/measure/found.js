@@ -24,7 +24,7 @@ export function listFindings({ found, notes }, store) {
     store.set({ ...patch, errors: withError(errors, "impact_speed", speed.error || null) });
   };
   const rows = found.map(({ name, value, error, unit }) => [capital(translated(name)), formatMeasured(value, error, unit)]);
-  const parts = [h("h2", { text: t("Found") }), tableBox("region", t("What was found"), [t("What"), t("Value")], rows)];
+  const parts = [h("h2", { text: t("Found") }), tableBox("region", t("What was found"), [t("What"), t("Value")], ...rows)];
   if (notes.length) parts.push(h("ul", { class: "notes" }, notes.map((note) => h("li", { text: sentence(translated(note)) }))));
   if (speed) {
     const text = t("Drop at the {name}, {speed}", { name: translated(speed.name), speed: formatMeasured(speed.value, speed.error, "m/s") });
@@ -43,18 +43,17 @@ export function describeFit(answer, labels) {
   const named = (note) => capital(translated(note).replace(/[a-z_]+(\.\w+)+/g, (path) => labels[path] ?? path));
   const notes = [...new Set(answer.notes)].map(named);
   const rows = values.map(({ path, value, error, unit }) => [labels[path] ?? capital(path), formatMeasured(value, error, unit)]);
-  const parts = [tableBox("region", t("Found"), [t("Number"), t("Value")], rows), h("p", { text: describeQuality(answer) })];
+  const parts = [tableBox("region", t("Found"), [t("Number"), t("Value")], ...rows), h("p", { text: describeQuality(answer) })];
   if (residuals.length) {
     const heads = [t("Quantity"), t("Measured"), t("Fitted"), t("Apart, in errors")];
-    parts.push(tableBox("region", t("Measured and fitted"), heads, residuals.map((residual) => compareRow(residual, labels))));
+    const compared = residuals.map(({ name, measured: value, error, fitted, pull, unit }) => {
+      const apart = pull === null ? "–" : fixed(pull, 1);
+      return [labels[name] ?? name, formatMeasured(value, error, unit), formatMeasured(fitted, null, unit), apart];
+    });
+    parts.push(tableBox("region", t("Measured and fitted"), heads, ...compared));
   }
   if (notes.length) parts.push(h("ul", { class: "notes" }, notes.map((text) => h("li", { text }))));
   return parts;
-}
-
-function compareRow({ name, measured: value, error, fitted, pull, unit }, labels) {
-  const apart = pull === null ? "–" : fixed(pull, 1);
-  return [labels[name] ?? name, formatMeasured(value, error, unit), formatMeasured(fitted, null, unit), apart];
 }
 
 const UNLIKELY = 1e-3; // the p-value below which a fit is called poor

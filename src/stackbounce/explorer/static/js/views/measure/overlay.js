@@ -140,8 +140,6 @@ export class Overlay {
   }
 
   name({ what, index, label }) {
-    const { drop } = this.store.get();
-    if (!this.result) return translated(label);
-    return what === "force" ? contactName(drop, index) : translated(label);
+    return this.result && what === "force" ? contactName(this.store.get().drop, index) : translated(label);
   }
 }
