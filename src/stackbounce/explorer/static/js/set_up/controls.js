@@ -12,9 +12,8 @@ import { shapeOf, towerOf, withChosen } from "./tower.js";
 
 /** Build the controls into `root`; they change the store's drop and follow it. */
 export function mountControls(root, store, api, catalogue) {
-  const { said, general, gravity, add, tower } = fillFrom(root, "controls-parts");
+  const { said, general, gravity, pull, add, tower } = fillFrom(root, "controls-parts");
   const radios = [...root.querySelectorAll("[name=incidence]")];
-  const pull = gravity.querySelector("input");
   let fields = [];
   let falls = []; // those of them that say how the tower comes in
   let shape = "";
@@ -158,8 +157,7 @@ function mentions(detail, path) {
 
 function focusAgain(root, focused) {
   if (!focused) return;
-  const names = ["key", "path", "slider"].filter((name) => focused.dataset[name] && focused.tagName !== "DETAILS");
-  const attribute = names[0];
+  const attribute = ["key", "path", "slider"].find((name) => focused.dataset[name] && focused.tagName !== "DETAILS");
   if (!attribute || focused.isConnected) return;
   root.querySelector(`[data-${attribute}="${CSS.escape(focused.dataset[attribute])}"]`)?.focus();
 }

@@ -16,12 +16,11 @@ function steps(drop, laws) {
 
 /** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, with {drop, answer} as well, or {problem}. */
 export function mapper(api, tell) {
-  let laws = null;
   return oneAtATime(async (told, drop, wanted) => {
     const { paths, shows } = await api.mapPaths(drop);
     const settings = complete(wanted, paths, shows, drop);
     told({ settings, paths, shows });
-    laws ??= (await api.catalogue()).laws;
+    const { laws } = await api.catalogue();
     const requests = steps(drop, laws).map(([across, up]) => {
       const [x, y] = [{ ...settings.x, count: across }, { ...settings.y, count: up }];
       return { drop, x, y, show: settings.show };
