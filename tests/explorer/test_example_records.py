@@ -34,6 +34,6 @@ def test_a_record_is_read_as_what_it_is(name, holds):
 
 
 def test_the_page_offers_each_record_and_no_other():
-    said = (EXAMPLES.parent / "js" / "views/measure/examples.js").read_text(encoding="utf-8")
-    offered = set(re.findall(r'file: "(.+?)"', said))
+    said = (EXAMPLES.parent / "index.html").read_text(encoding="utf-8")
+    offered = set(re.findall(r'data-example="(.+?)"', said))
     assert offered == set(MADE) == {path.name for path in EXAMPLES.iterdir()}

@@ -171,17 +171,17 @@ READ = ("3,5", "3.5", "1,500", "1.500", "0,057 km", "12,5 mm", "−2,5 cm", ",5"
 
 @pytest.mark.parametrize("code", CODES)
 def test_a_comma_is_decimal_where_it_is_so(asked, code):
-    read = asked(code, *(["words/units", "read", text, "m", METRES] for text in READ))
+    read = asked(code, *(["words/words", "read", text, "m", METRES] for text in READ))
     assert read == [3.5, 3.5, 1.5, 1.5, "0.057 km", 0.0125, -0.025, 0.5, "1.2 ft"]
     written = asked(
         code,
-        ["words/units", "format", 1234.5, 5],
-        ["words/units", "format", 1.25e-7, 3],
-        ["words/units", "fixed", -0.5, 2],
-        ["words/quantity", "formatMeasured", 0.03, 0.00006, "s"],
-        ["words/units", "splitError", "63,5 ± 0,5 cm"],
-        ["words/units", "splitError", "(63,5 ± 0,5) cm"],
-        ["words/units", "splitError", "63,5 ± 0,5) cm"],
+        ["words/words", "format", 1234.5, 5],
+        ["words/words", "format", 1.25e-7, 3],
+        ["words/words", "fixed", -0.5, 2],
+        ["words/words", "formatMeasured", 0.03, 0.00006, "s"],
+        ["words/words", "splitError", "63,5 ± 0,5 cm"],
+        ["words/words", "splitError", "(63,5 ± 0,5) cm"],
+        ["words/words", "splitError", "63,5 ± 0,5) cm"],
     )
     split = {"value": "63,5 cm", "error": "0,5 cm"}
     assert written[:-1] == ["1234,5", "1,25e−7", "−0,50", "30,00 ± 0,06 ms", split, split]
@@ -189,9 +189,9 @@ def test_a_comma_is_decimal_where_it_is_so(asked, code):
 
 
 def test_in_english_a_comma_may_part_thousands(asked):
-    read = asked("en", *(["words/units", "read", text, "m", METRES] for text in READ))
+    read = asked("en", *(["words/words", "read", text, "m", METRES] for text in READ))
     assert read == [3.5, 3.5, "1,500", 1.5, "0,057 km", 0.0125, -0.025, 0.5, "1,2 ft"]
-    assert asked("en", ["words/units", "format", 1234.5, 5]) == ["1234.5"]
+    assert asked("en", ["words/words", "format", 1234.5, 5]) == ["1234.5"]
 
 
 def message(check, *given):

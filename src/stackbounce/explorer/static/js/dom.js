@@ -1,4 +1,4 @@
-/** Building elements in one line. */
+/** Building elements in one line, and finding those of the page's HTML. */
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -13,6 +13,15 @@ export function h(tag, attributes = {}, ...children) {
 /** Return a button that does something when it is pressed. */
 export function button(text, onclick, attributes = {}) {
   return h("button", { type: "button", text, onclick, ...attributes });
+}
+
+/** Return a table in a box that scrolls, which a label names; the cells that a row lacks are empty. A region has it as its caption, too. */
+export function tableBox(role, label, heads, ...rows) {
+  const caption = role === "region" ? h("caption", { class: "quiet", text: label }) : null;
+  const top = heads.map((text) => (text ? h("th", { scope: "col", text }) : h("td")));
+  const cells = (row) => heads.map((_, i) => (i === 0 && row[0] ? h("th", { scope: "row", text: row[0] }) : h("td", { text: row[i] ?? "" })));
+  const inside = h("table", {}, caption, h("thead", {}, h("tr", {}, top)), h("tbody", {}, rows.map((row) => h("tr", {}, cells(row)))));
+  return h("div", { class: "scroll", tabindex: 0, role, "aria-label": label }, inside);
 }
 
 /** As `h`, for SVG. */
@@ -32,21 +41,39 @@ function fill(element, attributes, children) {
   return element;
 }
 
+/** Return the elements that the page's HTML has within one, by what `data-part` calls them. */
+export function partsOf(root) {
+  return Object.fromEntries([...root.querySelectorAll("[data-part]")].map((part) => [part.dataset.part, part]));
+}
+
+/** Return a copy of what a template of the page's HTML holds. */
+export function copyOf(template) {
+  return document.getElementById(template).content.cloneNode(true);
+}
+
+/** Show in an element what a template of the page's HTML holds; returns its parts. */
+export function fillFrom(root, template) {
+  root.replaceChildren(copyOf(template));
+  return partsOf(root);
+}
+
+/** Let an element be dragged where `may` returns true; `move` hears each event, the first one too. */
+export function letDrag(element, may, move) {
+  element.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0 || !may()) return;
+    element.setPointerCapture(event.pointerId);
+    move(event);
+  });
+  element.addEventListener("pointermove", (event) => element.hasPointerCapture(event.pointerId) && move(event));
+}
+
 /** Set an attribute only where it changes, so that a frame costs no needless work. */
 export function put(element, name, value) {
   const text = String(value);
   if (element.getAttribute(name) !== text) element.setAttribute(name, text);
 }
 
-/** Hide an element or show it, only where that changes. */
-export function hide(element, hidden) {
-  if (element.hidden !== hidden) element.hidden = hidden;
-}
-
 /** Set a text only where it changes. */
 export function write(element, text) {
-  if (element.textContent === text) return;
-  const { firstChild: only } = element;
-  if (only?.nodeType === Node.TEXT_NODE && !only.nextSibling) only.data = text;
-  else element.textContent = text;
+  if (element.textContent !== text) element.textContent = text;
 }

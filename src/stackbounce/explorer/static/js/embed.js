@@ -1,8 +1,7 @@
 /** The page in a frame of another page: with `?embed` in its address it shows stage, sentence and transport alone. */
 
 import { write as addressOf } from "./state/address.js";
-import { h } from "./dom.js";
-import { t } from "./words/language.js";
+import { partsOf } from "./dom.js";
 
 /** Whether the address asks for that. */
 export const embedded = new URLSearchParams(location.search).has("embed");
@@ -11,12 +10,12 @@ export const embedded = new URLSearchParams(location.search).has("embed");
 export function mountEmbed(root, store) {
   if (!embedded) return;
   document.body.classList.add("embedded");
-  const link = h("a", { class: "embed-link", target: "_blank", rel: "noopener", text: t("Open the explorer in a new tab") });
+  const { whole: link } = partsOf(root);
+  link.hidden = false;
   const aim = () => link.setAttribute("href", `${location.href.split(/[?#]/)[0]}#${addressOf(store.get())}`);
   for (const name of ["focus", "pointerenter", "pointerdown", "click"]) link.addEventListener(name, aim);
   const stay = ({ view }) => view !== "play" && store.set({ view: "play" }); // the others have no room
   store.subscribe(stay);
   stay(store.get());
   aim();
-  root.querySelector(".actions").append(link);
 }

@@ -5,7 +5,7 @@ import * as api from "./asking/api.js";
 import { mountLooks } from "./stage/looks.js";
 import { Clock } from "./stage/clock.js";
 import { mountControls } from "./set_up/controls.js";
-import { button, h, hide, write } from "./dom.js";
+import { button, h, write } from "./dom.js";
 import { takeFiles } from "./views/measure/dropped.js";
 import { mountEmbed } from "./embed.js";
 import { direct } from "./stage/director.js";
@@ -23,7 +23,7 @@ import { mountPlots } from "./plots/plots.js";
 import { carryErrors } from "./asking/prediction.js";
 import { retry } from "./asking/retry.js";
 import { run } from "./asking/runner.js";
-import { mountSentence } from "./words/sentence_view.js";
+import { mountSentence } from "./words/sentence.js";
 import { mountShare } from "./state/share.js";
 import { mountSound } from "./stage/sound.js";
 import { mountStage } from "./stage/stage.js";
@@ -53,7 +53,7 @@ mountMomentum(place("momentum"), store, clock);
 mountSound(store, clock);
 mountSentence(place("sentence"), place("live"), store);
 mountTransport(place("transport"), store, clock);
-mountPlots(place("plots"), store, clock);
+mountPlots({ root: place("plots"), zoom: place("zoom") }, store, clock);
 mountNumbers({ root: place("numbers"), table: place("intervals") }, store);
 mountShare(place("share"), store, api);
 mountLanguage(place("language"), store);
@@ -69,7 +69,7 @@ const loadMeasure = () => import(MEASURE);
 mountTabs(store, {
   line: (section) => open(loadLine, section),
   map: (section) => open(loadMap, section),
-  measure: (section) => (hasServer ? open(loadMeasure, section) : explain(section)),
+  measure: (section) => hasServer && open(loadMeasure, section),
 });
 store.watch(["view"], () => placeSetUp());
 place("skip").addEventListener("click", (event) => {
@@ -137,14 +137,6 @@ function placeSetUp() {
   if (there && form.parentElement !== there) there.append(form);
 }
 
-/** Say what cannot be done without stackbounce itself. */
-function explain(section) {
-  const says = t(
-    "Reading a measurement and fitting a drop to it need stackbounce itself: install it as its documentation says, and start “stackbounce app”, which opens this page with both.",
-  );
-  section.append(h("div", { class: "prose" }, h("h2", { text: t("Measure and fit") }), h("p", { text: says })));
-}
-
 for (const part of document.querySelectorAll("[data-home]")) part.hidden = (part.dataset.home === "server") !== hasServer;
 
 /** The controls need the catalogue; until it is loaded there are none. Returns what tries at once. */
@@ -169,7 +161,7 @@ function showBanner() {
     runner.again();
   });
   const show = ({ error, busy }) => {
-    hide(place("banner"), !error?.offline);
+    place("banner").hidden = !error?.offline;
     writeTold(text, error?.offline ? error.detail : "");
     document.body.classList.toggle("busy", busy);
   };

@@ -16,13 +16,21 @@ export class Pace {
   watch() {
     const begun = performance.now();
     this.begun = begun;
-    requestAnimationFrame(() => {
-      const { port1, port2 } = new MessageChannel(); // its message comes after the picture
-      port1.onmessage = () => {
-        port1.close();
-        this.took = performance.now() - begun;
-      };
-      port2.postMessage(null);
+    requestAnimationFrame(async () => {
+      await messagesRead(); // which are read after the picture
+      this.took = performance.now() - begun;
     });
   }
+}
+
+/** Return a promise that waits until the messages that have come in are read. */
+export function messagesRead() {
+  const { port1, port2 } = new MessageChannel();
+  return new Promise((done) => {
+    port1.onmessage = () => {
+      port1.close();
+      done();
+    };
+    port2.postMessage(null);
+  });
 }

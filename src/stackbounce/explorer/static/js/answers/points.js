@@ -16,14 +16,10 @@ export function spread({ low, high, count, log }) {
   }
   if (low === high) throw new InvalidValue(`high must differ from low, got ${general(high)} twice`);
   const exponents = log && spaced(Math.log10(low), Math.log10(high), count);
-  const values = log ? exponents.map((power, i) => ends(i, count, low, high) ?? 10 ** power) : spaced(low, high, count);
+  const values = log ? exponents.map((power) => 10 ** power) : spaced(low, high, count);
+  [values[count - 1], values[0]] = [high, low]; // to their last bits
   if (values.every(Number.isFinite)) return values;
   throw new InvalidValue(`low and high must be nearer to each other, got ${general(low)} and ${general(high)}`);
-}
-
-function ends(i, count, low, high) {
-  if (i === 0) return low;
-  return i === count - 1 ? high : undefined;
 }
 
 /** Raise where a path is none of those that can vary. */

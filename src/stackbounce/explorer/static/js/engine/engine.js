@@ -156,7 +156,6 @@ class Room {
   look() {
     this.f64 = new Float64Array(this.memory.buffer);
     this.i64 = new BigInt64Array(this.memory.buffer);
-    this.i32 = new Int32Array(this.memory.buffer); // the halves of integers, the lower one first
   }
 
   lend(use) {
@@ -209,13 +208,10 @@ class Room {
     return this.f64.subarray(at, at + length);
   }
 
-  /** Return a copy of an array: of integers, the lower halves. */
+  /** Return a copy of an array. */
   read(record, name) {
     const { at, length, whole } = record.arrays[name];
-    if (!whole) return this.f64.slice(at, at + length);
-    const numbers = new Int32Array(length);
-    for (let k = 0; k < length; k += 1) numbers[k] = this.i32[2 * (at + k)];
-    return numbers;
+    return whole ? Int32Array.from(this.i64.subarray(at, at + length), Number) : this.f64.slice(at, at + length);
   }
 
   readAll(record) {
@@ -223,15 +219,9 @@ class Room {
   }
 
   write(record, name, values) {
-    const { at, length, whole } = record.arrays[name];
-    if (!whole) {
-      this.f64.set(values, at);
-      return;
-    }
-    for (let k = 0; k < length; k += 1) {
-      this.i32[2 * (at + k)] = values[k];
-      this.i32[2 * (at + k) + 1] = values[k] < 0 ? -1 : 0;
-    }
+    const { at, whole } = record.arrays[name];
+    if (whole) this.i64.set(Array.from(values, BigInt), at);
+    else this.f64.set(values, at);
   }
 }
 

@@ -2,6 +2,7 @@
 
 import { openDesk } from "../answers/desk.js";
 import { Wrong } from "../model/errors.js";
+import { messagesRead } from "../pace.js";
 
 const SLICE = 8; // ms of computing between two looks at what has come in
 const OFTEN = 40; // ms between two stages of a line that are shown
@@ -37,7 +38,7 @@ async function draw(id, start, requests) {
       job.run(many);
       const passed = performance.now() - before;
       many = Math.max(1, Math.min(Math.round((many * SLICE) / Math.max(passed, 0.1)), 4 * many));
-      await listened();
+      await messagesRead();
       if (newest !== id) return null;
       const now = performance.now();
       if (!job.whole || now - sent < OFTEN) continue; // a map has no stages: it is whole at its end
@@ -49,18 +50,6 @@ async function draw(id, start, requests) {
     if (request !== requests.at(-1)) postMessage({ id, part: answer });
   }
   return answer;
-}
-
-/** Let messages that have come in be read. */
-function listened() {
-  const { port1, port2 } = new MessageChannel();
-  return new Promise((done) => {
-    port1.onmessage = () => {
-      port1.close();
-      done();
-    };
-    port2.postMessage(null);
-  });
 }
 
 self.onmessage = ({ data: { id, name, given } }) => {

@@ -12,12 +12,12 @@ const CLOSE = 0.6; // ratio of two names from which one is suggested for the oth
 
 /** Return a value of a drop as a short text for a message; numbers are floats, as Python's. */
 export function shown(value) {
-  return shortened(isNumber(value) ? writeFloat(value) : repr(value, writeFloat));
+  return shortened(typeof value === "number" ? writeFloat(value) : repr(value, writeFloat));
 }
 
 /** Return a value as it came in JSON, where 1 is a whole number, as a short text for a message. */
 export function shownAsGiven(value) {
-  return shortened(isNumber(value) ? writeNumber(value) : repr(value, writeNumber));
+  return shortened(typeof value === "number" ? writeNumber(value) : repr(value, writeNumber));
 }
 
 function shortened(text) {
@@ -27,10 +27,6 @@ function shortened(text) {
 
 /** What Python counts as white space. */
 export const SPACES = /[\t-\r\x1c-\x20\x85\xa0\u1680\u2000-\u200a\u2028\u2029\u202f\u205f\u3000]+/u;
-
-export function isNumber(value) {
-  return typeof value === "number";
-}
 
 /** Return a number of JSON as Python reads and writes it: whole ones have no point. */
 function writeNumber(value) {
@@ -66,7 +62,7 @@ export function general(value, digits = 6) {
 /** Return a value as Python writes it in code. */
 export function repr(value, number = writeFloat) {
   if (value === null || value === undefined) return "None";
-  if (isNumber(value)) return number(value);
+  if (typeof value === "number") return number(value);
   if (typeof value === "bigint") return String(value);
   if (typeof value === "boolean") return value ? "True" : "False";
   if (typeof value === "string") return quoted(value);
@@ -97,7 +93,7 @@ function escaped(code) {
 
 function checked(name, value, right, holds) {
   const message = `${name} must be ${right}, got ${shown(value)}`;
-  if (!isNumber(value)) throw new InvalidType(message);
+  if (typeof value !== "number") throw new InvalidType(message);
   if (!Number.isFinite(value) || !holds(value)) throw new InvalidValue(message);
   return value;
 }

@@ -4,14 +4,9 @@ import { LAW_CODE } from "../../made/laws.js";
 import { InvalidValue, between, fraction, general, shown, within } from "./errors.js";
 import { known } from "./known.js";
 
-/** Return the laws' kinds, `known.models`, by their names. */
-export function kinds() {
-  return known.models;
-}
-
 /** Return the kind of the law without a contact time. */
 export function rigidKind() {
-  return Object.values(kinds()).find((kind) => kind.rigid);
+  return Object.values(known.models).find((kind) => kind.rigid);
 }
 
 /** A law of a contact, of a kind, with its numbers. */

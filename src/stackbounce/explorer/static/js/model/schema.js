@@ -3,7 +3,7 @@
 import { Drop } from "./drop.js";
 import { InvalidValue, Wrong, between, nearest, shown, shownAsGiven, writeFloat } from "./errors.js";
 import { known } from "./known.js";
-import { Law, kinds } from "./law.js";
+import { Law } from "./law.js";
 import { quantity } from "./units.js";
 
 export const NO_FLOOR = "none";
@@ -55,7 +55,7 @@ function readBall(value, path) {
 /** Return the contact law that a mapping describes; null for no floor. */
 export function readLaw(value, path) {
   const { law: name, ...table } = tableOf(value, path);
-  if (name === undefined) throw new InvalidValue(`${path}.law is missing; ${nearest("", [...Object.keys(kinds()), NO_FLOOR])}`);
+  if (name === undefined) throw new InvalidValue(`${path}.law is missing; ${nearest("", [...Object.keys(known.models), NO_FLOOR])}`);
   if (typeof name === "string" && name.toLowerCase() === NO_FLOOR) {
     if (Object.keys(table).length) throw new InvalidValue(`${path}.law = "${NO_FLOOR}" has no numbers, got ${shownAsGiven(table)}`);
     return null;
@@ -72,9 +72,9 @@ export function readLaw(value, path) {
 /** Return the kind of a law by its name; case, hyphens and underscores do not matter. */
 export function kindNamed(name) {
   const word = typeof name === "string" ? name.toLowerCase().replace(JOINED, "") : "";
-  const found = Object.values(kinds()).find(({ law }) => law.toLowerCase() === word);
+  const found = Object.values(known.models).find(({ law }) => law.toLowerCase() === word);
   if (found) return found;
-  throw new InvalidValue(`law must be a contact law, got ${shownAsGiven(name)}; ${nearest(name, Object.keys(kinds()))}`);
+  throw new InvalidValue(`law must be a contact law, got ${shownAsGiven(name)}; ${nearest(name, Object.keys(known.models))}`);
 }
 
 function fieldsOf(kind) {

@@ -36,12 +36,10 @@ export function quantity(value, unit, name) {
 
 /** Return a text without white space around it, as Python strips it. */
 export function stripped(text) {
-  const inside = text.split(SPACES);
-  const from = inside[0] === "" ? /^[^]*?(?=[^\t-\r\x1c-\x20\x85\xa0\u1680\u2000-\u200a\u2028\u2029\u202f\u205f\u3000]|$)/u.exec(text)[0].length : 0;
-  const rest = text.slice(from);
-  let end = rest.length;
-  while (end > 0 && SPACES.test(rest[end - 1])) end -= 1;
-  return rest.slice(0, end);
+  let [from, end] = [0, text.length];
+  while (from < end && SPACES.test(text[from])) from += 1;
+  while (end > from && SPACES.test(text[end - 1])) end -= 1;
+  return text.slice(from, end);
 }
 
 function messageOf(name, value, unit) {

@@ -2,7 +2,7 @@
 
 import { h } from "../dom.js";
 import { LETTERS, onRepaint } from "./palette.js";
-import { format } from "../words/units.js";
+import { format } from "../words/words.js";
 
 const LEAST = 40; // px of width, below which nothing is drawn
 
@@ -52,13 +52,8 @@ export function legendItem(color, look, ...children) {
   return h("li", {}, h("span", { class: `swatch ${look}`, "aria-hidden": "true", "--ball": color }), children);
 }
 
-/**
- * Return `{element, title, legend, draw()}`: a figure whose plot is made anew whenever it is drawn, and `below` it elements of
- * its own. `make(host)` returns the plot, or null where there is nothing to see.
- */
-export function plotFigure(make, ...below) {
-  const host = h("div", { class: "record-canvas", role: "img" });
-  const [title, legend] = [h("h3"), h("ul", { class: "legend" })];
+/** Return what makes the plot in an element anew; `make(host)` returns the plot, or null where there is nothing to see. */
+export function plotIn(host, make) {
   let plot = null;
   const draw = () => {
     plot?.destroy();
@@ -66,5 +61,5 @@ export function plotFigure(make, ...below) {
   };
   new ResizeObserver(draw).observe(host);
   onRepaint(draw);
-  return { element: h("figure", { class: "record" }, h("figcaption", {}, title, legend), host, below), title, legend, draw };
+  return draw;
 }

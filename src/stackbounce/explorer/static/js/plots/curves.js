@@ -2,8 +2,7 @@
 
 import { extentOf } from "../extent.js";
 import { t } from "../words/language.js";
-import { format } from "../words/units.js";
-import { shortBall, shortContact } from "../words/words.js";
+import { format, shortBall, shortContact } from "../words/words.js";
 
 /**
  * Return the panels of a result: `{what, title, unit, times, lines, stems, factor}`; a line is

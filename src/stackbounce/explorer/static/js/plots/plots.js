@@ -4,15 +4,15 @@ import uPlot from "../../vendor/uplot/uPlot.esm.js";
 import { between, locate } from "../stage/clock.js";
 import { chartOptions, clipped, drawDots, legendItem } from "./chart.js";
 import { describePanel, panels } from "./curves.js";
-import { h, hide, write } from "../dom.js";
+import { h, letDrag, write } from "../dom.js";
 import { extentOf } from "../extent.js";
 import { Pace } from "../pace.js";
 import { colorOf, onRepaint, palette } from "./palette.js";
 import { PlotZoom } from "./zoom.js";
-import { format } from "../words/units.js";
+import { format } from "../words/words.js";
 
-/** Draw the plots into `root` and keep their cursor at the clock's time. */
-export function mountPlots(root, store, clock) {
+/** Draw the plots into `root` and keep their cursor at the clock's time; the buttons in `zoom` choose the time that is shown. */
+export function mountPlots({ root, zoom: zoomRoot }, store, clock) {
   const pace = new Pace();
   let shown = [];
   let due = false; // what is shown has changed
@@ -21,9 +21,7 @@ export function mountPlots(root, store, clock) {
     for (const panel of shown) panel.plot.setData(panel.data());
     clock.touch();
   };
-  const zoom = new PlotZoom(clock, () => extent, redraw);
-  zoom.element.hidden = true;
-  root.before(zoom.element);
+  const zoom = new PlotZoom(zoomRoot, clock, () => extent, redraw);
   const build = () => {
     const { result, until, overlays, prediction, view } = store.get();
     if (!result || view !== "play") return;
@@ -38,7 +36,7 @@ export function mountPlots(root, store, clock) {
       root.replaceChildren();
       shown = wanted.map((panel) => new Panel(root, panel, colors, clock, zoom));
     }
-    hide(zoom.element, false);
+    zoomRoot.hidden = false;
     due = false;
     pace.watch();
     clock.touch();
@@ -81,7 +79,7 @@ class Panel {
       h("figure", { class: "plot" }, h("figcaption", {}, title, h("ul", { class: "legend" }, items)), this.host),
     );
     this.line = h("div", { class: "cursor-line" });
-    this.dots = panel.lines.map((line) => this.dot(line));
+    this.dots = panel.lines.map((line) => h("div", { class: "cursor-dot", hidden: !line.values, "--ball": this.color(line) }));
     this.panel = panel;
     this.plot = new uPlot(this.options(), this.data(), this.host);
     this.plot.over.append(this.line, ...this.dots);
@@ -151,10 +149,6 @@ class Panel {
     return legendItem(this.color(line), look, h("span", { class: "legend-label", text: line.label }), value);
   }
 
-  dot(line) {
-    return h("div", { class: "cursor-dot", hidden: !line.values, "--ball": this.color(line) });
-  }
-
   options() {
     const { width, height } = this.host.getBoundingClientRect();
     const { panel, colors } = this;
@@ -197,10 +191,7 @@ class Panel {
       for (const { index, time, impulse } of this.panel.stems ?? []) {
         ctx.strokeStyle = colorOf(this.colors, index);
         ctx.lineWidth = 3 * devicePixelRatio;
-        ctx.beginPath();
-        ctx.moveTo(plot.valToPos(time, "x", true), plot.valToPos(0, "y", true));
-        ctx.lineTo(plot.valToPos(time, "x", true), plot.valToPos(impulse, "y", true));
-        ctx.stroke();
+        ctx.stroke(new Path2D(`M${plot.valToPos(time, "x", true)} ${plot.valToPos(0, "y", true)}V${plot.valToPos(impulse, "y", true)}`));
       }
     });
   }
@@ -234,17 +225,8 @@ class Panel {
 /** Let the cursor be dragged on a plot. */
 function grab(plot, clock, scale) {
   const { over } = plot;
-  const move = (event) => {
-    const left = event.clientX - over.getBoundingClientRect().left;
-    clock.seek(plot.posToVal(left, "x") / scale());
-  };
-  over.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    over.setPointerCapture(event.pointerId);
+  letDrag(over, () => true, (event) => {
     clock.pause();
-    move(event);
-  });
-  over.addEventListener("pointermove", (event) => {
-    if (over.hasPointerCapture(event.pointerId)) move(event);
+    clock.seek(plot.posToVal(event.clientX - over.getBoundingClientRect().left, "x") / scale());
   });
 }

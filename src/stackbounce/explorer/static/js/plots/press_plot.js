@@ -1,35 +1,32 @@
 /** The plot of a press curve: force over compression, pressed in and let go, with the fitted lines. */
 
 import uPlot from "../../vendor/uplot/uPlot.esm.js";
-import { chartOptions, drawDots, legendItem, plotFigure, ticksIn } from "./chart.js";
-import { write } from "../dom.js";
+import { chartOptions, drawDots, legendItem, plotIn, ticksIn } from "./chart.js";
+import { partsOf } from "../dom.js";
 import { extentOf } from "../extent.js";
 import { t, translated } from "../words/language.js";
 import { colorOf, palette } from "./palette.js";
-import { format, shownUnit } from "../words/units.js";
+import { format, shownUnit } from "../words/words.js";
 
 const MM = 1e-3; // m
 
-/** Return `{element, show(branches)}`; without branches nothing is shown. */
-export function pressPlot() {
+/** Return what shows branches in the figure of `root`. */
+export function pressPlot(root) {
   let branches = [];
-  const { element, title, legend, draw } = plotFigure((host) => {
+  const { legend, host } = partsOf(root);
+  const draw = plotIn(host, () => {
     if (!branches.length) return null;
     host.setAttribute("aria-label", described(branches));
     const width = Math.max(...branches.flatMap(({ compression }) => compression)) / MM;
     return new uPlot(options(host, branches), [[0, width], [null, null]], host);
   });
-  write(title, t("Force over compression"));
-  const show = (next) => {
+  return (next) => {
     branches = next;
-    element.hidden = branches.length === 0;
     const colors = palette();
     const named = ({ label }) => t("{name}: points, and the fitted line", { name: translated(label) });
     legend.replaceChildren(...branches.map((branch, i) => legendItem(colorOf(colors, i), "", named(branch))));
     draw();
   };
-  show([]);
-  return { element, show };
 }
 
 function options({ clientWidth: width, clientHeight: height }, branches) {

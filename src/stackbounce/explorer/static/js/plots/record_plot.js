@@ -1,37 +1,24 @@
 /** The plot of a record over the simulated drop: dots over lines, with a slider for the clock. */
 
 import uPlot from "../../vendor/uplot/uPlot.esm.js";
-import { chartOptions, clipped, drawDots, legendItem, plotFigure, ticksIn } from "./chart.js";
-import { button, h, write } from "../dom.js";
+import { chartOptions, clipped, drawDots, legendItem, plotIn, ticksIn } from "./chart.js";
+import { partsOf, write } from "../dom.js";
 import { extentOf } from "../extent.js";
-import { check } from "../set_up/fields.js";
 import { t } from "../words/language.js";
 import { colorOf, palette } from "./palette.js";
-import { format, shownUnit } from "../words/units.js";
+import { format, shownUnit } from "../words/words.js";
 
-const SLIDER = 400; // steps to either side
+const SLIDER = 400; // steps to either side, as its HTML has them
 
-/** Return `{element, show(content)}`; content is {curves, simulated, window, names, shift, reach, move, align}. */
-export function recordPlot() {
+/** Return what shows a content in the figure of `root`: {curves, simulated, window, names, shift, reach, move, align}. */
+export function recordPlot(root) {
   let content = null;
-  const slider = h("input", { type: "range", id: "record-shift", min: -SLIDER, max: SLIDER, step: 1 });
-  const moved = h("output", { for: "record-shift", class: "record-moved" });
-  const whole = check(t("whole record"), false, () => draw());
-  const box = whole.querySelector("input");
-  const clock = h(
-    "div",
-    { class: "record-clock" },
-    h("label", { for: "record-shift", text: t("Record’s clock") }),
-    slider,
-    moved,
-    button(t("Lay on"), () => content.align()),
-    whole,
-  );
-  const { element, title, legend, draw } = plotFigure((host) => {
+  const { title, legend, host, clock, slider, moved, align, whole } = partsOf(root);
+  const draw = plotIn(host, () => {
     if (!content) return null;
     host.setAttribute("aria-label", described(content));
-    return new uPlot(options(host, content, box.checked), data(content), host);
-  }, clock);
+    return new uPlot(options(host, content, whole.checked), data(content), host);
+  });
   const place = () => {
     const { shift, reach } = content;
     const words = `${shift > 0 ? "+" : ""}${format(shift * 1e3, 3)} ms`;
@@ -42,18 +29,19 @@ export function recordPlot() {
   const move = (isDone) => content.move((Number(slider.value) / SLIDER) * content.reach, isDone);
   slider.addEventListener("input", () => move(false));
   slider.addEventListener("change", () => move(true));
+  align.addEventListener("click", () => content.align());
+  whole.addEventListener("change", draw);
 
-  const show = (next) => {
+  return (next) => {
     const isOther = content?.record !== next.record;
     content = next;
-    if (isOther) box.checked = next.whole;
+    if (isOther) whole.checked = next.whole;
     clock.hidden = !next.simulated;
     write(title, HEADINGS[next.curves[0].what] ?? t("Record"));
     legend.replaceChildren(...legendItems(next));
     if (next.simulated) place();
     draw();
   };
-  return { element, show };
 }
 
 const HEADINGS = { force: t("Force, measured and simulated"), position: t("Position, measured and simulated") };

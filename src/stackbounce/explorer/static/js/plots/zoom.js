@@ -1,7 +1,6 @@
 /** The range of time that all plots show: the whole, or a part around the cursor. */
 
-import { button, h } from "../dom.js";
-import { t } from "../words/language.js";
+import { partsOf, write } from "../dom.js";
 
 const MOST = 64; // times larger than the whole
 const STEP = 2;
@@ -9,13 +8,13 @@ const AHEAD = 0.1; // of the range lies behind the cursor when the range follows
 
 export class PlotZoom {
   /** @param {() => number[]} extent the begin and end of what is plotted, in s @param {() => void} redraw of all plots */
-  constructor(clock, extent, redraw) {
-    Object.assign(this, { clock, extent, redraw, times: 1, from: null });
-    const labelled = (label) => ({ class: "small", "aria-label": label });
-    this.out = button("−", () => this.set(this.times / STEP), labelled(t("Show a longer time in the plots")));
-    this.in = button("+", () => this.set(this.times * STEP), labelled(t("Show a shorter time in the plots, around the cursor")));
-    this.all = button(t("Whole"), () => this.set(1), labelled(t("Show the whole time in the plots")));
-    this.element = h("div", { class: "plot-zoom", role: "group", "aria-label": t("Time in the plots") }, h("span", { text: t("Time in the plots") }), this.out, this.in, this.all);
+  constructor(root, clock, extent, redraw) {
+    Object.assign(this, { clock, extent, redraw, times: 1, from: null }, partsOf(root));
+    write(this.out, "−");
+    write(this.in, "+");
+    this.out.addEventListener("click", () => this.set(this.times / STEP));
+    this.in.addEventListener("click", () => this.set(this.times * STEP));
+    this.all.addEventListener("click", () => this.set(1));
     clock.subscribe(() => this.follow());
     this.show();
   }

@@ -1,28 +1,21 @@
 /** The controls: presets, how the tower comes in, and the tower. */
 
-import { h, hide, write } from "../dom.js";
-import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withValue } from "./drops.js";
-import { NumberField, check, choice } from "./fields.js";
+import { fillFrom, write } from "../dom.js";
+import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withBall, withIncidence, withValue } from "./drops.js";
+import { NumberField, choice, sayProblem } from "./fields.js";
 import { t, translated, writeTold } from "../words/language.js";
-import { asMeasured, changeLaw, lawMemory } from "./laws.js";
+import { asMeasured, changeLaw, firstContact, lawMemory } from "./laws.js";
 import { withError } from "../asking/prediction.js";
 import { restacked } from "./restack.js";
 import { withExample } from "../state/store.js";
 import { shapeOf, towerOf, withChosen } from "./tower.js";
 
-const INCIDENCE = [
-  ["height", t("Height")],
-  ["impact_speed", t("Speed")],
-  ["velocities", t("Per ball")],
-];
-
 /** Build the controls into `root`; they change the store's drop and follow it. */
 export function mountControls(root, store, api, catalogue) {
-  const said = h("p", { class: "note", id: "preset-says" });
-  const drops = h("fieldset", { class: "incidence" });
-  const tower = h("section", { class: "tower-box", "aria-label": t("Tower") });
-  const general = h("p", { class: "field-error", role: "alert", hidden: true });
+  const { said, general, gravity, pull, add, tower } = fillFrom(root, "controls-parts");
+  const radios = [...root.querySelectorAll("[name=incidence]")];
   let fields = [];
+  let falls = []; // those of them that say how the tower comes in
   let shape = "";
   const laws = lawMemory();
 
@@ -62,15 +55,21 @@ export function mountControls(root, store, api, catalogue) {
       const { contact: changed, note } = await asMeasured(api, catalogue, drop, contact, values);
       change(withValue(drop, `contacts.${contact}`, changed), placed(contact, note));
     });
-  const tools = { catalogue, set, errorAt, change, choose, arrange, relaw, measured, drop: () => store.get().drop };
+  const tools = { catalogue, set, errorAt, choose, arrange, relaw, measured };
 
   const rebuild = () => {
     const { drop, until, notes } = store.get();
     const focused = document.activeElement?.closest?.("[data-key], [data-path], [data-slider]");
     const open = [...root.querySelectorAll("details[open]")].map((details) => details.dataset.key);
     const built = towerOf(drop, tools, notes);
-    tower.replaceChildren(built.element);
-    fields = [...incidence(drops, drop, until, tools), ...built.fields];
+    tower.replaceChildren(...built.items);
+    add.disabled = drop.balls.length >= catalogue.limits.balls;
+    for (const { element } of falls) element.remove();
+    falls = fallFields(drop, until, tools);
+    gravity.before(...falls.map(({ element }) => element));
+    for (const radio of radios) radio.checked = radio.value === incidenceOf(drop);
+    pull.checked = drop.gravity > 0;
+    fields = [...falls, ...built.fields];
     for (const key of open) tower.querySelector(`details[data-key="${key}"]`)?.setAttribute("open", "");
     focusAgain(root, focused);
   };
@@ -97,7 +96,10 @@ export function mountControls(root, store, api, catalogue) {
     example = complete(preset.drop);
     store.set(withExample(store.get(), example));
   });
-  root.replaceChildren(presets, said, general, drops, tower);
+  root.prepend(presets);
+  add.addEventListener("click", () => arrange((now) => withBall(now, firstContact(catalogue.laws))));
+  for (const radio of radios) radio.addEventListener("change", () => change(withIncidence(store.get().drop, radio.value)));
+  pull.addEventListener("change", () => set("gravity", pull.checked ? GRAVITY : 0));
   new IntersectionObserver(([{ isIntersecting }]) => root.classList.toggle("seen", isIntersecting)).observe(root);
   const tell = ({ notice }) => write(said, notice ?? "");
   store.watch(["notice"], tell);
@@ -130,26 +132,14 @@ function presetChoice({ presets }, use) {
   });
 }
 
-/** Fill the box on how the tower comes in; returns its fields. */
-function incidence(box, drop, until, { set, errorAt, change, drop: current }) {
+/** Return the fields on how the tower comes in. */
+function fallFields(drop, until, { set, errorAt }) {
   const kind = incidenceOf(drop);
-  const radios = INCIDENCE.map(([value, text]) => {
-    const choose = { onchange: () => change(withIncidence(current(), value)) };
-    const radio = h("input", { type: "radio", name: "incidence", value, checked: value === kind, "data-key": `incidence-${value}`, ...choose });
-    return h("label", {}, radio, h("span", { text }));
-  });
   const fields = [];
   if (kind === "height") fields.push(new NumberField({ path: "height", label: t("falls from"), unit: "m", large: true, low: 0.02, high: 10, set, errorAt }));
   if (kind === "impact_speed") fields.push(new NumberField({ path: "impact_speed", label: t("comes in at"), unit: "m/s", low: 0.1, high: 15, set, errorAt }));
   if (until !== null) fields.push(new NumberField({ path: "until", label: t("shown for"), unit: "s", large: true, low: 0.2, high: 20, set }));
   for (const field of fields) field.update(field.path === "until" ? until : drop[field.path]);
-  const gravity = check(t("gravity during the impact"), drop.gravity > 0, (on) => set("gravity", on ? GRAVITY : 0), { "data-key": "gravity" });
-  box.replaceChildren(
-    h("legend", { text: t("The drop") }),
-    h("div", { class: "segments" }, radios),
-    ...fields.map((field) => field.element),
-    gravity,
-  );
   return fields;
 }
 
@@ -158,8 +148,7 @@ function showError(fields, general, error) {
   const detail = error && !error.offline ? error.detail : null;
   const named = detail && fields.filter(({ path }) => mentions(detail, path)).sort((a, b) => b.path.length - a.path.length)[0];
   for (const field of fields) field.fail(field === named ? detail.slice(field.path.length).trim() : null);
-  hide(general, !detail || Boolean(named));
-  writeTold(general, general.hidden ? "" : detail);
+  sayProblem(general, named ? null : detail);
 }
 
 function mentions(detail, path) {
@@ -168,8 +157,7 @@ function mentions(detail, path) {
 
 function focusAgain(root, focused) {
   if (!focused) return;
-  const names = ["key", "path", "slider"].filter((name) => focused.dataset[name] && focused.tagName !== "DETAILS");
-  const attribute = names[0];
+  const attribute = ["key", "path", "slider"].find((name) => focused.dataset[name] && focused.tagName !== "DETAILS");
   if (!attribute || focused.isConnected) return;
   root.querySelector(`[data-${attribute}="${CSS.escape(focused.dataset[attribute])}"]`)?.focus();
 }

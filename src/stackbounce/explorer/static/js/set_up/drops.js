@@ -1,6 +1,6 @@
 /** Changes of a drop: pure functions from one drop to the next. */
 
-import { clean, numeric } from "../words/units.js";
+import { clean, numeric } from "../words/words.js";
 
 export const GRAVITY = 9.80665;
 const NEW_MASS = 0.05; // kg of a ball on top of one whose mass cannot be read

@@ -1,11 +1,10 @@
 /** One number of the drop: a label, a slider and a field that reads "57 g". */
 
-import { button, h, write } from "../dom.js";
+import { copyOf, h, partsOf, put, write } from "../dom.js";
 import { t, writeTold } from "../words/language.js";
-import { clean, format, numeric, pretty, read, shownUnit, splitError } from "../words/units.js";
-import { capital } from "../words/words.js";
+import { capital, clean, format, numeric, pretty, read, shownUnit, splitError } from "../words/words.js";
 
-const STEPS = 1000; // of a slider
+const STEPS = 1000; // of a slider, as its HTML has them
 
 export class NumberField {
   /**
@@ -27,34 +26,23 @@ export class NumberField {
     this.slider.addEventListener("input", () => this.slide(Number(this.slider.value)));
   }
 
-  build({ path, term, label, of, says }) {
-    const name = term ? `${label} (${term})` : label;
+  build({ path, term, label: word, of, says }) {
+    const name = term ? `${word} (${term})` : word;
     const spoken = of ? t("{number} of {place}", { number: name, place: of }) : name;
     const id = `field-${path.replaceAll(".", "-")}`;
-    this.input = h("input", {
-      id,
-      class: "field-number",
-      type: "text",
-      inputmode: "decimal",
-      autocomplete: "off",
-      spellcheck: "false",
-      "data-path": path,
-      "aria-label": spoken,
-      "aria-describedby": `${id}-unit ${id}-error`,
-    });
-    const range = { type: "range", min: 0, max: STEPS, step: 1 };
-    this.slider = h("input", { class: "field-slider", ...range, "data-slider": path, "aria-label": t("{number}, slider", { number: spoken }) });
-    this.error = h("p", { class: "field-error", id: `${id}-error`, hidden: true });
-    const help = says ? explanation(says, term ?? label, `${id}-says`) : null;
-    this.element = h(
-      "div",
-      { class: "field" },
-      h("span", { class: "field-label" }, h("label", { for: id, text: name }), help?.button),
-      h("span", { class: "field-box" }, this.input, h("span", { class: "unit", id: `${id}-unit`, text: pretty(this.shown.unit) })),
-      this.slider,
-      help?.text,
-      this.error,
-    );
+    const { element, label, input, unit, slider, error, explain, note } = partsOf(copyOf("field-parts"));
+    Object.assign(this, { element, input, slider, error });
+    input.id = id;
+    input.dataset.path = path;
+    put(input, "aria-label", spoken);
+    put(input, "aria-describedby", `${id}-unit ${id}-error`);
+    Object.assign(label, { htmlFor: id, textContent: name });
+    Object.assign(unit, { id: `${id}-unit`, textContent: pretty(this.shown.unit) });
+    put(slider, "aria-label", t("{number}, slider", { number: spoken }));
+    slider.dataset.slider = path;
+    error.id = `${id}-error`;
+    if (says) explainBy(explain, note, says, term ?? word, `${id}-says`);
+    else for (const part of [explain, note]) part.remove();
   }
 
   /** Follow a value of the drop, which somebody may be typing. */
@@ -130,16 +118,16 @@ export class NumberField {
   }
 }
 
-/** Return `{button, text}`: an explanation that a button shows and hides. */
-function explanation(says, what, id) {
-  const text = h("p", { class: "note", id, text: says, hidden: true });
-  const toggle = () => {
-    text.hidden = !text.hidden;
-    toggler.setAttribute("aria-expanded", String(!text.hidden));
-  };
-  const about = { class: "explain", "aria-label": t("What is {what}?", { what }), "aria-expanded": "false", "aria-controls": id };
-  const toggler = button("?", toggle, about);
-  return { button: toggler, text };
+/** Let a button show and hide an explanation. */
+function explainBy(button, note, says, what, id) {
+  Object.assign(note, { id, textContent: says });
+  button.textContent = "?";
+  put(button, "aria-label", t("What is {what}?", { what }));
+  put(button, "aria-controls", id);
+  button.addEventListener("click", () => {
+    note.hidden = !note.hidden;
+    put(button, "aria-expanded", !note.hidden);
+  });
 }
 
 /** Return how a slider's steps become values: by factors over a wide range, else evenly. */
@@ -158,20 +146,10 @@ function scaleOf(low, high) {
   };
 }
 
-/** Return a labelled box to tick; `set` hears whether it is. */
-export function check(text, checked, set, attributes = {}) {
-  const box = h("input", { type: "checkbox", checked, onchange: (event) => set(event.target.checked), ...attributes });
-  return h("label", { class: "check" }, box, text);
-}
-
-/** Return `{element, show(message)}`: where an error is said; without one it is hidden. `tell` writes it. */
-export function problemLine(tell = writeTold, attributes = {}) {
-  const element = h("p", { class: "field-error", role: "alert", hidden: true, ...attributes });
-  const show = (message = null) => {
-    tell(element, message ?? "");
-    element.hidden = !message;
-  };
-  return { element, show };
+/** Say an error in its line, which is hidden without one; `tell` writes it. */
+export function sayProblem(line, message = null, tell = writeTold) {
+  tell(line, message ?? "");
+  line.hidden = !message;
 }
 
 /** Return a labelled choice; `groups` is a list of `[title, [[value, text], …]]`, without title for none. */

@@ -3,8 +3,7 @@
 import { contactMass, speedOf, withValue } from "./drops.js";
 import { t } from "../words/language.js";
 import { areAlike } from "./restack.js";
-import { clean } from "../words/units.js";
-import { lawName } from "../words/words.js";
+import { clean, lawName } from "../words/words.js";
 
 const NONE = { fields: [], loss_fields: [], rigid: false, exact: true }; // what "no floor" is among laws
 

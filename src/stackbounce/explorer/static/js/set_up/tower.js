@@ -1,18 +1,16 @@
 /** The tower: cards of the balls, with cards of the contacts between them. */
 
-import { gapsOf, incidenceOf, valueAt, withBall, withSwap, withValue, withoutBall } from "./drops.js";
-import { button, h, hide, write } from "../dom.js";
+import { gapsOf, incidenceOf, valueAt, withSwap, withValue, withoutBall } from "./drops.js";
+import { button, copyOf, h, partsOf, write } from "../dom.js";
 import { NumberField, choice } from "./fields.js";
 import { t, translated } from "../words/language.js";
-import { firstContact } from "./laws.js";
 import { isOfCatalogue } from "./restack.js";
-import { format } from "../words/units.js";
-import { ballName, contactName, lawName } from "../words/words.js";
+import { ballName, contactName, format, lawName } from "../words/words.js";
 
 const OWN = "";
 
 /**
- * Return `{element, fields}` of the tower of a drop.
+ * Return `{items, fields}` of the tower of a drop.
  * @param {object} tools `{catalogue, set(path, value), choose(ball, name), arrange(act), relaw(contact, name), measured(contact, values)}`
  */
 export function towerOf(drop, tools, notes) {
@@ -27,10 +25,7 @@ export function towerOf(drop, tools, notes) {
   for (let ball = drop.balls.length - 1; ball >= 0; ball -= 1) {
     items.push(ballCard(drop, ball, tools, field), contactCard(drop, ball, tools, field, notes[ball]));
   }
-  const full = drop.balls.length >= tools.catalogue.limits.balls;
-  const addBall = () => tools.arrange((now) => withBall(now, firstContact(tools.catalogue.laws)));
-  const add = button(t("Add a ball on top"), addBall, { class: "small", "data-key": "add", disabled: full });
-  return { element: h("div", {}, add, h("ol", { class: "tower" }, items)), fields };
+  return { items, fields };
 }
 
 function ballCard(drop, ball, tools, field) {
@@ -48,11 +43,9 @@ function ballCard(drop, ball, tools, field) {
     value: OWN,
     set: (chosen) => tools.choose(ball, chosen),
   });
-  const changed = h("p", { class: "note", hidden: true });
-  const header = h(
-    "div",
-    { class: "card-head" },
-    h("span", { class: "swatch round", "aria-hidden": "true", "--ball": `var(--ball-${ball % 6})` }),
+  const { card, head, swatch, changed, size } = partsOf(copyOf("ball-card"));
+  swatch.style.setProperty("--ball", `var(--ball-${ball % 6})`);
+  head.append(
     choose,
     icon("↑", t("Move {ball} up", { ball: name }), "up", ball === last, (now) => withSwap(now, ball)),
     icon("↓", t("Move {ball} down", { ball: name }), "down", ball === 0, (now) => withSwap(now, ball - 1)),
@@ -63,9 +56,11 @@ function ballCard(drop, ball, tools, field) {
   if (incidenceOf(drop) === "velocities") {
     rows.push(field({ path: `velocities.${ball}`, label: t("velocity"), of: name, unit: "m/s", low: -10, high: 10, says: t("Up is positive, down negative.") }));
   }
-  const size = { path: `balls.${ball}.diameter`, label: t("size"), term: t("diameter"), of: name, unit: "m", low: 0.01, high: 0.4, optional: true };
-  const more = h("details", { "data-key": `size-${ball}` }, h("summary", { text: t("Size") }), field({ ...size, says: t("For the picture only: it changes nothing of the bounce.") }));
-  return h("li", { class: "card ball-card" }, header, rows, changed, more);
+  changed.before(...rows);
+  const shown = { path: `balls.${ball}.diameter`, label: t("size"), term: t("diameter"), of: name, unit: "m", low: 0.01, high: 0.4, optional: true };
+  size.dataset.key = `size-${ball}`;
+  size.append(field({ ...shown, says: t("For the picture only: it changes nothing of the bounce.") }));
+  return card;
 }
 
 /** Return a function that keeps a ball's name true while its mass changes. */
@@ -76,7 +71,7 @@ function namer(select, note, drop, ball, { catalogue }) {
     const known = isOfCatalogue(catalogue, { name: own.name, mass });
     select.value = known ? own.name : OWN;
     write(select.options[0], known ? t("another ball") : entry ? t("{ball}, changed", { ball: translated(own.name) }) : ballName(drop, ball));
-    hide(note, known || !entry);
+    note.hidden = known || !entry;
     if (note.hidden) return;
     const values = { ball: translated(own.name), mass: format(entry.mass * 1e3) };
     write(note, t("The {ball} of the catalogue has {mass} g. Stiffnesses do not follow the mass.", values));
@@ -87,17 +82,13 @@ function contactCard(drop, contact, tools, field, note) {
   const law = tools.catalogue.laws.find((known) => known.law === drop.contacts[contact].law);
   const laws = tools.catalogue.laws.map(({ law: name }) => [name, lawName(name)]);
   if (contact === 0) laws.push(["none", t("no floor")]);
-  const header = h(
-    "div",
-    { class: "card-head" },
-    choice({
-      label: contactName(drop, contact),
-      key: `law-${contact}`,
-      groups: [["", laws]],
-      value: drop.contacts[contact].law,
-      set: (name) => tools.relaw(contact, name),
-    }),
-  );
+  const choose = choice({
+    label: contactName(drop, contact),
+    key: `law-${contact}`,
+    groups: [["", laws]],
+    value: drop.contacts[contact].law,
+    set: (name) => tools.relaw(contact, name),
+  });
   const rows = law ? lawFields(drop, contact, law, field) : [];
   if (contact > 0) {
     const gap = { path: `gaps.${contact - 1}`, label: t("air between"), term: t("gap"), unit: "m", low: 0, high: 0.03 };
@@ -105,7 +96,7 @@ function contactCard(drop, contact, tools, field, note) {
   }
   if (note) rows.push(h("p", { class: "note", text: translated(note) }));
   const more = law ? measuredBox(contact, law, tools) : null;
-  return h("li", { class: "card contact-card" }, header, rows, more);
+  return h("li", { class: "card contact-card" }, h("div", { class: "card-head" }, choose), rows, more);
 }
 
 /** The fields of a law: those it needs, and of the others those that the contact has. */
@@ -132,16 +123,12 @@ function measuredBox(contact, law, tools) {
   };
   const boxes = [local({ name: "restitution", label: t("how bouncy"), term: t("restitution"), unit: "", low: 0.05, high: 1 })];
   if (!law.rigid) boxes.push(local({ name: "contact_time", label: t("contact time"), unit: "s", low: 5e-4, high: 5e-2 }));
-  const measured = () => tools.measured(contact, { restitution: values.restitution, contactTime: values.contact_time });
-  const about = h("p", { class: "note", text: `${law.formula} – ${translated(law.says)} (${law.source})` });
-  return h(
-    "details",
-    { "data-key": `measured-${contact}` },
-    h("summary", { text: t("What is this law? Or a measured bounce") }),
-    about,
-    boxes,
-    button(t("Same bounce as measured"), measured, { class: "small" }),
-  );
+  const { box, about, apply } = partsOf(copyOf("measured-box"));
+  box.dataset.key = `measured-${contact}`;
+  write(about, `${law.formula} – ${translated(law.says)} (${law.source})`);
+  about.after(...boxes);
+  apply.addEventListener("click", () => tools.measured(contact, { restitution: values.restitution, contactTime: values.contact_time }));
+  return box;
 }
 
 /** Return the structure of a tower without its numbers: drops of the same shape share their fields. */

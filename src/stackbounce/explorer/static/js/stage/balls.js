@@ -4,22 +4,21 @@ import { inksOf, patternOf, squash } from "./looks.js";
 import { put, s, write } from "../dom.js";
 import { t } from "../words/language.js";
 import { clamp, flattening, outline } from "./shape.js";
-import { fixed } from "../words/units.js";
-import { ballName } from "../words/words.js";
+import { ballName, fixed } from "../words/words.js";
 
 const ARROW = 46; // px of the fastest ball's arrow
 const STILL = 0.005; // m/s, the speed below which none is written
 const HEAD = 58; // px from the top of the stage, below its title
 const LETTERS = 16; // of a name
 
-/** Return a group that shows a ball; `light` is the id of its shading. */
-export function ballGroup(drop, ball, light) {
+/** Return a group that shows a ball. */
+export function ballGroup(drop, ball) {
   const group = s("g", { class: "ball", "data-ball": ball, "--ball": `var(--ball-${ball % 6})` });
   const name = s("text", { class: "ball-name", "text-anchor": "end", y: 4, text: shortened(ballName(drop, ball)) });
   group.append(
     s("path", { class: "ball-body" }),
     patternOf(group, drop.balls[ball]),
-    s("path", { class: "ball-light", fill: `url(#${light})` }),
+    s("path", { class: "ball-light", fill: "url(#light)" }),
     s("path", { class: "ball-arrow" }),
     name,
     s("text", { class: "ball-speed", y: 4 }),

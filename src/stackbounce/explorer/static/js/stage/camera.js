@@ -1,7 +1,7 @@
 /** The camera of a film: near while balls touch, far in fall and leap, and never so near that a ball leaves the picture. */
 
 import { pieceAt } from "./film.js";
-import { clamp, closeUp, farView, highest, largest, radii, stacked } from "./shape.js";
+import { bisected, clamp, closeUp, farView, highest, largest, radii, stacked } from "./shape.js";
 
 const SAMPLES = 240; // of a film, at which is looked how near the camera may be
 const SMOOTH = 0.25; // s of film to either side
@@ -23,7 +23,7 @@ export function cameraOf(film, result, { width, height, magnify, also = null, le
   const needs = ({ rest, radius: drawn, move }, position) => rest.at(-1) + drawn.at(-1) + move * (position.at(-1) + sinks(position));
   const mostAt = (time, position) => {
     const wanted = zoomAt(film, time);
-    return needs(view(wanted), position) <= height ? 1 : nearest((zoom) => needs(view(zoom), position) <= height, wanted);
+    return needs(view(wanted), position) <= height ? 1 : bisected((zoom) => needs(view(zoom), position) <= height, 0, wanted);
   };
   const most = film.whole ? () => 1 : smoothed(film, (time) => mostAt(time, film.at(time).position));
   return {
@@ -89,15 +89,4 @@ function smoothed(film, limit) {
 function kept(compute) {
   const known = [];
   return (i) => (known[i] ??= compute(i));
-}
-
-/** Return the largest number up to `most` for which a condition holds that holds for small ones. */
-function nearest(holds, most) {
-  let [low, high] = [0, most];
-  for (let i = 0; i < 20; i += 1) {
-    const middle = 0.5 * (low + high);
-    if (holds(middle)) low = middle;
-    else high = middle;
-  }
-  return low;
 }

@@ -8,8 +8,7 @@ export function direct(store, clock, calm) {
   let replay = store.get().replay;
   let whole = null; // whether a whole drop is shown
   store.subscribe((state, before) => {
-    if (state.speed !== before.speed) clock.speed = state.speed;
-    if (state.loop !== before.loop) clock.loop = state.loop;
+    Object.assign(clock, { speed: state.speed, loop: state.loop });
     const other = state.drop !== before.drop || state.until !== before.until;
     if (state.t !== before.t && state.t !== null) {
       if (other) wanted = state.t;
@@ -29,6 +28,5 @@ export function direct(store, clock, calm) {
     whole = film.whole;
     replay = state.replay;
   });
-  clock.speed = store.get().speed;
-  clock.loop = store.get().loop;
+  Object.assign(clock, { speed: store.get().speed, loop: store.get().loop });
 }

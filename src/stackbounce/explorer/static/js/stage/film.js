@@ -1,6 +1,7 @@
 /** A drop as a film of at most 15 s: the fall in real time, the impact slowed, the leap in real time. */
 
 import { ghostMotion, motionOf, wholeMotion } from "./motion.js";
+import { bisected } from "./shape.js";
 
 const FALL = 2; // s of film, at most
 const NEAR = 0.9; // s of film before the first touch and after the last separation, in which the camera moves
@@ -87,7 +88,7 @@ function partsOf({ intervals }, { fall, last, leap }) {
     return isClosed ? slow * (to - from) : Math.min(slow * (to - from), most);
   };
   const length = (slow) => spans.reduce((sum, span) => sum + lasts(span, slow), 0);
-  const slow = closed > 0 ? inTwoDigits(solve(length, IMPACT, IMPACT / closed)) : INSTANT;
+  const slow = closed > 0 ? Number(Math.max(bisected((times) => length(times) < IMPACT, 0, IMPACT / closed), 1).toPrecision(2)) : INSTANT;
   const before = Math.min(NEAR / slow, 0.5 * fall);
   const after = Math.min(NEAR / slow, 0.5 * leap);
   const parts = [
@@ -118,21 +119,6 @@ function contactSpans(intervals, last) {
 
 function total(spans) {
   return spans.reduce((sum, { from, to }) => sum + to - from, 0);
-}
-
-/** Return where an increasing function reaches a value, between 1 and `high`. */
-function solve(rising, value, high) {
-  let [low, top] = [0, high];
-  for (let i = 0; i < 60; i += 1) {
-    const middle = 0.5 * (low + top);
-    if (rising(middle) < value) low = middle;
-    else top = middle;
-  }
-  return Math.max(top, 1);
-}
-
-function inTwoDigits(value) {
-  return Number(value.toPrecision(2));
 }
 
 /** Return what happens, by time: begin, touch, parting, top, end. */

@@ -1,22 +1,17 @@
 /** "Predict first": a mark on the ruler that is dragged to where the highest ball is thought to rise, then let go. */
 
-import { button, hide, put, s, write } from "../dom.js";
+import { letDrag, partsOf, put, write } from "../dom.js";
 import { t } from "../words/language.js";
 import { metres } from "../words/words.js";
 
 const ABOVE = 60; // px above the highest mark
 const STEP = 0.02; // of what the ruler shows, for one press of an arrow
 
-/** Lay the mark over the stage in `root` while the state asks for a guess; returns what takes the ruler's place in each frame. */
+/** Show the mark over the stage in `root` while the state asks for a guess; returns what takes the ruler's place in each frame. */
 export function mountGuess(root, store, clock) {
-  const text = s("text", { class: "guess-text", x: 8, y: -6 });
-  const grip = s("circle", { class: "guess-grip", r: 9 });
-  const mark = s("g", { class: "guess-mark", tabindex: 0, role: "slider", "aria-label": t("Your guess of how high the ball flies"), "aria-valuemin": 0 });
-  mark.append(s("line", { class: "guess-area" }), s("line", { class: "guess-line" }), grip, text);
-  const svg = s("svg", { class: "guess", width: "100%", height: "100%" }, mark);
-  const go = button(t("Let go"), letGo, { class: "guess-go" });
-  const again = button(t("Guess again"), () => store.set({ guess: null }), { class: "guess-go" });
-  root.append(svg, go, again);
+  const { layer: svg, mark, grip, text, go, again } = partsOf(root);
+  go.addEventListener("click", letGo);
+  again.addEventListener("click", () => store.set({ guess: null }));
   let height = null; // m, where the mark is
   let place = null; // of the ruler in px: {zero, scale, width}, as the stage has it
 
@@ -62,19 +57,13 @@ export function mountGuess(root, store, clock) {
     put(svg, "class", isAsked() ? "guess" : "guess hidden");
     put(mark, "class", isOpen() ? "guess-mark" : "guess-mark fixed");
     put(mark, "tabindex", isOpen() ? 0 : -1);
-    hide(go, !isOpen());
-    hide(again, !isAsked() || store.get().guess === null);
+    go.hidden = !isOpen();
+    again.hidden = !isAsked() || store.get().guess === null;
     document.body.classList.toggle("guessing", isAsked() && store.get().guess === null);
     follow();
   };
-  const drag = (event) => set((place.zero - (event.clientY - svg.getBoundingClientRect().top)) / place.scale);
-  mark.addEventListener("pointerdown", (event) => {
-    if (!isOpen() || event.button !== 0) return;
-    mark.setPointerCapture(event.pointerId);
-    drag(event);
-  });
+  letDrag(mark, isOpen, (event) => set((place.zero - (event.clientY - svg.getBoundingClientRect().top)) / place.scale));
   mark.addEventListener("touchstart", (event) => isOpen() && event.preventDefault(), { passive: false }); // the page stays
-  mark.addEventListener("pointermove", (event) => mark.hasPointerCapture(event.pointerId) && drag(event));
   mark.addEventListener("keydown", (event) => {
     const moves = { ArrowUp: STEP, ArrowRight: STEP, ArrowDown: -STEP, ArrowLeft: -STEP, PageUp: 5 * STEP, PageDown: -5 * STEP };
     if (!isOpen() || !moves[event.key]) return;

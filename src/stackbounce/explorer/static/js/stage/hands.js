@@ -5,8 +5,7 @@ import { GRAVITY, gapsOf, incidenceOf, speedOf, withSwap, withValue } from "../s
 import { t } from "../words/language.js";
 import { restacked } from "../set_up/restack.js";
 import { radii } from "./shape.js";
-import { clean, format, numeric } from "../words/units.js";
-import { ballName, capital } from "../words/words.js";
+import { ballName, capital, clean, format, numeric } from "../words/words.js";
 
 const STILL = 4; // px that a pointer may move in a click
 const HOLD = 300; // ms that a finger rests on a ball before it drags it: before, it scrolls the page

@@ -1,9 +1,8 @@
 /** Bars of momentum below the stage: each ball's and their sum, now, before and after the impact. */
 
-import { h, hide, put, s, write } from "../dom.js";
+import { partsOf, put, s, write } from "../dom.js";
 import { t } from "../words/language.js";
-import { fixed } from "../words/units.js";
-import { shortBall } from "../words/words.js";
+import { fixed, shortBall } from "../words/words.js";
 
 const ROW = 18; // px
 const NAMES = 92; // px for the names at the left
@@ -11,16 +10,14 @@ const VALUES = 78; // px for the numbers at the right
 
 /** Draw the bars into `root` while the state asks for them, at the clock's time. */
 export function mountMomentum(root, store, clock) {
-  const svg = s("svg", { class: "momentum-bars", role: "img", "aria-label": t("Momentum of each ball and of all, up is to the right") });
-  root.append(h("p", { class: "note", text: t("Momentum in kg m/s: up to the right. Thin marks: before (│) and after (┃) the impact.") }), svg);
+  const { bars: svg } = partsOf(root);
   let bars = null;
   let width = 0;
 
   const build = () => {
     const { result, momentum } = store.get();
-    hide(root, !momentum || !result);
-    if (root.hidden || !clock.film) return;
-    if (width < NAMES + VALUES) return;
+    root.hidden = !momentum || !result;
+    if (root.hidden || !clock.film || width < NAMES + VALUES) return;
     bars = barsOf(result.drop, clock.film, width);
     put(svg, "viewBox", `0 0 ${width} ${ROW * bars.rows.length}`);
     put(svg, "height", ROW * bars.rows.length);

@@ -1,9 +1,8 @@
 /** The ruler beside the balls: heights of the highest ball above where it lay, and marks at the tops of all. */
 
-import { put, s, write } from "../dom.js";
+import { put, s } from "../dom.js";
 import { t } from "../words/language.js";
-import { format } from "../words/units.js";
-import { ballName, metres } from "../words/words.js";
+import { ballName, format, metres } from "../words/words.js";
 
 const APART = 44; // px between two lines, at least
 const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1e3, 1e4];
@@ -12,16 +11,15 @@ const SLIM = 480; // px, below which the highest ball's words would lie over its
 const [ABOVE, BELOW] = [-4, 14]; // px, of words from their line
 const BESIDE = 56; // px from the right edge: marks have their words left of the ruler's
 
-/** Fill a group with the lines of a film's ruler; returns `move(view, time)`. Lines that are there are used again. */
+/** Fill a group with the lines of a film's ruler; returns `move(view, time)`. */
 export function drawRuler(root, { film, camera, result, floor, width, middle }) {
   const { drop } = result;
-  const present = [...root.children];
   const top = drop.balls.length - 1;
   const base = ({ lift, rest, radius }) => floor - lift - rest[top] + radius[top];
   const line = (height, name, text) => {
     const tick = name === "tick";
     const [x, x1, y] = [width - (tick ? 8 : BESIDE), tick ? 0 : middle, !tick && width < SLIM ? BELOW : ABOVE];
-    return { group: lineOf(present, { name, x, x1, width, text, y }), height, ball: top };
+    return { group: lineOf({ name, x, x1, width, text, y }), height, ball: top };
   };
   const step = STEPS.find((apart) => apart * camera.far.move >= APART) ?? 1e5;
   const room = floor - camera.far.rest[top] + camera.far.radius[top] - 30;
@@ -30,9 +28,8 @@ export function drawRuler(root, { film, camera, result, floor, width, middle }) 
   const fallen = film.whole ? 0 : film.at(film.begin).position[0]; // the highest ball has the gaps to fall, too
   const dropped = width < NARROW ? "" : t("dropped from {height}", { height: metres(fallen) });
   if (fallen > 0) lines.push(line(fallen, "mark drop-mark", dropped));
-  const marks = film.tops.map((found, ball) => found && { ...found, ball, group: topMark(present, drop, ball, film.whole ? found.height : result.rebound_heights[ball], width, middle) }).filter(Boolean);
-  root.append(...[...lines, ...marks].map(({ group }) => group).filter((group) => group.parentNode !== root));
-  for (const left of present) left.remove();
+  const marks = film.tops.map((found, ball) => found && { ...found, ball, group: topMark(drop, ball, film.whole ? found.height : result.rebound_heights[ball], width, middle) }).filter(Boolean);
+  root.replaceChildren(...[...lines, ...marks].map(({ group }) => group));
   return (view, time) => {
     const shown = Math.max(0, 1 - 4 * view.near);
     put(root, "opacity", shown.toFixed(2));
@@ -48,23 +45,14 @@ export function drawRuler(root, { film, camera, result, floor, width, middle }) 
 }
 
 /** Return the mark of a ball's top, with the height that the table of the results has. */
-function topMark(present, drop, ball, height, width, middle) {
+function topMark(drop, ball, height, width, middle) {
   const text = width < NARROW ? "" : `${ballName(drop, ball)} ${metres(height)}`;
   const y = width < SLIM && ball === drop.balls.length - 1 ? BELOW : ABOVE;
-  const group = lineOf(present, { name: "mark top-mark", x: width - BESIDE, x1: middle, width, text, y });
-  group.style.setProperty("--ball", `var(--ball-${ball % 6})`);
-  return group;
+  const look = { "--ball": `var(--ball-${ball % 6})` };
+  return lineOf({ name: "mark top-mark", x: width - BESIDE, x1: middle, width, text, y, look });
 }
 
-/** Return a line with its words: one of its kind that is present, which is then no longer listed there, or a new one. */
-function lineOf(present, { name, x, x1, width, text, y }) {
-  const found = present.findIndex((group) => group.getAttribute("class") === name);
-  const [group] = found < 0 ? [s("g", { class: name }, s("line"), s("text", { "text-anchor": "end" }))] : present.splice(found, 1);
-  const [line, words] = group.children;
-  put(line, "x1", x1);
-  put(line, "x2", width);
-  put(words, "x", x);
-  put(words, "y", y);
-  write(words, text);
-  return group;
+/** Return a line with its words. */
+function lineOf({ name, x, x1, width, text, y, look }) {
+  return s("g", { class: name, ...look }, s("line", { x1, x2: width }), s("text", { "text-anchor": "end", x, y, text }));
 }

@@ -100,6 +100,16 @@ export function outline(r, { lower, upper }) {
   return { path: `M-${a} 0A${a} ${u} 0 0 1 ${a} 0A${a} ${d} 0 0 1 -${a} 0Z`, side };
 }
 
+/** Return where a condition ends that holds at `low`, and for all up to there; it is looked for up to `high`. */
+export function bisected(holds, low, high) {
+  for (let i = 0; i < 60; i += 1) {
+    const middle = 0.5 * (low + high);
+    if (holds(middle)) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
 export function clamp(value, low, high) {
   return Math.min(Math.max(value, low), high);
 }

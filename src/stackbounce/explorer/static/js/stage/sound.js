@@ -34,7 +34,8 @@ export function mountSound(store, clock) {
   let knocks = [];
   let heard = null; // s of the drop, up to which knocks were played; null while the film stands
   clock.subscribe(() => {
-    if (!store.get().sound || store.get().view !== "play" || !wasUsed()) {
+    const wasUsed = navigator.userActivation?.hasBeenActive ?? true;
+    if (!store.get().sound || store.get().view !== "play" || !wasUsed) {
       heard = null;
       return;
     }
@@ -51,10 +52,6 @@ export function mountSound(store, clock) {
     }
     heard = !clock.playing ? null : time > clock.begin ? time : -Infinity;
   });
-}
-
-function wasUsed() {
-  return navigator.userActivation?.hasBeenActive ?? true;
 }
 
 /** Play one knock now. */

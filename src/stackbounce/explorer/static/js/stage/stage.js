@@ -1,14 +1,13 @@
 /** The stage: the balls at the clock's time, the textbook's as outlines, and a ruler beside them. */
 
-import { h, put, s, write } from "../dom.js";
+import { copyOf, partsOf, put, s, write } from "../dom.js";
 import { filmOf, pieceAt } from "./film.js";
 import { cameraOf } from "./camera.js";
 import { t } from "../words/language.js";
 import { radii, stacked } from "./shape.js";
 import { ballGroup, ghostGroup, height as heightAt, keptGroups, moveBalls, moveGhosts, moveKept } from "./balls.js";
 import { drawRuler } from "./ruler.js";
-import { format } from "../words/units.js";
-import { ballName, happening, moment, pace } from "../words/words.js";
+import { ballName, format, happening, moment, pace } from "../words/words.js";
 
 const FOOT = 30; // px below the floor line
 const HEAD = 64; // px above the highest ball, for the time
@@ -19,30 +18,14 @@ const GUESSED = 5; // times the drop height that can be guessed, at least
 const WORDY = 320; // px, from which there is room for a whole sentence
 const NEARLY = 1e-9; // of the film's time: at an event
 
-let stages = 0;
-
 /** Draw the stage into `root` and keep it at the clock's time; `onRuler` hears in each frame where the ruler is. */
 export function mountStage(root, store, clock, onRuler = () => null) {
-  stages += 1;
-  const light = `light-${stages}`; // a gradient of a hidden stage would not be drawn
-  const svg = s("svg", { class: "scene" }); // an image once it has words, see below
-  const time = s("text", { class: "scene-time", x: 12, y: 22 });
-  const scale = s("text", { class: "scene-note", x: 12, y: 42 });
-  const ground = s("g", { class: "ground" });
-  const ruler = s("g", { class: "ruler" });
-  const trails = s("g", { class: "trails" });
-  const kept = s("g", { class: "kept" });
-  const ghosts = s("g", { class: "ghosts" });
-  const balls = s("g", { class: "balls" });
-  const centre = s("path", { class: "mass-centre", d: "M-9 0H9M0 -9V9M-5 0A5 5 0 0 0 5 0A5 5 0 0 0 -5 0" });
-  svg.append(shading(light), ruler, ground, trails, kept, balls, ghosts, centre, time, scale);
-  root.append(svg);
-  const nothing = h("p", { class: "stage-empty note", text: t("Computing the first drop …") });
-  root.append(nothing);
+  const copy = copyOf("scene-parts");
+  const { svg, time, scale, ground, ruler, trails, kept, ghosts, balls, centre, nothing } = partsOf(copy); // svg is an image once it has words
+  root.append(copy);
   let scene = null;
   let size = null; // of the stage in px; asked for at each change, it would have the whole page laid out
   let stack = ""; // whose balls are drawn
-  let soil = ""; // where the ground is drawn
 
   const build = () => {
     const { result, until, magnify, kept: other, predict } = store.get();
@@ -59,13 +42,11 @@ export function mountStage(root, store, clock, onRuler = () => null) {
     const [middle, beside] = also ? PAIR.map((part) => part * width) : [MIDDLE * width];
     const fastest = Math.max(1e-9, ...result.frames.velocity.flat().map(Math.abs));
     scene = { result, film, camera, fastest, floor: height - FOOT, middle, also, beside, width };
-    const where = `${Boolean(film.floor)} ${width} ${scene.floor}`;
-    if (where !== soil) drawGround(ground, scene, width);
-    soil = where;
+    drawGround(ground, scene, width);
     scene.moveRuler = drawRuler(ruler, scene);
     const names = JSON.stringify(result.drop.balls.map((_, ball) => ballName(result.drop, ball)));
     if (names !== stack) {
-      balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball, light)));
+      balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball)));
       trails.replaceChildren(...result.drop.balls.map((_, ball) => s("line", { class: "trail", "--ball": `var(--ball-${ball % 6})` })));
     }
     if (names !== stack || Boolean(film.ghosts) !== ghosts.hasChildNodes()) ghosts.replaceChildren(...(film.ghosts ? ghostGroup(result.drop) : []));
@@ -175,11 +156,4 @@ function spoken({ result, film }, time, { position, velocity }) {
     return t("{ball} at {place} {unit}, {speed} m/s {way}", { ball: ballName(drop, ball), place: format(place, 3), unit, speed: format(Math.abs(velocity[ball]), 3), way });
   });
   return t("The stack at {time}, from below: {balls}.", { time: moment(time, film.whole), balls: balls.join("; ") });
-}
-
-function shading(id) {
-  const stop = (offset, opacity) =>
-    s("stop", { offset, "stop-color": "#fff", "stop-opacity": opacity });
-  const light = s("radialGradient", { id, cx: 0.36, cy: 0.3, r: 0.75 }, stop(0, 0.45), stop(0.6, 0.06), stop(1, 0));
-  return s("defs", {}, light);
 }

@@ -1,36 +1,24 @@
 /** Playback: play, replay, events, the film's speed, and what the stage shows. */
 
-import { button, h, put, write } from "../dom.js";
+import { partsOf, put, write } from "../dom.js";
 import { GRAVITY } from "../set_up/drops.js";
-import { check, choice } from "../set_up/fields.js";
 import { t } from "../words/language.js";
-import { format } from "../words/units.js";
-import { moment } from "../words/words.js";
+import { format, moment } from "../words/words.js";
 
-const STEPS = 2000; // of the cursor
+const STEPS = 2000; // of the cursor, as its HTML has them
 const MAGNIFY = [1, 2, 3, 5, 8, 10, 20, 30, 50];
 const STRIDE = 1 / 200; // of the film, that an arrow key moves the cursor; ten times that for a page
-const SPEEDS = { min: -3, max: 2, step: 0.25 }; // the film's, as powers of two
 
-/** Build the transport into `root`; it drives the clock, and follows it. */
+/** Let the transport in `root` drive the clock, and follow it. */
 export function mountTransport(root, store, clock) {
-  const play = button("", toggle, { class: "play", "aria-label": t("Play") });
-  const cursor = h("input", {
-    type: "range",
-    class: "cursor",
-    min: 0,
-    max: STEPS,
-    step: "any",
-    value: 0,
-    "aria-label": t("Time"),
-    "aria-describedby": "keys",
-    oninput: () => {
-      clock.pause();
-      clock.wind((clock.film?.length ?? 0) * (Number(cursor.value) / STEPS));
-    },
+  const { play, cursor, ...others } = partsOf(root);
+  mountActions(others, store, clock);
+  mountSwitches(root, store);
+  play.addEventListener("click", toggle);
+  cursor.addEventListener("input", () => {
+    clock.pause();
+    clock.wind((clock.film?.length ?? 0) * (Number(cursor.value) / STEPS));
   });
-  const options = h("div", { class: "options" });
-  root.replaceChildren(h("div", { class: "transport-main" }, play, cursor), actions(store, clock), options);
 
   function toggle() {
     if (clock.playing) clock.pause();
@@ -58,7 +46,6 @@ export function mountTransport(root, store, clock) {
     act();
   });
 
-  const showOptions = () => options.replaceChildren(...switches(store));
   let played = false;
   clock.subscribe(() => {
     cursor.value = (STEPS * clock.reel) / (clock.film?.length || 1);
@@ -71,9 +58,6 @@ export function mountTransport(root, store, clock) {
   cursor.addEventListener("change", () => keep(store, clock));
   addEventListener("pointerup", () => !clock.playing && keep(store, clock));
   addEventListener("keyup", () => !clock.playing && keep(store, clock));
-  store.watch(["until", "magnify", "overlays", "predict", "kept", ...SHOWN.map(([name]) => name)], showOptions);
-  store.watch(["result"], ({ result }, before) => Boolean(result?.separate) !== Boolean(before.result?.separate) && showOptions());
-  showOptions();
 }
 
 /** Keep the cursor's place in the state, and so in the address. */
@@ -81,72 +65,53 @@ function keep(store, clock) {
   if (store.get().result) store.set({ t: clock.time });
 }
 
-/** Return the row of what is done with the film. */
-function actions(store, clock) {
-  const small = (text, act) => button(text, act, { class: "small" });
+/** Let the row of what is done with the film do it. */
+function mountActions({ replay, previous, next, loop, speed: slider, told }, store, clock) {
   const step = (forward) => () => {
     clock.pause();
     clock.step(forward);
     keep(store, clock);
   };
-  const slider = h("input", {
-    type: "range",
-    class: "speed",
-    id: "film-speed",
-    ...SPEEDS,
-    oninput: () => store.set({ speed: 2 ** Number(slider.value) }),
-  });
-  const told = h("output", { class: "speed-told", for: "film-speed", "aria-live": "off" });
-  const loop = check(t("Loop"), false, (on) => store.set({ loop: on }));
+  replay.addEventListener("click", () => clock.replay());
+  previous.addEventListener("click", step(false));
+  next.addEventListener("click", step(true));
+  loop.addEventListener("change", () => store.set({ loop: loop.checked }));
+  slider.addEventListener("input", () => store.set({ speed: 2 ** Number(slider.value) })); // its steps are powers of two
   const show = () => {
     const { speed, loop: again } = store.get();
     slider.value = Math.log2(speed);
-    loop.querySelector("input").checked = again;
+    loop.checked = again;
     write(told, `×${format(speed, 2)}`);
     put(slider, "aria-valuetext", t("{times} times", { times: format(speed, 2) }));
   };
   store.watch(["speed", "loop"], show);
   show();
-  return h(
-    "div",
-    { class: "actions" },
-    small(t("Replay"), () => clock.replay()),
-    small(t("Previous event"), step(false)),
-    small(t("Next event"), step(true)),
-    loop,
-    h("span", { class: "film-speed" }, h("label", { for: "film-speed", text: t("Speed of the film") }), slider, told),
-  );
 }
 
-const SHOWN = [
-  ["ghosts", t("Textbook’s balls")],
-  ["arrows", t("Velocities")],
-  ["momentum", t("Momentum")],
-  ["centre", t("Centre of mass")],
-  ["sound", t("Sound")],
-];
-
-/** Return the row of what the stage shows. */
-function switches(store) {
-  const { magnify, until, result, overlays, predict, kept } = store.get();
-  const hasTextbook = !result || result.separate;
-  const parts = SHOWN.filter(([name]) => name !== "ghosts" || hasTextbook).map(([name, text]) =>
-    check(text, store.get()[name], (on) => store.set({ [name]: on })),
-  );
-  parts.push(check(t("Whole drop"), until !== null, (on) => store.set(on ? whole(store.get()) : alone(store.get()))));
-  if (until === null) {
-    const sizes = [...new Set(magnify === null ? MAGNIFY : [...MAGNIFY, magnify])].sort((a, b) => a - b).map((times) => [times, `×${format(times, 3)}`]);
-    const set = (value) => store.set({ magnify: value === "" ? null : Number(value) });
-    parts.push(
-      check(t("Predict first"), predict, (on) => store.set({ predict: on, guess: null })),
-      button(kept ? t("Let go what was kept") : t("Keep this one to compare"), () => store.set({ kept: kept ? null : store.get().result }), { class: "small" }),
-      choice({ label: t("Movement"), groups: [["", [["", t("auto")], ...sizes]]], value: magnify ?? "", set }),
-    );
-  }
-  if (until === null && overlays.some(({ what }) => what === "position")) {
-    parts.push(h("p", { class: "note", text: t("The measured track is of the whole drop: show that to see it.") }));
-  }
-  return parts;
+/** Let the row of what the stage shows choose it, and follow the state. */
+function mountSwitches(root, store) {
+  const { textbook, wholeDrop, predictFirst, predict: first, keeper, movement, magnifier, track } = partsOf(root);
+  const boxes = [...root.querySelectorAll("[data-switch]")];
+  for (const box of boxes) box.addEventListener("change", () => store.set({ [box.dataset.switch]: box.checked }));
+  wholeDrop.addEventListener("change", () => store.set(wholeDrop.checked ? whole(store.get()) : alone(store.get())));
+  first.addEventListener("change", () => store.set({ predict: first.checked, guess: null }));
+  keeper.addEventListener("click", () => store.set({ kept: store.get().kept ? null : store.get().result }));
+  magnifier.addEventListener("change", () => store.set({ magnify: magnifier.value === "" ? null : Number(magnifier.value) }));
+  const show = (state) => {
+    const { magnify, until, result, overlays, predict, kept } = state;
+    for (const box of boxes) box.checked = state[box.dataset.switch];
+    textbook.hidden = Boolean(result) && !result.separate;
+    wholeDrop.checked = until !== null;
+    first.checked = predict;
+    for (const part of [predictFirst, keeper, movement]) part.hidden = until !== null;
+    write(keeper, kept ? t("Let go what was kept") : t("Keep this one to compare"));
+    const sizes = [...new Set(magnify === null ? MAGNIFY : [...MAGNIFY, magnify])].sort((a, b) => a - b);
+    magnifier.replaceChildren(new Option(t("auto"), ""), ...sizes.map((times) => new Option(`×${format(times, 3)}`, times)));
+    magnifier.value = magnify ?? "";
+    track.hidden = until !== null || !overlays.some(({ what }) => what === "position");
+  };
+  store.watch(["until", "magnify", "overlays", "predict", "kept", "result", ...boxes.map(({ dataset }) => dataset.switch)], show);
+  show(store.get());
 }
 
 let before = 0; // m/s², gravity during the impact, when a whole drop was asked for

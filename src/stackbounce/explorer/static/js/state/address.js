@@ -21,14 +21,12 @@ const REST = 300; // ms without a change
 /** Return a state as the text of a fragment: a drop by the paths of its numbers, as sweeps name them. */
 export function write(state) {
   const pairs = [["view", state.view]];
-  if (state.lang !== FIRST.lang) pairs.push(["lang", state.lang]);
-  if (state.lesson !== null) pairs.push(["lesson", state.lesson]);
+  for (const name of ["lang", "lesson"]) if (state[name] !== FIRST[name]) pairs.push([name, state[name]]);
   flatten("", state.drop, pairs);
   for (const [path, error] of Object.entries(state.errors)) pairs.push([`error.${path}`, error]);
   if (state.until !== FIRST.until) pairs.push(["until", state.until]);
   for (const name of SWITCHES) if (state[name] !== FIRST[name]) pairs.push([name, Number(state[name])]);
-  if (state.speed !== FIRST.speed) pairs.push(["speed", state.speed]);
-  if (state.magnify !== FIRST.magnify) pairs.push(["magnify", state.magnify]);
+  for (const name of ["speed", "magnify"]) if (state[name] !== FIRST[name]) pairs.push([name, state[name]]);
   if (state.t !== null) pairs.push(["t", Number(state.t.toPrecision(6))]);
   for (const view of Object.keys(SETTINGS)) if (state[view]) flatten(`${view}.`, state[view], pairs);
   return pairs.map(([key, value]) => `${key}=${escape(String(value))}`).join("&");
@@ -41,11 +39,8 @@ export function read(fragment) {
   const settings = {};
   const errors = {};
   const unknown = [];
-  for (const pair of fragment.replace(/^#/, "").split("&")) {
-    const cut = pair.indexOf("=");
-    if (cut < 1) continue;
-    const key = decode(pair.slice(0, cut));
-    const text = decode(pair.slice(cut + 1));
+  const pairs = fragment.replace(/^#/, "").split("&").filter((pair) => pair.indexOf("=") > 0);
+  for (const [key, text] of new URLSearchParams(pairs.join("&"))) {
     const parts = key.split(".");
     const taken = DROP.includes(parts[0])
       ? insert(drop, parts, text)
@@ -133,7 +128,8 @@ const FIRST_SHOWN = Object.fromEntries(
   ["view", "until", ...SWITCHES, "guess", "speed", "magnify", "t", "notes", ...Object.keys(SETTINGS)].map((name) => [name, FIRST[name]]),
 );
 
-function flatten(path, value, pairs) {
+/** List what a value holds as `[path, member]`; `pairs` takes them. */
+export function flatten(path, value, pairs) {
   if (value === null || value === undefined) return;
   if (typeof value !== "object") {
     pairs.push([path, value]);
@@ -177,19 +173,15 @@ function insertError(errors, parts, text) {
 /** Take one setting of the page; tell whether it is one. */
 function readOne(patch, key, text) {
   const value = number(text);
-  const finite = typeof value === "number" && Number.isFinite(value);
-  const takes = {
-    view: () => VIEWS.includes(text) && [text],
-    lang: () => isLanguage(text) && [text],
-    lesson: () => LESSON.test(text) && [text],
-    t: () => finite && [value],
-  };
-  for (const name of SWITCHES) takes[name] = () => [text !== "0"];
-  for (const name of ["until", "speed", "magnify"]) takes[name] = () => finite && value > 0 && [value];
-  if (GONE.includes(key)) return true;
-  const taken = Object.hasOwn(takes, key) && takes[key]();
-  if (taken) [patch[key]] = taken;
-  return Boolean(taken);
+  const finite = Number.isFinite(value);
+  if (SWITCHES.includes(key)) patch[key] = text !== "0";
+  else if (key === "view" && VIEWS.includes(text)) patch.view = text;
+  else if (key === "lang" && isLanguage(text)) patch.lang = text;
+  else if (key === "lesson" && LESSON.test(text)) patch.lesson = text;
+  else if (key === "t" && finite) patch.t = value;
+  else if (["until", "speed", "magnify"].includes(key) && finite && value > 0) patch[key] = value;
+  else return GONE.includes(key);
+  return true;
 }
 
 function number(text) {
@@ -199,12 +191,4 @@ function number(text) {
 
 function escape(text) {
   return encodeURIComponent(text).replaceAll("%20", "+").replaceAll("%2F", "/");
-}
-
-function decode(text) {
-  try {
-    return decodeURIComponent(text.replaceAll("+", " "));
-  } catch {
-    return text;
-  }
 }

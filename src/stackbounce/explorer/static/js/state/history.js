@@ -1,7 +1,7 @@
 /** Undo and redo of the drop's numbers: one movement of a slider is one step. */
 
-import { button } from "../dom.js";
-import { t } from "../words/language.js";
+import { flatten } from "./address.js";
+import { partsOf } from "../dom.js";
 import { FIRST_DROP, withExample } from "./store.js";
 
 const KEPT = ["drop", "errors", "until", "notes"]; // of the state, in a step
@@ -9,19 +9,17 @@ const MOST = 200; // steps
 const PAUSE = 700; // ms, after which the same number changes in another step
 const TYPED = "input:not([type]), input[type=text], input[type=search], textarea, [contenteditable]";
 
-/** Build the buttons into `root`, and take the keys that undo and redo on any page. */
+/** Let the buttons in `root` undo and redo, and the keys that do so on any page. */
 export function mountHistory(root, store) {
-  const steps = record(store);
-  const anew = () => store.set(withExample(store.get(), FIRST_DROP));
-  const named = (key) => ({ class: "small", "data-key": key, "aria-keyshortcuts": KEYS[key] });
-  const undo = button(t("Undo"), steps.undo, named("undo"));
-  const redo = button(t("Redo"), steps.redo, named("redo"));
-  root.replaceChildren(undo, redo, button(t("Reset"), anew, named("anew")));
+  const { undo, redo, anew } = partsOf(root);
+  const steps = record(store, () => show());
+  undo.addEventListener("click", steps.undo);
+  redo.addEventListener("click", steps.redo);
+  anew.addEventListener("click", () => store.set(withExample(store.get(), FIRST_DROP)));
   const show = () => {
     enable(undo, steps.canUndo(), redo);
     enable(redo, steps.canRedo(), undo);
   };
-  steps.subscribe(show);
   show();
   addEventListener("keydown", (event) => {
     const act = !event.defaultPrevented && !event.target.closest?.(TYPED) && asked(event);
@@ -30,8 +28,6 @@ export function mountHistory(root, store) {
     steps[act]();
   });
 }
-
-const KEYS = { undo: "Control+Z", redo: "Control+Shift+Z" };
 
 /** Return what keys ask for: "undo", "redo" or null. */
 function asked({ key, ctrlKey, metaKey, shiftKey, altKey }) {
@@ -51,17 +47,13 @@ function enable(button, can, other) {
   }
 }
 
-/** Keep the steps of a store: `{undo(), redo(), canUndo(), canRedo(), subscribe(listener)}`. */
-export function record(store) {
+/** Keep the steps of a store: `{undo(), redo(), canUndo(), canRedo()}`; `tell` is called after each change of them. */
+function record(store, tell) {
   let done = [];
   let undone = [];
   let held = false; // a button of the mouse or a finger is down: what changes until it is up is one step
   let open = null; // {at, paths}: the step that a change may still join
   let present = taken(store.get());
-  const listeners = new Set();
-  const tell = () => {
-    for (const listener of listeners) listener();
-  };
   store.subscribe(() => {
     const state = store.get(); // a listener before this one may have changed it further
     if (KEPT.every((name) => state[name] === present[name])) return;
@@ -102,7 +94,6 @@ export function record(store) {
     redo: () => move(undone, done),
     canUndo: () => done.length > 0,
     canRedo: () => undone.length > 0,
-    subscribe: (listener) => listeners.add(listener),
   };
 }
 
@@ -118,11 +109,7 @@ function changedPaths(state, before) {
 }
 
 function numbers({ drop, errors, until }) {
-  const found = new Map();
-  const visit = (path, value) => {
-    if (value === null || typeof value !== "object") found.set(path, value);
-    else for (const [key, member] of Object.entries(value)) visit(`${path}.${key}`, member);
-  };
-  visit("", { drop, errors, until });
-  return found;
+  const pairs = [];
+  flatten("", { drop, errors, until }, pairs);
+  return new Map(pairs);
 }

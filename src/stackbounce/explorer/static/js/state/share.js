@@ -1,25 +1,18 @@
 /** Share: the link, the numbers, the pictures, the scenario. */
 
 import { write as addressOf } from "./address.js";
-import { button, h, write } from "../dom.js";
+import { h, partsOf, write } from "../dom.js";
 import { t, writeTold } from "../words/language.js";
-import { placesBox } from "../views/places.js";
-
-const FILES = [
-  ["csv", t("Table (CSV)"), "csv"],
-  ["png", t("Picture (PNG)"), "png"],
-  ["svg", t("Picture (SVG)"), "svg"],
-  ["toml", t("Scenario (TOML)"), "toml"],
-  ["python", t("Python lines"), "py"],
-];
+import { placesIn } from "../views/places.js";
 
 const STATE_COPIED = t("The state is copied: whoever has this file puts it behind the file’s address, after “.html”, and sees the same.");
 
-/** Build the share menu into `root`. */
+/** Let the share menu in `root` do what it says. */
 export function mountShare(root, store, api) {
-  const said = h("p", { class: "note", role: "status" });
+  const { box, opener, copy, printer, said, places } = partsOf(root);
   const shared = location.protocol !== "file:"; // an address that others can open
-  const copy = async () => {
+  if (!shared) write(copy, t("Copy state"));
+  copy.addEventListener("click", async () => {
     const state = `#${addressOf(store.get())}`;
     try {
       await navigator.clipboard.writeText(shared ? location.href.split("#")[0] + state : state);
@@ -28,8 +21,8 @@ export function mountShare(root, store, api) {
       location.hash = state;
       write(said, t("Copying is not allowed here; the address of this page is the link."));
     }
-  };
-  const save = async (kind, ending) => {
+  });
+  const save = async ({ kind, ending }) => {
     write(said, "");
     try {
       const { drop, until, errors } = store.get();
@@ -38,28 +31,18 @@ export function mountShare(root, store, api) {
       writeTold(said, error.message);
     }
   };
-  const small = (text, act) => button(text, act, { class: "small" });
-  const places = placesBox(api);
-  const list = h(
-    "div",
-    { class: "share-list" },
-    small(shared ? t("Copy link") : t("Copy state"), copy),
-    FILES.map(([kind, text, ending]) => small(text, () => save(kind, ending))),
-    small(t("Print"), () => print()),
-    said,
-    places.element,
-  );
-  const box = h("details", { class: "share" }, h("summary", { text: t("Share") }), list);
-  box.addEventListener("toggle", () => box.open && places.load());
+  for (const saver of root.querySelectorAll("[data-kind]")) saver.addEventListener("click", () => save(saver.dataset));
+  printer.addEventListener("click", () => print());
+  const loadPlaces = placesIn(places, api);
+  box.addEventListener("toggle", () => box.open && loadPlaces());
   box.addEventListener("keydown", (event) => {
     if (event.key !== "Escape") return;
     box.open = false;
-    box.querySelector("summary").focus();
+    opener.focus();
   });
   document.addEventListener("pointerdown", (event) => {
     if (!box.contains(event.target)) box.open = false;
   });
-  root.replaceChildren(box);
 }
 
 /** Have the browser save a file. */

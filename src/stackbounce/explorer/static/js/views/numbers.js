@@ -1,18 +1,16 @@
 /** The results: speeds, ratios, heights, collisions and energy, beside those of separate collisions. */
 
-import { h } from "../dom.js";
+import { h, partsOf, write } from "../dom.js";
 import { GRAVITY, speedOf } from "../set_up/drops.js";
 import { t, translated } from "../words/language.js";
-import { withSpread } from "../words/quantity.js";
-import { fixed, format } from "../words/units.js";
-import { ballName, capital, contactName, count, highest, percent, setUp, shortContact } from "../words/words.js";
+import { ballName, capital, contactName, count, fixed, format, highest, percent, setUp, shortContact, withSpread } from "../words/words.js";
 
 /** Write the numbers into `root`, and the contact intervals into `table`. */
 export function mountNumbers({ root, table }, store) {
   const box = table.closest("details");
   const showIntervals = () => {
     const { result } = store.get();
-    if (result && box.open) table.replaceChildren(intervalTable(result));
+    if (result && box.open) showRows(partsOf(table), result);
   };
   box.addEventListener("toggle", showIntervals);
   const show = () => {
@@ -23,10 +21,6 @@ export function mountNumbers({ root, table }, store) {
     showIntervals();
   };
   store.watch(["result", "prediction", "kept"], show);
-}
-
-function columns(...names) {
-  return h("tr", {}, names.map((name) => h("th", { scope: "col" }, ...[name].flat())));
 }
 
 function row(name, index, ...cells) {
@@ -54,7 +48,7 @@ function ballTable(result, until, prediction) {
     "table",
     { class: until === null ? "numbers-table" : "numbers-table whole" },
     h("caption", { class: "quiet", text: t("Speeds and heights of the balls, the highest ball first") }),
-    h("thead", {}, h("tr", { class: "groups" }, groups), columns(t("Ball"), ...all.map(({ name }) => name))),
+    h("thead", {}, h("tr", { class: "groups" }, groups), h("tr", {}, [t("Ball"), ...all.map(({ name }) => name)].map((name) => h("th", { scope: "col" }, name)))),
     h("tbody", {}, rows.reverse()),
   );
 }
@@ -62,10 +56,10 @@ function ballTable(result, until, prediction) {
 /** The columns of an impact, of the drop itself or of its separate collisions; `fall`: with heights in terms of the fall. */
 function impactColumns({ drop }, { rebound_speeds: speeds, rebound_ratios: ratios, rebound_heights: heights }, prediction, fall = true) {
   const known = (name, ball) => prediction?.values?.[`${name}.${ball}`];
-  const { unit, factor, write } = heightsIn(heights);
+  const { unit, factor, written } = heightsIn(heights);
   const rise = (ball) => {
     const { value, error } = known("rebound_heights", ball) ?? {};
-    return withSpread({ value: value * factor, error: error * factor }) ?? write(heights[ball]);
+    return withSpread({ value: value * factor, error: error * factor }) ?? written(heights[ball]);
   };
   const multiples = fall && !prediction?.values; // there is no room for both
   const fallen = speedOf(drop) ** 2 / 2 / GRAVITY;
@@ -80,16 +74,16 @@ function impactColumns({ drop }, { rebound_speeds: speeds, rebound_ratios: ratio
 function wholeColumns({ drop, frames }, positions) {
   const fallen = speedOf(drop) ** 2 / 2 / (drop.gravity || GRAVITY);
   const tops = positions.map((path) => highest(frames.time, path));
-  const { unit, write } = heightsIn(tops);
-  return [{ name: [t("highest so far {unit}", { unit }), wide(` ${t("(× drop)")}`)], cell: (ball) => [write(tops[ball]), times(tops[ball], fallen)] }];
+  const { unit, written } = heightsIn(tops);
+  return [{ name: [t("highest so far {unit}", { unit }), wide(` ${t("(× drop)")}`)], cell: (ball) => [written(tops[ball]), times(tops[ball], fallen)] }];
 }
 
 /** Return the one unit of a column of heights in m, and what writes them in it; a ball that goes down has none. */
 function heightsIn(heights) {
   const most = Math.max(0, ...heights.filter(Number.isFinite));
   const [unit, factor, decimals] = most < 0.1 ? ["mm", 1e3, 1] : ["m", 1, most < 1 ? 3 : 2];
-  const write = (value) => (Number.isFinite(value) ? fixed(Math.max(value, 0) * factor, decimals) : "–");
-  return { unit, factor, write };
+  const written = (value) => (Number.isFinite(value) ? fixed(Math.max(value, 0) * factor, decimals) : "–");
+  return { unit, factor, written };
 }
 
 /** Return how many times the height of the drop a ball comes up, to stand behind the height. */
@@ -162,10 +156,8 @@ function inWords(text, drop) {
     .replaceAll("_", " ");
 }
 
-const HEADS = () => [t("Contact"), t("from ms"), t("to ms"), t("for ms"), t("peak force N"), t("compression mm"), t("impulse N s")];
-
-/** The table of the contact intervals. */
-function intervalTable({ drop, intervals }) {
+/** Fill the table of the contact intervals. */
+function showRows({ caption, rows: body }, { drop, intervals }) {
   const ms = (time) => (time === null ? "–" : fixed(time * 1e3, 3));
   const rows = intervals.slice(0, 200).map((interval) =>
     row(
@@ -180,11 +172,6 @@ function intervalTable({ drop, intervals }) {
     ),
   );
   const more = intervals.length > rows.length ? ` ${t("The first {some} of {all}.", { some: rows.length, all: intervals.length })}` : "";
-  return h(
-    "table",
-    {},
-    h("caption", { text: `${t("Each time a contact was closed.")}${more}` }),
-    h("thead", {}, columns(...HEADS())),
-    h("tbody", {}, rows),
-  );
+  body.replaceChildren(...rows);
+  write(caption, `${t("Each time a contact was closed.")}${more}`);
 }

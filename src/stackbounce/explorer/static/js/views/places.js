@@ -5,11 +5,10 @@ import { t } from "../words/language.js";
 
 const BORDER = 3; // modules of white around a code
 
-/** Return `{element, load()}`; it stays hidden where the page is for this machine alone. */
-export function placesBox(api) {
-  const element = h("div", { class: "places", hidden: true });
+/** Return what shows the places in an element; it stays hidden where the page is for this machine alone. */
+export function placesIn(element, api) {
   let asked = false;
-  const load = async () => {
+  return async () => {
     if (asked) return;
     asked = true;
     try {
@@ -25,7 +24,6 @@ export function placesBox(api) {
       asked = false; // asked again when the box is next opened
     }
   };
-  return { element, load };
 }
 
 /** Draw a QR code: dark squares on white, in the light and in the dark. */

@@ -42,8 +42,10 @@ export function translatePage() {
   document.documentElement.lang = language;
   if (language === "en") return;
   document.title = t(document.title);
-  for (const element of document.querySelectorAll("[data-t]")) write(element, t(element.textContent.replace(/\s+/g, " ").trim()));
-  for (const element of document.querySelectorAll("[data-t-label]")) put(element, "aria-label", t(element.getAttribute("aria-label")));
+  for (const root of [document, ...Array.from(document.querySelectorAll("template"), ({ content }) => content)]) {
+    for (const element of root.querySelectorAll("[data-t]")) write(element, t(element.textContent.replace(/\s+/g, " ").trim()));
+    for (const element of root.querySelectorAll("[data-t-label]")) put(element, "aria-label", t(element.getAttribute("aria-label")));
+  }
 }
 
 const remembered = new Map();

@@ -1,14 +1,15 @@
 /** What happened in a drop, what the textbook says, and why they differ: in sentences that are true for every drop. */
 
+import { partsOf, put, write } from "../dom.js";
 import { isTranslated, t, translated } from "./language.js";
-import { fixed, format } from "./units.js";
-import { capital, highest, metres } from "./words.js";
+import { capital, fixed, format, highest, metres } from "./words.js";
 
 const SAME = 0.005; // part of the larger of two speeds by which they may differ and still be called the same
 const NEARLY = 0.1;
 const MUCH = 1.5; // times as fast, from which on it is told how many times
 const NOTHING = 5e-4; // a rebound ratio that is none
 const ENDED = ["FINISHED", "COLLAPSED", "SETTLED"];
+const SETTLED = 700; // ms without a new result before it is said
 const WITH_BALL = new Set(["tennis", "table tennis", "golf"]);
 
 /** Return `{lead, more}`: one sentence on the highest ball, and what is to be said beside it. */
@@ -32,7 +33,7 @@ export function storyOf(result, until = null) {
 }
 
 /** Return what a ball is called within a sentence: "the tennis ball", "B1", "the lower ball". */
-export function called(drop, ball) {
+function called(drop, ball) {
   const name = drop.balls[ball].name;
   const count = drop.balls.length;
   if (!name) {
@@ -119,4 +120,40 @@ function arePressedTogether({ intervals }) {
   return intervals.some((interval, i) =>
     intervals.slice(i + 1).some((other) => other.contact !== interval.contact && Math.min(interval.end, other.end) > Math.max(interval.start, other.start)),
   );
+}
+
+/** Write what happened into `root`, and into `live`; before a guess, the question. */
+export function mountSentence(root, live, store) {
+  const { lead, more } = partsOf(root);
+  let timer = 0;
+  const show = () => {
+    const { result, until, predict, guess } = store.get();
+    if (!result) return;
+    const asked = predict && until === null;
+    const said = asked && guess === null ? question(result) : storyOf(result, until);
+    const about = asked && guess !== null ? `${judged(result, guess)} ` : "";
+    write(lead, said.lead);
+    write(more, `${about}${said.more}`);
+    put(root, "class", asked && guess === null ? "sentence asks" : "sentence");
+    clearTimeout(timer);
+    timer = setTimeout(() => write(live, `${said.lead} ${about}${said.more}`), SETTLED);
+  };
+  store.watch(["result", "predict", "guess"], show);
+}
+
+function question({ drop }) {
+  const name = called(drop, drop.balls.length - 1);
+  return { lead: t("How high will {ball} fly?", { ball: name }), more: t("Drag the mark on the ruler to where you think it goes, then let the balls go.") };
+}
+
+/** Return how far off a guess in m was. */
+function judged(result, guess) {
+  const { drop, rebound_heights: heights } = result;
+  const top = drop.balls.length - 1;
+  const reached = Math.max(0, heights[top] ?? 0);
+  const off = guess - reached;
+  const values = { guess: metres(guess), ball: called(drop, top), height: metres(reached), apart: metres(Math.abs(off)) };
+  if (Math.abs(off) < 0.005) return t("You thought {guess}; {ball} rises {height}: just there.", values);
+  if (off > 0) return t("You thought {guess}; {ball} rises {height}: {apart} too high.", values);
+  return t("You thought {guess}; {ball} rises {height}: {apart} too low.", values);
 }

@@ -1,7 +1,7 @@
-/** What balls, contacts and numbers are called on screen. */
+/** What balls and contacts are called on screen, and how numbers and units are written there and read: elsewhere they are SI. */
 
 import { t, translated } from "./language.js";
-import { fixed, format } from "./units.js";
+import { LANGUAGES, language } from "./language_choice.js";
 
 /** Return a ball's name, or its place. */
 export function ballName(drop, ball) {
@@ -92,4 +92,162 @@ export function lawName(law) {
 /** Return a text with a capital first letter. */
 export function capital(text) {
   return text ? text[0].toUpperCase() + text.slice(1) : "";
+}
+
+// numbers and their units
+
+/** For each SI unit what people use, and how many SI units one of it is. */
+const SHOWN = {
+  kg: ["g", 1e-3],
+  m: ["mm", 1e-3],
+  s: ["ms", 1e-3],
+  "N/m": ["kN/m", 1e3],
+  J: ["mJ", 1e-3],
+};
+
+/** What one written unit is in SI, by the SI unit it belongs to. The server knows many more. */
+const WRITTEN = {
+  kg: { kg: 1, g: 1e-3, mg: 1e-6 },
+  m: { m: 1, cm: 1e-2, mm: 1e-3, "µm": 1e-6, um: 1e-6 },
+  s: { s: 1, ms: 1e-3, "µs": 1e-6, us: 1e-6 },
+  "m/s": { "m/s": 1, "cm/s": 1e-2, "mm/s": 1e-3, "km/h": 1 / 3.6 },
+  "m/s**2": { "m/s**2": 1, "m/s^2": 1, "m/s²": 1 },
+  "N/m": { "N/m": 1, "kN/m": 1e3, "MN/m": 1e6, "N/mm": 1e3, "N/cm": 1e2 },
+  "N s/m": { "N s/m": 1, "N*s/m": 1, "Ns/m": 1 },
+  "s/m": { "s/m": 1 },
+};
+
+/** Whether the page's language has decimal commas. */
+const COMMA = LANGUAGES.find(({ code }) => code === language).decimal === ",";
+
+const QUANTITY = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;
+
+/** Return the unit in which people read an SI unit, and how many SI units one of it is. */
+export function shownUnit(unit, large = false) {
+  const [name, size] = (!large && SHOWN[unit]) || [unit, 1];
+  return { unit: name, size };
+}
+
+/** Write a unit as people do: N/m**1.5 becomes N/m^1.5 with a raised exponent where there is one. */
+export function pretty(unit) {
+  return unit
+    .replace("**exponent", "ᵖ")
+    .replace("**1.5", "¹·⁵")
+    .replace("**2", "²");
+}
+
+/** Return a number with about `digits` digits and no needless zeros. */
+export function format(value, digits = 4) {
+  if (value === null || value === undefined || Number.isNaN(value)) return "–";
+  if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e5 || size < 1e-4) return tidy(value.toExponential(digits - 1));
+  return tidy(String(Number(value.toPrecision(digits))));
+}
+
+/** Return a number with a fixed number of decimals and a true minus sign. */
+export function fixed(value, decimals) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  const text = value.toFixed(decimals);
+  return tidy(Number(text) === 0 ? text.replace("-", "") : text);
+}
+
+/** Return a written number with the decimal mark of the page's language; no thousands are parted. */
+function localized(text) {
+  return COMMA ? text.replace(".", ",") : text;
+}
+
+/** Write ASCII's minus as a minus, and drop zeros of a mantissa. */
+function tidy(text) {
+  return localized(text.replace(/\.?0+e/, "e").replace("e+", "e").replaceAll("-", "−"));
+}
+
+/**
+ * Read what somebody typed for a field: a bare number is in the shown unit, "57 g" or "0.057 kg" as
+ * it says. Anything else is returned as text, for the server to read or to refuse.
+ */
+export function read(text, unit, shown) {
+  const found = QUANTITY.exec(pointed(text.trim().replaceAll("−", "-")));
+  if (!found) return COMMA ? pointed(text.trim()) : text.trim();
+  const number = Number(found[1]);
+  if (found[2] === "") return clean(number * shown.size);
+  const size = WRITTEN[unit]?.[found[2]];
+  return size !== undefined ? clean(number * size) : COMMA ? pointed(text.trim()) : text.trim();
+}
+
+/** Split "63 ± 1 cm" into `{value, error}`, each with the unit that only one has; without ± the error is null. */
+export function splitError(text) {
+  const plain = text.trim().replace(/^\(([^()]*)\)\s*([^()]*)$/, "$1 $2"); // (63 ± 1) cm
+  const [value, error, ...more] = plain.split(/±|\+\/-/).map((part) => part.trim());
+  if (error === undefined || more.length) return { value: text, error: null };
+  const unit = (part) => QUANTITY.exec(pointed(part))?.[2] ?? "";
+  const own = unit(value) || unit(error);
+  const whole = (part) => (unit(part) ? part : `${part} ${own}`.trim());
+  return { value: whole(value), error: whole(error) };
+}
+
+/**
+ * Return a text with decimal points for decimal commas. Where the page's language has points, 1,000 could be either and stays
+ * as it is.
+ */
+export function pointed(text) {
+  if (COMMA) return text.replace(/(\d|^|[\s+-]),(?=\d)/g, "$1.");
+  return /^[+-]?[1-9]\d{0,2},\d{3}(?!\d)/.test(text) ? text : text.replace(/^([+-]?\d*),(\d+)/, "$1.$2");
+}
+
+/** Return the SI number of a value of a drop, which is a number, or a text that a link brought. */
+export function numeric(value, unit) {
+  if (typeof value === "number") return value;
+  const si = typeof value === "string" ? read(value, unit, { size: 1 }) : NaN;
+  return typeof si === "number" ? si : NaN;
+}
+
+/** Round off what binary fractions add, so that 57 g is 0.057. */
+export function clean(number) {
+  return Number(number.toPrecision(12));
+}
+
+/** For each SI unit: the units that are shown, the largest first, with size and symbol. */
+const LADDERS = {
+  s: [[1, "s"], [1e-3, "ms"], [1e-6, "µs"]],
+  m: [[0.1, "m", 1], [1e-3, "mm"], [1e-6, "µm"]],
+  kg: [[1, "kg"], [1e-3, "g"]],
+  N: [[1e3, "kN"], [1, "N"], [1e-3, "mN"]],
+  "N/m": [[1e6, "MN/m"], [1e3, "kN/m"], [1, "N/m"]],
+  J: [[1, "J"], [1e-3, "mJ"]],
+  V: [[1, "V"], [1e-3, "mV"]],
+};
+
+/** Return a value with its error, if it has one, and its unit: "30.00 ± 0.06 ms". */
+export function formatMeasured(value, error, unit) {
+  if (value === null) return "–";
+  if (typeof value !== "number") return String(value);
+  const size = Math.abs(value) || Math.abs(error ?? 0);
+  const ladder = LADDERS[unit] ?? [];
+  const [from, name, own] = ladder.find(([least]) => size >= least) ?? ladder.at(-1) ?? [1, unit];
+  const factor = own ?? from;
+  const written = name ? ` ${pretty(name).replace("^2", "²")}` : "";
+  if (!error || !Number.isFinite(error)) return `${format(value / factor, 4)}${written}`;
+  const [number, spread] = rounded(value / factor, error / factor);
+  return `${number} ± ${spread}${written}`;
+}
+
+/** Return a value with its error without a unit, "6.41 ± 0.05"; null without an error. */
+export function withSpread({ value, error } = {}) {
+  if (typeof value !== "number" || !(error > 0)) return null;
+  return rounded(value, error).join(" ± ");
+}
+
+/** Return a value and its error, rounded where the error's second digit is, or its first from 3 on. */
+function rounded(value, error) {
+  const digit = Math.floor(Math.log10(error));
+  const decimals = error / 10 ** digit < 2.95 ? 1 - digit : -digit;
+  if (Math.abs(value) >= 1e6 || decimals > 8) return [format(value, 4), format(error, 2)];
+  const write = (number) => {
+    const step = 10 ** -decimals;
+    const text = decimals > 0 ? number.toFixed(decimals) : String(Math.round(number / step) * step);
+    return localized(text.replace("-", "−"));
+  };
+  return [write(value), write(error)];
 }

@@ -1,14 +1,11 @@
 /** The form of a line or a map: built anew where its settings, or the choices that there are, have changed. */
 
-import { h } from "../../dom.js";
-
 /**
- * Return `{element, update(news)}`.
- * @param {object} kind `name` of the view, `label` of the form, `extra(news)`, what it shows besides settings and numbers, and
+ * Return what fills the form in an element with news.
+ * @param {object} kind `name` of the view, `extra(news)`, what it shows besides settings and numbers, and
  * `fill(news, {current, change})`, which returns its parts @param {(settings: object) => void} set hears other settings
  */
-export function drawingForm({ name, label, extra, fill }, set) {
-  const element = h("form", { class: `view-form ${name}-form`, "aria-label": label, autocomplete: "off" });
+export function drawingForm(element, { name, extra, fill }, set) {
   element.addEventListener("submit", (event) => event.preventDefault());
   let shown = "";
   const update = (news) => {
@@ -26,7 +23,7 @@ export function drawingForm({ name, label, extra, fill }, set) {
     element.replaceChildren(...fill(news, { current: () => latest, change }));
     if (focused?.startsWith(`${name}-`)) element.querySelector(`[data-key="${CSS.escape(focused)}"]`)?.focus();
   };
-  return { element, update: patient(element, update) };
+  return patient(element, update);
 }
 
 /** Return a function that updates a form, but not while somebody types into it: what is typed would be lost. */

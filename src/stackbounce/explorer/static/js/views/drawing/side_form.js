@@ -1,11 +1,10 @@
 /** The choice of a number that varies, between which ends: for the sides of a map, and for a line. */
 
-import { h, write } from "../../dom.js";
-import { check, choice, problemLine } from "../../set_up/fields.js";
+import { copyOf, partsOf, put, write } from "../../dom.js";
+import { choice, sayProblem } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
-import { firstSide, isSide } from "./axes.js";
-import { clean, format, pretty, read, shownUnit } from "../../words/units.js";
-import { capital } from "../../words/words.js";
+import { firstSide, isSide } from "./sides.js";
+import { capital, clean, format, pretty, read, shownUnit } from "../../words/words.js";
 
 /**
  * Return the fields of a side: which number, between which ends, logarithmic or not.
@@ -13,49 +12,37 @@ import { capital } from "../../words/words.js";
  */
 export function sideForm(key, title, current, paths, set) {
   const side = current();
-  const problem = problemLine(write, { id: `${key}-error` });
-  const { unit } = paths.find(({ path }) => path === side.path);
-  const shown = shownUnit(unit);
+  const { element, legend, low, high, unit, log, problem } = partsOf(copyOf("side-parts"));
+  const number = paths.find(({ path }) => path === side.path);
+  const shown = shownUnit(number.unit);
   const change = (patch) => {
     const next = { ...current(), ...patch };
     const message = problemOf(next);
-    problem.show(message);
+    sayProblem(problem, message, write);
     if (!message) set(next);
   };
-  const end = (which, label) => {
-    const input = h("input", {
-      type: "text",
-      inputmode: "decimal",
-      class: "field-number",
-      "data-key": `${key}-${which}`,
-      "aria-describedby": problem.element.id,
-      value: format(clean(side[which] / shown.size), 6),
-      onchange: () => change({ [which]: read(input.value, unit, shown) }),
-    });
-    return h("label", { class: "side-end" }, h("span", { text: label }), input);
-  };
-  return h(
-    "fieldset",
-    {},
-    h("legend", { text: title }),
-    choice({
-      label: t("{side}: parameter", { side: title }),
-      quiet: true,
-      key,
-      groups: [["", paths.map(({ path, label }) => [path, capital(translated(label))])]],
-      value: side.path,
-      set: (path) => set(firstSide(paths.find((number) => number.path === path))),
-    }),
-    h(
-      "div",
-      { class: "side-ends" },
-      end("low", t("from")),
-      end("high", t("to")),
-      h("span", { class: "unit", text: pretty(shown.unit) }),
-      check(t("logarithmic"), side.log, (log) => change({ log }), { "data-key": `${key}-log` }),
-    ),
-    problem.element,
-  );
+  problem.id = `${key}-error`;
+  write(legend, title);
+  write(unit, pretty(shown.unit));
+  const numbers = choice({
+    label: t("{side}: parameter", { side: title }),
+    quiet: true,
+    key,
+    groups: [["", paths.map(({ path, label }) => [path, capital(translated(label))])]],
+    value: side.path,
+    set: (path) => set(firstSide(paths.find((number) => number.path === path))),
+  });
+  legend.after(numbers);
+  for (const [which, input] of Object.entries({ low, high })) {
+    input.dataset.key = `${key}-${which}`;
+    put(input, "aria-describedby", problem.id);
+    input.defaultValue = format(clean(side[which] / shown.size), 6);
+    input.addEventListener("change", () => change({ [which]: read(input.value, number.unit, shown) }));
+  }
+  log.dataset.key = `${key}-log`;
+  log.checked = side.log;
+  log.addEventListener("change", () => change({ log: log.checked }));
+  return element;
 }
 
 function problemOf(side) {

@@ -1,9 +1,7 @@
 /** A view of one drawing over numbers of the drop, a line or a map: asks for it, draws it, and marks the present drop in it. */
 
-import { h, write } from "../../dom.js";
-import { sideOf } from "./axes.js";
-import { drawingParts } from "./elements.js";
-import { haveSameDrawing, numberIn, withNumbers } from "./numbers.js";
+import { fillFrom, write } from "../../dom.js";
+import { haveSameDrawing, numberIn, sideOf, withNumbers } from "./sides.js";
 import { isInside, point } from "./pointing.js";
 import { t, writeTold } from "../../words/language.js";
 import { onRepaint } from "../../plots/palette.js";
@@ -16,20 +14,20 @@ const LEAST = 20; // px, below which nothing is drawn
 export class DrawingView {
   /**
    * Build a view into `root`.
-   * @param {object} kind `name`, of the view and of its settings in the store; `keys`, what they do; `sides`, `margin` and
-   * `step`, as `point` takes them; the elements `drawing` and `marks`; `form`; `requests(tell)`, which asks for drawings;
-   * `sidesOf(news)`; `draw(size, news)`, which returns `{frame, title, label, summary}`; `mark(news, present, pointed)`;
+   * @param {object} kind `name`, of the view, of its settings in the store and of its HTML; `role`, what it is in words; `sides`,
+   * `margin` and `step`, as `point` takes them; `form(element)`, which returns what fills it with news; `requests(tell)`, which asks for drawings;
+   * `sidesOf(news)`; `draw(size, news, parts)`, which returns `{frame, title, label, summary}`; `mark(news, present, pointed, parts)`;
    * `told(news, place)`; and the sentences `here` and `outside` on the present drop
    */
   constructor(root, store, clock, kind) {
-    Object.assign(this, { store, kind, parts: drawingParts(kind) });
+    Object.assign(this, { store, kind, parts: fillFrom(root, `${kind.name}-parts`) });
     this.news = null; // the answer that is shown, with its settings and the numbers of its drop
     this.frame = null; // where the field lies in the drawing, in px
     this.due = 0; // a frame of the screen in which to draw
     this.asked = {}; // the drop and the settings that are shown, or will be
     const { parts } = this;
-    const side = h("div", { class: `${kind.name}-side` }, kind.form.element, parts.stage, parts.told, parts.summary);
-    root.replaceChildren(parts.figure, side, h("div", { class: "set-up-place" }));
+    parts.board.setAttribute("aria-roledescription", kind.role);
+    this.fillForm = kind.form(parts.form);
     mountStage(parts.stage, store, clock);
     this.requests = kind.requests((news) => this.hear(news));
     this.pointed = point(parts, kind, this, clock);
@@ -52,7 +50,7 @@ export class DrawingView {
 
   hear(news) {
     const { figure, message, again } = this.parts;
-    if (news.settings) this.kind.form.update(news);
+    if (news.settings) this.fillForm(news);
     figure.classList.toggle("stale", Boolean(news.problem));
     if (!news.answer && !news.problem) return;
     writeTold(message, news.problem ?? "");
@@ -73,7 +71,7 @@ export class DrawingView {
     const { board, title, summary } = this.parts;
     const { width, height } = board.getBoundingClientRect();
     if (!this.news || width < LEAST || height < LEAST) return;
-    const drawn = this.kind.draw({ width, height }, this.news);
+    const drawn = this.kind.draw({ width, height }, this.news, this.parts);
     this.frame = drawn.frame;
     write(title, drawn.title);
     write(summary, drawn.summary);
@@ -87,7 +85,7 @@ export class DrawingView {
     const { kind, news } = this;
     const [present, pointed] = [this.present(), this.pointed()];
     const isHere = isInside(present);
-    kind.mark(news, isHere ? present : null, pointed);
+    kind.mark(news, isHere ? present : null, pointed, this.parts);
     const how = hovers.matches ? t("Drag to move it; choose a point to play its drop.") : t("Choose a point to play its drop.");
     write(this.parts.readout, pointed ? kind.told(news, pointed) : `${isHere ? kind.here : kind.outside} ${how}`);
   }

@@ -4,9 +4,9 @@ import { s } from "../../dom.js";
 import { extentOf } from "../../extent.js";
 import { t, translated } from "../../words/language.js";
 import { nameOf } from "./in_words.js";
-import { fitting, marks, sideOf, ticks } from "../drawing/axes.js";
+import { fitting, marks, sideOf, ticks } from "../drawing/sides.js";
 import { colorOf, LETTERS, SMALL } from "../../plots/palette.js";
-import { clean, format, pretty } from "../../words/units.js";
+import { clean, format, pretty } from "../../words/words.js";
 
 const FONT = "system-ui, sans-serif";
 const WIDE = 560; // px from which names stand at the ends of the curves

@@ -8,11 +8,11 @@ import { sideForm } from "../drawing/side_form.js";
 import { SHOWS } from "./in_words.js";
 
 /**
- * Return the form, as `drawingForm` does.
+ * Fill the form in an element, as `drawingForm` does.
  * @param {object[]} figures the paper's lines @param {(answer: object) => object} figureOf which of them an answer is
  * @param {object} heard `set(settings)`, `use(figure)` and `save(kind)`
  */
-export function lineForm(figures, figureOf, { set, use, save }) {
+export function lineForm(element, figures, figureOf, { set, use, save }) {
   const saver = (kind, text) => button(text, () => save(kind), { class: "small", "data-key": `line-save-${kind}` });
   const figureIn = ({ answer }) => answer && figureOf(answer);
   const fill = (news, { current, change }) => {
@@ -39,7 +39,7 @@ export function lineForm(figures, figureOf, { set, use, save }) {
     ];
   };
   const extra = (news) => [news.unfit, figureIn(news)?.name];
-  return drawingForm({ name: "line", label: t("What the line shows"), extra, fill }, set);
+  return drawingForm(element, { name: "line", extra, fill }, set);
 }
 
 const KINDS = [

@@ -1,10 +1,9 @@
 /** A line in words: what it shows, its values at a place, and as a whole. */
 
 import { t, translated } from "../../words/language.js";
-import { sideOf } from "../drawing/axes.js";
-import { brief, extremes, quantity } from "../drawing/numbers.js";
-import { format } from "../../words/units.js";
-import { ballName, capital, contactName, count, height, percent } from "../../words/words.js";
+import { between, locate } from "../../stage/clock.js";
+import { brief, extremes, quantity, sideOf } from "../drawing/sides.js";
+import { ballName, capital, contactName, count, format, height, percent } from "../../words/words.js";
 
 const FEW = 3; // curves whose textbook is told, too
 
@@ -26,13 +25,10 @@ export function nameOf({ drop, show }, { index }) {
 export function valueAt({ x, show }, { values, jumps }, part) {
   const side = sideOf(x);
   const parts = x.values.map((value) => side.part(value));
-  const after = parts.findIndex((place) => place >= part);
-  if (after < 0) return values.at(-1);
-  if (after === 0) return values[0];
-  const [left, right] = [values[after - 1], values[after]];
-  const share = (part - parts[after - 1]) / (parts[after] - parts[after - 1]);
-  if (left === null || right === null || jumps.includes(after - 1) || show === "collisions") return share < 0.5 ? left : right;
-  return left + share * (right - left);
+  const place = locate(parts, part);
+  const [left, right] = [values[place.index], values[place.index + 1]];
+  if (left === null || right === null || jumps.includes(place.index) || show === "collisions") return place.fraction < 0.5 ? left : right;
+  return between(values, place);
 }
 
 /** Return what happens at a part of the side, in words: "Gap above basketball 1.2 mm: tennis 1.6 times …". */
@@ -54,13 +50,10 @@ function outcome(answer, curve, part) {
   return `${name} ${said}`;
 }
 
-function timesOf(value, times) {
-  return times ? t("{times} times", { times: value }) : value;
-}
-
 /** Return a value as it is read. */
 function written(show, value, times = true) {
-  if (show === "rebound_ratio") return timesOf(format(Math.abs(value) < 5e-4 ? 0 : value, 3), times);
+  const ratio = format(Math.abs(value) < 5e-4 ? 0 : value, 3);
+  if (show === "rebound_ratio") return times ? t("{times} times", { times: ratio }) : ratio;
   if (show === "rebound_height") return height(value);
   return show === "collisions" ? count(value) : percent(value);
 }

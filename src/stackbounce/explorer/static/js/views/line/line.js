@@ -1,14 +1,13 @@
 /** The line: the rebound over one number of the drop, with the present drop as a point on it. */
 
-import { h, s } from "../../dom.js";
-import { haveSameDrawing, brief } from "../drawing/numbers.js";
+import { brief, haveSameDrawing } from "../drawing/sides.js";
 import { DrawingView } from "../drawing/view.js";
 import { complete } from "../../set_up/drops.js";
 import { t, translated } from "../../words/language.js";
 import { drawLine, drawLineMarks } from "./draw.js";
 import { lineForm } from "./form.js";
 import { liner } from "./request.js";
-import { fileOf } from "./save.js";
+import { saved } from "./save.js";
 import { SHOWS, summary, told, valueAt } from "./in_words.js";
 import { palette } from "../../plots/palette.js";
 import { download } from "../../state/share.js";
@@ -17,8 +16,6 @@ import { withExample } from "../../state/store.js";
 /** Build the view into `root`. */
 export async function mount(root, store, api, clock) {
   const { lines: figures } = await api.catalogue();
-  const drawing = h("div", { class: "line-drawing", "aria-hidden": "true" });
-  const marks = s("svg", { class: "line-marks", width: "100%", height: "100%", "aria-hidden": "true" });
   let drawn = null; // the present drawing
   const figureIn = (answer) => figureOf(figures, answer);
   const measured = (answer) => figureIn(answer)?.measured ?? [];
@@ -30,22 +27,20 @@ export async function mount(root, store, api, clock) {
   const save = async (kind) => {
     if (!view.news) return;
     const { answer } = view.news;
-    download(await fileOf(kind, answer, measured(answer)), `stackbounce-line.${kind}`);
+    download(await saved(kind, answer, measured(answer)), `stackbounce-line.${kind}`);
   };
   const view = new DrawingView(root, store, clock, {
     name: "line",
-    keys: t("Left and right arrow move a crosshair, with Shift in larger steps, Home goes to the present drop. Enter plays the drop there."),
+    role: t("line"),
     here: t("The dots are the present drop."),
     outside: t("The present drop lies outside of this line."),
     sides: 1,
     margin: 4,
     step: 1 / 100,
-    drawing,
-    marks,
-    form: lineForm(figures, figureIn, { set: (line) => store.set({ line }), use, save }),
+    form: (element) => lineForm(element, figures, figureIn, { set: (line) => store.set({ line }), use, save }),
     requests: (tell) => liner(api, tell),
     sidesOf: ({ answer }) => [answer.x],
-    draw(size, { answer }) {
+    draw(size, { answer }, { drawing }) {
       drawn = drawLine(answer, size, palette(), measured(answer));
       drawing.replaceChildren(drawn.svg);
       const [what, number] = [SHOWS.get(answer.show), translated(answer.x.label)];
@@ -56,7 +51,7 @@ export async function mount(root, store, api, clock) {
         summary: summary(answer),
       };
     },
-    mark({ answer }, present, pointed) {
+    mark({ answer }, present, pointed, { marks }) {
       const values = (part) => answer.curves.map((curve) => ({ index: curve.index, value: valueAt(answer, curve, part) }));
       const spot = (place, isPresent) => (place ? [{ part: place[0], values: values(place[0]), present: isPresent }] : []);
       drawLineMarks(marks, drawn, [...spot(present, true), ...spot(pointed, false)], palette());

@@ -1,6 +1,6 @@
 /** Asks for lines, from coarse to fine. */
 
-import { firstSide, isSide } from "../drawing/axes.js";
+import { firstSide, isSide } from "../drawing/sides.js";
 import { SHOWS } from "./in_words.js";
 import { oneAtATime } from "../../asking/questions.js";
 

@@ -1,10 +1,11 @@
 /** Draws a map on a canvas: the field, its lines of equal value, the sides, the colours' key. */
 
+import { clipped } from "../../plots/chart.js";
 import { MANY, colorAt, css, isLight } from "../../plots/colors.js";
 import { contour, labelPlace } from "../../plots/contours.js";
-import { fitting, marks, ticks } from "../drawing/axes.js";
+import { fitting, marks, ticks } from "../drawing/sides.js";
 import { LETTERS } from "../../plots/palette.js";
-import { format, pretty } from "../../words/units.js";
+import { format, pretty } from "../../words/words.js";
 
 const KEY = { top: 4, height: 12 }; // of the colours
 const LABEL_ROOM = 26; // px around the label of a line
@@ -45,20 +46,15 @@ export function drawMap(canvas, answer, sides, scale, colors) {
 }
 
 /** Draw hatching below the field; it shows through where a run did not finish. */
-function drawHatch(ctx, { left, top, width, height }, colors) {
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(left, top, width, height);
-  ctx.clip();
-  ctx.strokeStyle = colors.muted;
-  ctx.globalAlpha = 0.5;
-  ctx.beginPath();
-  for (let x = -height; x < width; x += 8) {
-    ctx.moveTo(left + x, top + height);
-    ctx.lineTo(left + x + height, top);
-  }
-  ctx.stroke();
-  ctx.restore();
+function drawHatch(ctx, frame, colors) {
+  const { left, top, width, height } = frame;
+  let lines = "";
+  for (let x = -height; x < width; x += 8) lines += `M${left + x} ${top + height}l${height} ${-height}`;
+  clipped({ ctx, bbox: frame }, () => {
+    ctx.strokeStyle = colors.muted;
+    ctx.globalAlpha = 0.5;
+    ctx.stroke(new Path2D(lines));
+  });
 }
 
 function drawField(ctx, { left, top, width, height }, values, scale) {
@@ -95,12 +91,7 @@ function drawLevels(ctx, frame, values, scale) {
     const light = isLight(scale.color(level));
     ctx.strokeStyle = light ? "rgb(0 0 0 / 55%)" : "rgb(255 255 255 / 65%)";
     ctx.lineWidth = 1;
-    ctx.beginPath();
-    for (const [x0, y0, x1, y1] of pieces) {
-      ctx.moveTo(x0, y0);
-      ctx.lineTo(x1, y1);
-    }
-    ctx.stroke();
+    ctx.stroke(new Path2D(pieces.map(([x0, y0, x1, y1]) => `M${x0} ${y0}L${x1} ${y1}`).join("")));
     const inside = pieces.map(([a, b, c, d]) => [a - frame.left, b - frame.top, c - frame.left, d - frame.top]);
     const place = labelPlace(inside, taken, frame, LABEL_ROOM);
     if (!place) continue;
@@ -188,28 +179,19 @@ export function drawMarks(canvas, present, pointed, colors) {
   const at = ([x, y]) => [frame.left + x * frame.width, frame.top + (1 - y) * frame.height];
   if (pointed) {
     const [x, y] = at(pointed);
-    for (const [color, wide] of [[colors.paper, 3], [colors.text, 1]]) {
-      ctx.strokeStyle = color;
-      ctx.lineWidth = wide;
-      ctx.beginPath();
-      ctx.moveTo(x, frame.top);
-      ctx.lineTo(x, frame.top + frame.height);
-      ctx.moveTo(frame.left, y);
-      ctx.lineTo(frame.left + frame.width, y);
-      ctx.stroke();
-    }
+    drawTwice(ctx, `M${x} ${frame.top}v${frame.height}M${frame.left} ${y}h${frame.width}`, [colors.paper, 3], [colors.text, 1]);
   }
   if (!present) return;
   const [x, y] = at(present);
-  for (const [color, wide] of [["#000", 5], ["#fff", 2.5]]) {
+  ctx.lineCap = "round";
+  drawTwice(ctx, `M${x - 6} ${y - 6}l12 12M${x - 6} ${y + 6}l12 -12`, ["#000", 5], ["#fff", 2.5]);
+}
+
+/** Draw lines with a wide pen and over it with a thin one, so that they are seen on all colours. */
+function drawTwice(ctx, lines, ...pens) {
+  for (const [color, width] of pens) {
     ctx.strokeStyle = color;
-    ctx.lineWidth = wide;
-    ctx.lineCap = "round";
-    ctx.beginPath();
-    for (const way of [1, -1]) {
-      ctx.moveTo(x - 6, y - 6 * way);
-      ctx.lineTo(x + 6, y + 6 * way);
-    }
-    ctx.stroke();
+    ctx.lineWidth = width;
+    ctx.stroke(new Path2D(lines));
   }
 }

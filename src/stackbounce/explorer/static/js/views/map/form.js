@@ -4,12 +4,12 @@ import { button } from "../../dom.js";
 import { choice } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
 import { drawingForm } from "../drawing/form.js";
-import { depends } from "../drawing/numbers.js";
+import { depends } from "../drawing/sides.js";
 import { sideForm } from "../drawing/side_form.js";
 import { capital } from "../../words/words.js";
 
-/** Return the form, as `drawingForm` does; `set` hears the new settings. */
-export function mapForm(set) {
+/** Fill the form in an element, as `drawingForm` does; `set` hears the new settings. */
+export function mapForm(element, set) {
   const fill = ({ settings, paths, shows }, { current, change }) => {
     const other = { x: settings.y.path, y: settings.x.path };
     const free = (name) => paths.filter(({ path }) => !depends(path, other[name]));
@@ -27,5 +27,5 @@ export function mapForm(set) {
       button(t("Swap sides"), () => change({ x: current().y, y: current().x }), { "data-key": "map-swap" }),
     ];
   };
-  return drawingForm({ name: "map", label: t("What the map shows"), extra: ({ shows }) => shows, fill }, set);
+  return drawingForm(element, { name: "map", extra: ({ shows }) => shows, fill }, set);
 }

@@ -1,8 +1,7 @@
 /** Asks for maps, from coarse to fine. */
 
 import { lawOf } from "../../set_up/laws.js";
-import { firstSide, isSide } from "../drawing/axes.js";
-import { depends } from "../drawing/numbers.js";
+import { depends, firstSide, isSide } from "../drawing/sides.js";
 import { oneAtATime } from "../../asking/questions.js";
 
 const COARSE = [24, 18];
@@ -17,12 +16,11 @@ function steps(drop, laws) {
 
 /** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, with {drop, answer} as well, or {problem}. */
 export function mapper(api, tell) {
-  let laws = null;
   return oneAtATime(async (told, drop, wanted) => {
     const { paths, shows } = await api.mapPaths(drop);
     const settings = complete(wanted, paths, shows, drop);
     told({ settings, paths, shows });
-    laws ??= (await api.catalogue()).laws;
+    const { laws } = await api.catalogue();
     const requests = steps(drop, laws).map(([across, up]) => {
       const [x, y] = [{ ...settings.x, count: across }, { ...settings.y, count: up }];
       return { drop, x, y, show: settings.show };

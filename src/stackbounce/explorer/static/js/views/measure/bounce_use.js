@@ -1,41 +1,26 @@
 /** "Use this as a ball's bounce": what a file tells of one ball goes into that ball's contact. */
 
-import { button, h, write } from "../../dom.js";
+import { partsOf, write } from "../../dom.js";
 import { withValue } from "../../set_up/drops.js";
-import { problemLine } from "../../set_up/fields.js";
+import { sayProblem } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
 import { asBounced } from "../../set_up/laws.js";
-import { formatMeasured } from "../../words/quantity.js";
-import { ballName, capital, contactName, lawName } from "../../words/words.js";
-import { whichBall } from "./which_ball.js";
+import { ballName, capital, contactName, formatMeasured, lawName } from "../../words/words.js";
+import { whichBall } from "./fit_choices.js";
 
-/** Return `{element, offer(answer), follow()}`: `offer` takes the answer to a file, or null. */
-export function bounceUse(store, api) {
-  const says = h("p");
-  const status = h("p", { class: "note", role: "status" });
-  const problem = problemLine();
-  const use = button(t("Use this as the ball’s bounce"), () => apply(), { class: "primary" });
-  const see = button(t("See it in Play"), () => store.set({ view: "play", t: null, replay: store.get().replay + 1 }), { hidden: true });
-  const which = whichBall(t("Which ball bounced?"), "bounced", use);
-  const element = h(
-    "section",
-    { class: "measure-card bounce-use", "aria-labelledby": "bounce-title", hidden: true },
-    h("h2", { id: "bounce-title", text: t("Put it into the stack") }),
-    says,
-    which.element,
-    h("div", { class: "fit-buttons" }, use, see),
-    status,
-    problem.element,
-  );
+/** Return `{offer(answer), follow()}` of the card in `root`: `offer` takes the answer to a file, or null. */
+export function bounceUse(root, store, api) {
+  const { says, which: place, use, see, status, problem } = partsOf(root);
+  const which = whichBall(place, t("Which ball bounced?"), "bounced", use);
   let answer = null;
   let names = "";
   const namesOf = (drop) => JSON.stringify(drop.balls.map((_, ball) => ballName(drop, ball)));
 
   const offer = (next) => {
     answer = next?.bounce ? next : null;
-    element.hidden = !answer;
+    root.hidden = !answer;
     see.hidden = true;
-    problem.show();
+    sayProblem(problem);
     write(status, "");
     if (!answer) return;
     write(says, known(answer));
@@ -50,7 +35,7 @@ export function bounceUse(store, api) {
     if (answer && names !== namesOf(store.get().drop)) offerBalls();
   };
   const apply = async () => {
-    problem.show();
+    sayProblem(problem);
     write(status, "");
     const ball = which.ball();
     const { drop } = store.get();
@@ -63,10 +48,12 @@ export function bounceUse(store, api) {
       write(status, `${t("{contact} is set: {law}.", values)} ${ball > 0 ? ALONE : ""}`.trim());
       see.hidden = false;
     } catch (error) {
-      problem.show(error.message);
+      sayProblem(problem, error.message);
     }
   };
-  return { element, offer, follow };
+  use.addEventListener("click", apply);
+  see.addEventListener("click", () => store.set({ view: "play", t: null, replay: store.get().replay + 1 }));
+  return { offer, follow };
 }
 
 const ALONE = t("It is the bounce of this ball alone: that the ball below gives way, too, is left out.");

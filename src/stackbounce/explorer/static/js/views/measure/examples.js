@@ -1,6 +1,5 @@
-/** Records for a try, made by stackbounce itself, each with the drop as somebody would know it beforehand. */
+/** The drops of the records for a try, made by stackbounce itself: each as somebody would know it beforehand. */
 
-import { t } from "../../words/language.js";
 import { FIRST_DROP } from "../../state/store.js";
 
 const TWO_BALLS = {
@@ -17,19 +16,4 @@ const TWO_BALLS = {
   gravity: 9.80665,
 };
 
-export const EXAMPLES = [
-  {
-    file: "floor-force.csv",
-    title: t("Force on the floor"),
-    says: t("A tennis ball on a basketball. Made with springs of 2.70 and 1.35 kN/m: 20 000 samples a second, 0.5 N of noise."),
-    drop: FIRST_DROP,
-  },
-  {
-    file: "two-tracks.csv",
-    title: t("Video of two balls"),
-    says: t(
-      "The paper’s ball B2 on B1 from 1 m, as Tracker exports it. Made with dampings of 8 and 2 N s/m: 120 frames a second, points unsure by 4 mm.",
-    ),
-    drop: TWO_BALLS,
-  },
-];
+export const EXAMPLES = { "floor-force.csv": FIRST_DROP, "two-tracks.csv": TWO_BALLS };

@@ -1,52 +1,35 @@
 /** Where a file comes in: a button, the whole view as a place to drop it, examples for a try. */
 
-import { button, h, write } from "../../dom.js";
+import { partsOf, write } from "../../dom.js";
 import { EXAMPLES } from "./examples.js";
-import { problemLine } from "../../set_up/fields.js";
+import { sayProblem } from "../../set_up/fields.js";
 import { t } from "../../words/language.js";
 import { microphone } from "./microphone.js";
 
-/** Return the element; `take` hears each file, and the drop of an example. */
+/** Let files come in by the parts of `root`; `take` hears each of them, and the drop of an example. */
 export function fileDrop(root, take) {
-  const input = h("input", {
-    type: "file",
-    hidden: true,
-    onchange: () => {
-      if (input.files[0]) take(input.files[0]);
-      input.value = "";
-    },
+  const { choose, input, exampleProblem: problem } = partsOf(root);
+  choose.addEventListener("click", () => input.click());
+  input.addEventListener("change", () => {
+    if (input.files[0]) take(input.files[0]);
+    input.value = "";
   });
-  const problem = problemLine(write);
-  const load = async ({ file, drop }) => {
-    problem.show();
+  const load = async (file) => {
+    sayProblem(problem);
     try {
       const answer = await fetch(`examples/${file}`);
       if (!answer.ok) throw new Error(t("{file} could not be loaded.", { file }));
-      take(new File([await answer.blob()], file, { type: "text/csv" }), drop);
+      take(new File([await answer.blob()], file, { type: "text/csv" }), EXAMPLES[file]);
     } catch (error) {
-      problem.show(error.message);
+      sayProblem(problem, error.message, write);
     }
   };
-  const kinds = t(
-    "A sound, a force, a video’s track, an acceleration, times or heights of bounces, or a press curve, as Tracker, ImageJ, phyphox, oscilloscopes or spreadsheets write it. It stays on this machine.",
-  );
-  const choose = button(t("Choose a file"), () => input.click(), { class: "primary" });
-  const entry = (example) => h("div", { class: "example" }, button(example.title, () => load(example)), h("p", { class: "note", text: example.says }));
-  letDrop(root, take);
-  return h(
-    "div",
-    { class: "file-drop" },
-    h("h2", { id: "measure-title", text: t("Bring your own measurement") }),
-    h("p", { class: "note", text: kinds }),
-    h("div", { class: "drop-zone" }, choose, h("span", { text: t("or drop it here") }), input),
-    microphone(take),
-    h("details", { class: "examples", open: true }, h("summary", { text: t("Or try an example") }), EXAMPLES.map(entry)),
-    problem.element,
-  );
+  for (const example of root.querySelectorAll("[data-example]")) example.addEventListener("click", () => load(example.dataset.example));
+  microphone(root, take);
 }
 
-/** Let files be dropped anywhere in the view. */
-function letDrop(root, take) {
+/** Show where a file can be dropped: anywhere in the view. What is dropped anywhere on the page is taken as `dropped.js` says. */
+export function showDropping(root) {
   for (const name of ["dragenter", "dragover"]) {
     root.addEventListener(name, (event) => {
       event.preventDefault();
@@ -56,9 +39,5 @@ function letDrop(root, take) {
   root.addEventListener("dragleave", (event) => {
     if (!root.contains(event.relatedTarget)) root.classList.remove("dropping");
   });
-  root.addEventListener("drop", (event) => {
-    event.preventDefault();
-    root.classList.remove("dropping");
-    if (event.dataTransfer.files[0]) take(event.dataTransfer.files[0]);
-  });
+  root.addEventListener("drop", () => root.classList.remove("dropping"));
 }

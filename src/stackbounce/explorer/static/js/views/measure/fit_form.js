@@ -1,63 +1,30 @@
 /** The form of a fit: the measured values, the numbers that vary, and the outcome. */
 
-import { button, h, write } from "../../dom.js";
-import { problemLine } from "../../set_up/fields.js";
-import { describeFit, describeVerdict } from "./fit_words.js";
+import { partsOf, write } from "../../dom.js";
+import { sayProblem } from "../../set_up/fields.js";
+import { describeFit, describeVerdict } from "./found.js";
 import { t } from "../../words/language.js";
 import { converted, lossOf } from "../../set_up/laws.js";
-import { measuredRows, quantityNames } from "./measured_rows.js";
-import { variedNumbers } from "./varied_numbers.js";
-import { whichBall } from "./which_ball.js";
+import { measuredRows, quantityNames, variedNumbers, whichBall } from "./fit_choices.js";
 
 const START = 0.75; // the restitution that a fit begins with where the law lost no energy
 
-/** The form; `fitted` hears each answer. */
+/** The form in `root`; `fitted` hears each answer. */
 export class FitForm {
-  constructor(store, api, fitted) {
-    Object.assign(this, { store, api, fitted, rows: measuredRows(store), vary: variedNumbers(), problem: problemLine() });
+  constructor(root, store, api, fitted) {
+    const parts = partsOf(root);
+    Object.assign(this, { store, api, fitted, parts, rows: measuredRows(parts.rows, store), vary: variedNumbers(parts.vary) });
     this.record = null; // the results of a file, {measured, file, options}
     this.shape = ""; // of the drop that the form has choices for
     this.before = null; // the drop before the fit
-    this.alone = this.buildAlone();
-    this.status = h("p", { class: "note", role: "status" });
-    this.submit = button(t("Fit"), null, { type: "submit", class: "primary" });
-    this.undo = button(t("Back to the drop before"), () => this.takeBack(), { hidden: true });
-    this.outcome = h("div", { class: "fit-outcome" });
-    this.element = this.build();
-    this.element.addEventListener("submit", (event) => {
+    this.which = whichBall(parts.which, t("Which ball?"), "alone", parts.dropAlone);
+    parts.dropAlone.addEventListener("click", () => this.dropAlone());
+    parts.addRow.addEventListener("click", () => this.rows.add().querySelector("select").focus());
+    parts.undo.addEventListener("click", () => this.takeBack());
+    root.addEventListener("submit", (event) => {
       event.preventDefault();
       this.fit();
     });
-  }
-
-  build() {
-    const addRow = () => this.rows.add().querySelector("select").focus();
-    return h(
-      "form",
-      { class: "fit", "aria-labelledby": "fit-title", autocomplete: "off" },
-      h("h2", { id: "fit-title", text: t("Fit the drop to it") }),
-      h(
-        "fieldset",
-        {},
-        h("legend", { text: t("What was measured") }),
-        this.alone.element,
-        this.rows.element,
-        button(t("Add a measured value"), addRow),
-      ),
-      this.vary.element,
-      h("div", { class: "fit-buttons" }, this.submit, this.undo),
-      this.status,
-      this.problem.element,
-      this.outcome,
-    );
-  }
-
-  /** Return `{element, ask(drop)}`: which ball the file is of, where it is of one alone and the drop is a stack. */
-  buildAlone() {
-    const drop = button(t("Drop this ball alone"), () => this.dropAlone());
-    const which = whichBall(t("Which ball?"), "alone", drop);
-    const says = h("p", { text: t("The file is of one ball alone; the drop is a stack.") });
-    return { ...which, element: h("div", { class: "fit-alone", hidden: true }, says, which.element, drop) };
   }
 
   /** Take the results of a file, or null. */
@@ -66,13 +33,13 @@ export class FitForm {
     const measured = record?.measured ?? {};
     const isAlone = Object.keys(measured).join() === "rebound_ratios.0" && drop.balls.length > 1;
     this.record = record;
-    this.alone.element.hidden = !isAlone;
-    if (isAlone) this.alone.ask(drop);
+    this.parts.alone.hidden = !isAlone; // which ball it is of is asked
+    if (isAlone) this.which.ask(drop);
     this.rows.fill(isAlone ? {} : measured);
-    this.outcome.replaceChildren();
-    this.undo.hidden = true;
-    this.problem.show();
-    write(this.status, "");
+    this.parts.outcome.replaceChildren();
+    this.parts.undo.hidden = true;
+    sayProblem(this.parts.problem);
+    write(this.parts.status, "");
     this.offerVaried();
   }
 
@@ -97,32 +64,32 @@ export class FitForm {
   }
 
   async dropAlone() {
-    this.problem.show();
+    sayProblem(this.parts.problem);
     try {
-      const drop = await aloneDrop(this.api, await this.api.catalogue(), this.store.get().drop, this.alone.ball());
+      const drop = await aloneDrop(this.api, await this.api.catalogue(), this.store.get().drop, this.which.ball());
       this.store.set({ drop });
     } catch (error) {
-      this.problem.show(error.message);
+      sayProblem(this.parts.problem, error.message);
     }
   }
 
   async fit() {
     const { drop } = this.store.get();
-    this.submit.disabled = true;
-    this.problem.show();
-    write(this.status, t("Fitting …"));
+    this.parts.submit.disabled = true;
+    sayProblem(this.parts.problem);
+    write(this.parts.status, t("Fitting …"));
     try {
       const answer = await this.api.fit(this.request(drop));
       this.before = drop;
-      this.undo.hidden = false;
-      this.outcome.replaceChildren(...describeFit(answer, { ...this.vary.labels(), ...quantityNames(drop) }));
-      write(this.status, describeVerdict(answer));
+      this.parts.undo.hidden = false;
+      this.parts.outcome.replaceChildren(...describeFit(answer, { ...this.vary.labels(), ...quantityNames(drop) }));
+      write(this.parts.status, describeVerdict(answer));
       this.fitted(answer);
     } catch (error) {
-      write(this.status, "");
-      this.problem.show(error.message);
+      write(this.parts.status, "");
+      sayProblem(this.parts.problem, error.message);
     }
-    this.submit.disabled = false;
+    this.parts.submit.disabled = false;
   }
 
   request(drop) {
@@ -140,10 +107,10 @@ export class FitForm {
 
   takeBack() {
     this.store.set({ drop: this.before });
-    this.undo.hidden = true;
-    this.outcome.replaceChildren();
-    write(this.status, t("The drop is as it was."));
-    this.submit.focus();
+    this.parts.undo.hidden = true;
+    this.parts.outcome.replaceChildren();
+    write(this.parts.status, t("The drop is as it was."));
+    this.parts.submit.focus();
   }
 }
 

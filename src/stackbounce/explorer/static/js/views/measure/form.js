@@ -2,13 +2,13 @@
 
 import { h } from "../../dom.js";
 import { choice } from "../../set_up/fields.js";
-import { t, translated } from "../../words/language.js";
+import { translated } from "../../words/language.js";
 
 /**
- * Return `{element, options(), files()}` of a list of `{name, form, label, example, says, rare, choices}`;
+ * Fill the form of `parts` with a list of options `{name, form, label, example, says, rare, choices}`; returns `{options(), files()}`.
  * `changed` is called after each change.
  */
-export function measureForm(options, changed) {
+export function measureForm({ options: form, more, rare }, options, changed) {
   const values = {};
   const field = (option) => {
     const set = (value) => {
@@ -17,17 +17,12 @@ export function measureForm(options, changed) {
     };
     return option.choices ? chooseField(option, set) : inputField(option, set);
   };
-  const fieldsOf = (rare) => options.filter((option) => option.rare === rare).map(field);
-  const element = h(
-    "form",
-    { class: "measure-options", "aria-label": t("What the file does not say"), autocomplete: "off" },
-    fieldsOf(false),
-    h("details", {}, h("summary", { text: t("More") }), h("div", { class: "measure-options" }, fieldsOf(true))),
-  );
-  element.addEventListener("submit", (event) => event.preventDefault());
+  more.before(...options.filter((option) => !option.rare).map(field));
+  rare.append(...options.filter((option) => option.rare).map(field));
+  form.addEventListener("submit", (event) => event.preventDefault());
   const given = (isFile) =>
     Object.fromEntries(Object.entries(values).filter(([, value]) => value !== "" && value instanceof File === isFile));
-  return { element, options: () => given(false), files: () => given(true) };
+  return { options: () => given(false), files: () => given(true) };
 }
 
 /** The inputs by the form of an option: their attributes, and what they give. */

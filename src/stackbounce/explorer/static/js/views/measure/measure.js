@@ -1,10 +1,10 @@
 /** The Measure view: a file of measurements, its results, and the record over the simulated drop. */
 
-import { button, h, write } from "../../dom.js";
+import { button, fillFrom, write } from "../../dom.js";
 import { bounceUse } from "./bounce_use.js";
-import { problemLine } from "../../set_up/fields.js";
+import { sayProblem } from "../../set_up/fields.js";
 import { FitForm } from "./fit_form.js";
-import { fileDrop } from "./file_drop.js";
+import { fileDrop, showDropping } from "./file_drop.js";
 import { t } from "../../words/language.js";
 import { describeFile, listFindings } from "./found.js";
 import { measureForm } from "./form.js";
@@ -19,29 +19,16 @@ export async function mount(root, store, api) {
 
 class MeasureView {
   constructor(root, store, api, options) {
-    Object.assign(this, { store, api, file: null, newest: 0, problem: problemLine(), press: pressPlot() });
-    this.said = h("div", { class: "recognised", role: "status" });
-    this.found = card(t("What was found"));
-    this.plot = card(t("The record and the drop"));
-    this.pressed = card(t("The press curve"), this.press.element);
-    this.use = bounceUse(store, api);
-    this.fit = new FitForm(store, api, (answer) => this.showFitted(answer));
-    this.overlay = new Overlay(this.plot, store, api, (index) => this.fit.retarget(index));
-    this.form = measureForm(options, () => this.ask());
-    this.drop = fileDrop(root, (file, known) => this.take(file, known));
+    const parts = fillFrom(root, "measure-parts");
+    Object.assign(this, { store, api, parts, file: null, newest: 0, press: pressPlot(parts.pressed) });
+    this.use = bounceUse(parts.bounceUse, store, api);
+    this.fit = new FitForm(parts.fit, store, api, (answer) => this.showFitted(answer));
+    this.overlay = new Overlay(parts.record, store, api, (index) => this.fit.retarget(index));
+    this.form = measureForm(parts, options, () => this.ask());
     this.away = button(t("Take the record away"), () => this.takeAway(), { class: "small" });
-    this.unsaid = h(
-      "details",
-      { class: "measure-card", open: matchMedia("(min-width: 900px)").matches },
-      h("summary", {}, h("h2", { text: t("What the file does not say") })),
-      this.form.element,
-    );
-    const first = h("section", { class: "measure-card", "aria-labelledby": "measure-title" }, this.drop, this.said, this.problem.element);
-    const last = h("section", { class: "measure-card" }, this.fit.element);
-    root.replaceChildren(
-      h("div", { class: "measure-in" }, first, this.found, this.unsaid),
-      h("div", { class: "measure-out" }, this.use.element, this.plot, this.pressed, last),
-    );
+    parts.unsaid.open = matchMedia("(min-width: 900px)").matches;
+    fileDrop(parts.fileDrop, (file, known) => this.take(file, known));
+    showDropping(root);
     this.fit.offer(null);
     if (store.get().file) this.take(store.get().file);
     store.watch(["file"], (state) => state.file && this.take(state.file));
@@ -55,7 +42,6 @@ class MeasureView {
   /** Take a file, and the drop that is known of it. */
   take(file, known = null) {
     this.file = file;
-    this.found.hidden = true; // it is of the file before
     this.clear();
     if (known) this.store.set({ drop: known, until: null });
     this.ask();
@@ -64,10 +50,9 @@ class MeasureView {
   takeAway() {
     this.newest += 1;
     this.file = null;
-    write(this.said, "");
-    this.found.hidden = true;
+    write(this.parts.recognised, "");
     this.clear();
-    this.drop.querySelector("button")?.focus();
+    this.parts.choose.focus();
   }
 
   /** Have the file measured, with what the form says of it; the newest question counts. */
@@ -76,8 +61,8 @@ class MeasureView {
     const mine = this.newest;
     const { file, form } = this;
     if (!file) return;
-    write(this.said, t("Reading {file} …", { file: file.name }));
-    this.problem.show();
+    write(this.parts.recognised, t("Reading {file} …", { file: file.name }));
+    sayProblem(this.parts.fileProblem);
     try {
       const options = form.options();
       const body = new FormData();
@@ -92,10 +77,10 @@ class MeasureView {
   }
 
   show(answer, record) {
-    this.said.replaceChildren(...describeFile(answer), this.away);
-    this.found.replaceChildren(...listFindings(answer, this.store));
-    this.found.hidden = false;
-    if (answer.doubt) this.unsaid.open = true;
+    this.parts.recognised.replaceChildren(...describeFile(answer), this.away);
+    this.parts.found.replaceChildren(...listFindings(answer, this.store));
+    this.parts.found.hidden = false;
+    if (answer.doubt) this.parts.unsaid.open = true;
     this.overlay.show(answer);
     this.showPress(answer.branches);
     this.use.offer(answer);
@@ -103,16 +88,15 @@ class MeasureView {
   }
 
   fail(error) {
-    write(this.said, "");
-    this.problem.show(error.message);
-    this.unsaid.open = true;
-    this.found.hidden = true;
+    write(this.parts.recognised, "");
+    sayProblem(this.parts.fileProblem, error.message);
+    this.parts.unsaid.open = true;
     this.clear();
   }
 
   showPress(branches) {
-    this.pressed.hidden = branches.length === 0;
-    this.press.show(branches);
+    this.parts.pressed.hidden = branches.length === 0;
+    this.press(branches);
   }
 
   showFitted(answer) {
@@ -120,14 +104,12 @@ class MeasureView {
     if (answer.series.length) this.overlay.show({ series: answer.series, zero: 0 });
   }
 
+  /** Forget what was found in the file before. */
   clear() {
+    this.parts.found.hidden = true;
     this.overlay.clear();
     this.showPress([]);
     this.use.offer(null);
     this.fit.offer(null);
   }
-}
-
-function card(label, ...inside) {
-  return h("section", { class: "measure-card", "aria-label": label, hidden: true }, inside);
 }

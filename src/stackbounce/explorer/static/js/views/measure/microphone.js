@@ -1,7 +1,7 @@
 /** The microphone as a source of a measurement: at most 30 s, which become a WAV file in the page. */
 
-import { button, h, write } from "../../dom.js";
-import { problemLine } from "../../set_up/fields.js";
+import { partsOf, write } from "../../dom.js";
+import { sayProblem } from "../../set_up/fields.js";
 import { t } from "../../words/language.js";
 import { download } from "../../state/share.js";
 import { wavOf } from "./wav.js";
@@ -10,25 +10,19 @@ const LONGEST = 30; // s
 const CLIPPED = 0.99; // of the largest sample
 const PLAIN = { echoCancellation: false, noiseSuppression: false, autoGainControl: false, channelCount: 1 };
 
-/** Return the element; `take` hears each recording, as a file. */
-export function microphone(take) {
-  if (!window.isSecureContext || !navigator.mediaDevices?.getUserMedia) {
-    return h("p", {
-      class: "note",
-      text: t("To record a bounce here, open the page on the machine that runs stackbounce: browsers give the microphone only to pages of the same machine or with an address that begins with https://."),
-    });
-  }
-  const said = h("p", { class: "note", role: "status" });
-  const problem = problemLine(write);
-  const level = h("meter", { class: "level", min: 0, max: 1, high: CLIPPED, value: 0, "aria-label": t("Loudness"), hidden: true });
-  const turn = button(t("Record a bounce"), () => (recording ? stop() : start()));
-  const save = button(t("Save the recording"), () => download(file, file.name), { class: "small", hidden: true });
+/** Let the parts of `root` record; `take` hears each recording, as a file. */
+export function microphone(root, take) {
+  const { microphone: own, noMicrophone: instead, turn, level, save, said, problem } = partsOf(root);
+  own.hidden = !window.isSecureContext || !navigator.mediaDevices?.getUserMedia;
+  instead.hidden = !own.hidden;
+  turn.addEventListener("click", () => (recording ? stop() : start()));
+  save.addEventListener("click", () => download(file, file.name));
   let recording = null;
   let file = null;
 
   const start = async () => {
     turn.disabled = true;
-    problem.show();
+    sayProblem(problem);
     try {
       recording = await record(heard);
       write(turn, t("Stop"));
@@ -36,7 +30,7 @@ export function microphone(take) {
       save.hidden = true;
       write(said, t("Recording, for {seconds} s at most: let the ball bounce near the microphone.", { seconds: LONGEST }));
     } catch (error) {
-      problem.show(whyNot(error));
+      sayProblem(problem, whyNot(error), write);
     }
     turn.disabled = false;
   };
@@ -55,7 +49,6 @@ export function microphone(take) {
     save.hidden = false;
     take(file);
   };
-  return h("div", { class: "microphone" }, h("div", { class: "microphone-row" }, turn, level, save), said, problem.element);
 }
 
 /** Begin to record; `heard` is told the peak of each part, and how many seconds there are. */

@@ -1,6 +1,6 @@
 /** A record beside the simulated drop: keeps both, the shift between their clocks, and the plots in step. */
 
-import { h } from "../../dom.js";
+import { h, partsOf } from "../../dom.js";
 import { GRAVITY } from "../../set_up/drops.js";
 import { choice } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
@@ -14,12 +14,9 @@ const LONGEST = 10; // s of a track that are simulated
 /** Draws into `card`, and hands the store's `overlays` to the play view; `moved` hears over what a record is to lie. */
 export class Overlay {
   constructor(card, store, api, moved) {
-    [this.card, this.store, this.api, this.moved] = [card, store, api, moved];
-    this.plot = recordPlot();
-    this.notes = h("div", { class: "note" });
-    this.over = h("div", { class: "record-over" });
+    const { over, notes } = partsOf(card);
+    Object.assign(this, { card, store, api, moved, over, notes, plot: recordPlot(card) });
     this.target = null; // the ball or contact that the user chose for a record of one
-    card.append(this.over, this.plot.element, this.notes);
     this.record = null;
     this.asked = 0;
   }
@@ -124,7 +121,7 @@ export class Overlay {
       this.shift = next;
       this.draw(done);
     };
-    this.plot.show({
+    this.plot({
       record: this.record,
       curves: put.curves,
       simulated: this.lines,
@@ -143,8 +140,6 @@ export class Overlay {
   }
 
   name({ what, index, label }) {
-    const { drop } = this.store.get();
-    if (!this.result) return translated(label);
-    return what === "force" ? contactName(drop, index) : translated(label);
+    return this.result && what === "force" ? contactName(this.store.get().drop, index) : translated(label);
   }
 }

@@ -58,10 +58,8 @@ export function matched(curves, simulated) {
     const offset = mean(differences(curve, line, { until: 0 }));
     if (!Number.isFinite(offset)) return curve;
     const values = { what: translated(curve.label), size: (Math.abs(offset) * 1e3).toFixed(0) };
-    const [lower, higher] = [
-      t("{what} is drawn {size} mm lower than tracked, to lie on the simulated ball.", values),
-      t("{what} is drawn {size} mm higher than tracked, to lie on the simulated ball.", values),
-    ];
+    const lower = t("{what} is drawn {size} mm lower than tracked, to lie on the simulated ball.", values);
+    const higher = t("{what} is drawn {size} mm higher than tracked, to lie on the simulated ball.", values);
     if (Math.abs(offset) > 5e-4) notes.push(offset > 0 ? lower : higher);
     return { ...curve, values: curve.values.map((value) => value - offset) };
   });
