@@ -3,16 +3,14 @@
 The end was where the sign of the force was clear of its round-off. An end is now the zero itself.
 """
 
-import json
-
 import pytest
 from benchmarks.impacts import score
 
 import stackbounce as sb
 from drops import drop_of_laws
-from reference.make_data import DATA
+from reference import data
 
-ROWS = json.loads((DATA / "laws.json").read_text())
+ROWS = data.read("laws")
 PROBLEMS = score.read(score.FOLDER / "problems.json", "problems")["problems"]
 ANSWERS = score.read(score.FOLDER / "answers.json", "answers")["answers"]
 

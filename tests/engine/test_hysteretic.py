@@ -7,11 +7,11 @@ import pytest
 
 import stackbounce as sb
 from drops import by_contact, drop_of
-from reference import make_data
+from reference import data
 
 RESTITUTION = 1e-10
 EVENT = 1e-12  # of the contact time
-ROWS = make_data.read("hysteretic")
+ROWS = data.read("hysteretic")
 SPEED = (2 * 9.80665 * 0.2) ** 0.5
 
 TIGHT = 1e-14  # of the tolerances a user can ask for
