@@ -1,5 +1,6 @@
 """Plain Python raised where compiled code divides by zero, and runs ended as INVALID."""
 
+import numpy as np
 import pytest
 
 import stackbounce as sb
@@ -28,7 +29,9 @@ def test_gaps_that_vanish(compiled):
 )
 def test_numbers_out_of_range(mass, stiffness, speed, compiled):
     drop = sb.Drop([sb.Ball(mass)], [sb.Spring(stiffness)], impact_speed=speed)
-    assert sb.simulate(drop, compiled=compiled).status is sb.Status.INVALID
+    result = sb.simulate(drop, compiled=compiled)
+    assert result.status is sb.Status.INVALID
+    assert np.isnan(result.rebound_ratios).all()
 
 
 @pytest.mark.parametrize("compiled", [False, True])

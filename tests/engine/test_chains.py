@@ -99,6 +99,7 @@ def test_momentum_and_energy_are_kept(law, count):
     result = row(law, count)
     assert result.status is sb.Status.FINISHED
     assert result.collisions.tolist() == [0] + [1] * (count - 1)
+    assert (result.intervals["start"] == 0.0).all()
     assert math.fsum(result.rebound_speeds) == pytest.approx(1.0, abs=1e-12)
     assert result.energy_retained == pytest.approx(1.0, abs=1e-11)
 

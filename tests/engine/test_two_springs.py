@@ -9,7 +9,7 @@ from stackbounce.engine import codes, native
 from stackbounce.engine.memory import spring_workspace
 from stackbounce.engine.records import Drops
 from stackbounce.engine.tables import Table
-from stackbounce.engine.two_springs import SCRATCH, new_scratch, run_two_springs
+from stackbounce.engine.two_springs import run_two_springs
 from stackbounce.run.batch import new_outcomes
 
 SPEED = 1e-12
@@ -265,8 +265,3 @@ def test_event_limit():
     out = solve(*drops, event_limit=5)
     events = 2 * full["collisions"].sum(axis=1)
     assert (out["status"] == np.where(events > 5, codes.EVENT_LIMIT, codes.FINISHED)).all()
-
-
-def test_scratch_begins_on_a_cache_line():
-    assert all(room.ctypes.data % 64 == 0 for room in (new_scratch(), new_scratch(), new_scratch()))
-    assert new_scratch().shape == (SCRATCH,)

@@ -232,9 +232,7 @@ class Stack:
         self.length = min(x.length for x in self.closed)
         self.rows = couplings(masses)
 
-    def advance(
-        self, c: list[Number], rates: list[Number], stop: Number, limit: float
-    ) -> Outcome:
+    def advance(self, c: list[Number], rates: list[Number], stop: Number, limit: float) -> Outcome:
         """Step, at most to the next event, until the end."""
         energy, now, done = kinetic(self.masses, self._velocities(rates)), mpf(0), []
         unit = self.length / self.speed
