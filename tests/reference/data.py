@@ -1,4 +1,4 @@
-"""The stored drops of `tests/data`: each a case, drawn at random or from the paper, and its solution.
+"""The stored drops of `tests/data`: cases, at random or from the paper, and their solutions.
 
 Contacts are springs or hysteretic where they have no name. The numbers are those of `precise`, to
 20 or 28 digits; an interval is contact, start, end, peak force, peak compression, impulse.

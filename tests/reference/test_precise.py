@@ -3,7 +3,7 @@
 import pytest
 from mpmath import mp, mpf
 
-from reference import data, precise, taylor
+from reference import data, precise, springs, taylor
 
 CLOSE = mpf(10) ** -34
 
@@ -106,6 +106,12 @@ def test_stored_values_come_out_again(name, indices):
             known = [float(x) for x in a if x is not None]
             expected = [x for x in b[:3] if x is not None]
             assert known == pytest.approx(expected, rel=1e-15, abs=1e-14 * row["end_time"])
+
+
+def test_springs_leaves_tall_stacks_to_precise():
+    """The ninth of touching balls moves as t**17 at first, beyond the orders that it looks at."""
+    with pytest.raises(ValueError, match="there are 9 balls"):
+        springs.run([1] * 9, [1] * 9, [0] * 8, [-1] * 9)
 
 
 MIXED = {
