@@ -27,12 +27,3 @@ def test_collapse_threshold():
         for percent, upper in ((50, 8), (80, 80), (90, 360)):
             threshold = rigid.collapse_threshold(mpf(percent) / 100, mpf(percent) / 100)
             assert abs(threshold - upper) < mpf(10) ** -40
-
-
-def test_collapse_of_three_meets_collapse_of_two():
-    """A very heavy lower ball is a floor."""
-    for upper, collapses in ((7.99, False), (8.01, True)):
-        assert rigid.ends_in_collapse([1e9, 1, upper], 0.5, 0.5) is collapses
-    # equal balls: e below 7 - 4 sqrt(3) (McNamara and Young 1992)
-    assert rigid.ends_in_collapse([1, 1, 1], 0.0717, 0.0717)
-    assert not rigid.ends_in_collapse([1, 1, 1], 0.0719, 0.0719)

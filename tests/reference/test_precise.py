@@ -3,7 +3,7 @@
 import pytest
 from mpmath import mp, mpf
 
-from reference import data, precise, springs, taylor
+from reference import data, precise, springs
 
 CLOSE = mpf(10) ** -34
 
@@ -112,47 +112,3 @@ def test_springs_leaves_tall_stacks_to_precise():
     """The ninth of touching balls moves as t**17 at first, beyond the orders that it looks at."""
     with pytest.raises(ValueError, match="there are 9 balls"):
         springs.run([1] * 9, [1] * 9, [0] * 8, [-1] * 9)
-
-
-MIXED = {
-    "masses": [1, 0.3, 0.8],
-    "contacts": [
-        {"law": "Viscoelastic", "stiffness": 1, "dissipative_time": 0.3},
-        {"law": "HuntCrossley", "stiffness": 2, "exponent": 1.3, "dissipation": 0.5},
-        {"law": "Hysteretic", "stiffness": 0.7, "exponent": 1.5, "restitution": 0.6},
-    ],
-    "gaps": [0, 0.2],
-    "velocities": [-1, -1, -1],
-}
-
-
-@pytest.mark.slow
-def test_steps_and_neglected_forces_do_not_matter(monkeypatch):
-    one = precise.run(**MIXED)
-    monkeypatch.setattr(taylor, "TERMS", 70)
-    monkeypatch.setattr(taylor, "PRECISION", -140)
-    monkeypatch.setattr(taylor, "CONVERGED", -20)
-    monkeypatch.setattr(precise, "NEGLECTED", mpf(10) ** -42)
-    monkeypatch.setattr(precise, "LEAST", mpf(10) ** -43)
-    other = precise.run(**MIXED)
-    for a, b in zip(one.velocities, other.velocities, strict=True):
-        assert abs(a - b) < CLOSE
-    for a, b in zip(one.intervals, other.intervals, strict=True):
-        assert a.contact == b.contact
-        for name in ("start", "end", "peak_force", "peak_compression", "impulse"):
-            assert abs(getattr(a, name) - getattr(b, name)) < CLOSE
-
-
-@pytest.mark.slow
-def test_momentum_and_impulses():
-    floor = precise.run(**MIXED)
-    free = precise.run(
-        **{**MIXED, "contacts": [None, *MIXED["contacts"][1:]], "velocities": [1, 0, -1]}
-    )
-    with mp.workdps(60):
-        m = [mpf(x) for x in MIXED["masses"]]
-        pushed = sum(i.impulse for i in floor.intervals if i.contact == 0)
-        after = sum(a * v for a, v in zip(m, floor.velocities, strict=True))
-        assert abs(after + sum(m) - pushed) < CLOSE
-        after = sum(a * v for a, v in zip(m, free.velocities, strict=True))
-        assert abs(after - (m[0] - m[2])) < CLOSE

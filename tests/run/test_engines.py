@@ -5,35 +5,14 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.engine.entries import ENTRIES
-from stackbounce.engine.memory import FINITE, OUT_OF_RANGE, RIGID
+from stackbounce.engine.memory import FINITE, OUT_OF_RANGE
 from stackbounce.run import batch, driver
-from stackbounce.run.engines import choose_compiled, choose_engine, suits_two_springs
-from stackbounce.run.options import run_options
-from stackbounce.run.paths import number_at
 
 BALLS = [sb.Ball(0.15), sb.Ball(0.057)]
 SPRINGS = sb.Drop(BALLS, [sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.53)
 HERTZ = sb.Drop(BALLS, [sb.Hertz(1e5)] * 2, impact_speed=3.53)
 STONES = sb.Drop(BALLS, [sb.Rigid(0.9)] * 2, impact_speed=3.53)
 BUGS = (TypeError, AttributeError, NameError, IndexError, KeyError, AssertionError)
-
-
-@pytest.mark.parametrize("asked", [None, True, False])
-def test_compiled_unless_plain_python_is_asked_for(asked):
-    assert choose_compiled(asked) is (asked is not False)
-
-
-def test_engine():
-    assert [choose_engine(drop) for drop in (SPRINGS, HERTZ, STONES)] == [FINITE, FINITE, RIGID]
-
-
-def test_two_springs_of_any_mass_have_an_engine_of_their_own():
-    options = run_options(SPRINGS, None, 1e-12, 10**6)
-    mass = [number_at(SPRINGS, "balls.0.mass")]
-    assert suits_two_springs(SPRINGS, mass, options)
-    assert not suits_two_springs(HERTZ, mass, options)
-    assert not suits_two_springs(SPRINGS, [number_at(SPRINGS, "gravity")], options)
-    assert not suits_two_springs(SPRINGS, mass, options._replace(until=1.0))
 
 
 def broken(monkeypatch, error):
