@@ -45,14 +45,6 @@ def test_one_ball(e, exponent):
     assert interval["impulse"] == pytest.approx(0.101 * SPEED * (1.0 + e), rel=RESTITUTION)
 
 
-@pytest.mark.parametrize(("exponent", "unloading"), [(1.0, 2.3), (1.5, 1.5), (2.0, 7.0)])
-def test_one_ball_by_exponents(exponent, unloading):
-    law = sb.Hysteretic(100.0, exponent=exponent, unloading_exponent=unloading)
-    e = ((exponent + 1) / (unloading + 1)) ** 0.5
-    assert law.restitution == pytest.approx(e, rel=1e-15)
-    assert abs(one_ball(law).rebound_ratios[0] - e) <= RESTITUTION
-
-
 @pytest.mark.parametrize("row", ROWS, ids=range(len(ROWS)))
 def test_reference(row):
     drop = drop_of(row["case"])
