@@ -18,7 +18,7 @@ from stackbounce.engine import codes
 
 SAME, DIFFERENT, DOUBTFUL, UNFINISHED = "same", "different", "doubtful", "not finished"
 _EVENTS = 100  # with plain Python
-_STEPS = 500  # of the reference
+_STEPS = 300  # of the reference
 _EIGHTEEN_DIGITS = {  # of the reference, which has thirty otherwise and takes longer
     taylor: {"TERMS": 24, "PRECISION": -60, "CONVERGED": -20},
     precise: {"NEGLECTED": mpf(10) ** -18, "LEAST": mpf(10) ** -19},
