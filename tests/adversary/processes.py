@@ -43,17 +43,7 @@ class Ended(NamedTuple):
 
 
 class Started:
-    """A running command, whose output goes to files in a folder.
-
-    Parameters
-    ----------
-    arguments : sequence of str
-        Those of the command line.
-    folder : Path
-        The folder that it runs in.
-    logs : Path
-        The folder for what it says.
-    """
+    """A command that runs in a folder; its output goes to files in another."""
 
     def __init__(self, arguments: Sequence[str], folder: Path, logs: Path) -> None:
         logs.mkdir(parents=True, exist_ok=True)

@@ -3,18 +3,13 @@
 The end was where the sign of the force was clear of its round-off. An end is now the zero itself.
 """
 
-import json
-
 import pytest
-from benchmarks.impacts import score
 
 import stackbounce as sb
 from drops import drop_of_laws
-from reference.make_data import DATA
+from reference import data
 
-ROWS = json.loads((DATA / "laws.json").read_text())
-PROBLEMS = score.read(score.FOLDER / "problems.json", "problems")["problems"]
-ANSWERS = score.read(score.FOLDER / "answers.json", "answers")["answers"]
+ROWS = data.read("laws")
 
 
 @pytest.mark.parametrize(
@@ -33,16 +28,6 @@ def test_one_viscoelastic_ball(time, rtol, error):
     ends = {sb.simulate(drop, rtol=rtol, compiled=c).intervals["end"][0] for c in (True, False)}
     assert len(ends) == 1
     assert ends.pop() == pytest.approx(row["intervals"][0][2], rel=error)
-
-
-@pytest.mark.parametrize("name", ["viscoelastic-strong", "viscous-resumed"])
-def test_ends_of_the_benchmark(name):
-    problem = next(one for one in PROBLEMS if one["name"] == name)
-    expected = next(one for one in ANSWERS if one["name"] == name)["last_release"]
-    rows = sb.simulate(drop_of_laws(problem), rtol=1e-14).intervals
-    for contact, end in enumerate(expected):
-        found = rows["end"][rows["contact"] == contact].max()
-        assert found == pytest.approx(float(end), rel=1e-12)
 
 
 @pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9])

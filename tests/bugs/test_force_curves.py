@@ -85,26 +85,6 @@ def test_lossy_reloading_gains_nothing():
     assert np.diff(energy).max() <= 1e-9 * energy[0]
 
 
-def test_squares_as_plain_python_has_them():
-    """An integer power was a product in compiled code, but the library's power in plain Python."""
-    contacts = [
-        sb.PowerLaw(stiffness=5441.120604864837, exponent=1.5),
-        sb.Hysteretic(
-            stiffness=1320.239732465966, exponent=1.0, unloading_exponent=4.606666693466105
-        ),
-    ]
-    drop = sb.Drop(
-        [sb.Ball(1.919894650203452), sb.Ball(1.000310909634864)],
-        contacts,
-        [0.0011864930202191905],
-        velocities=[-3.53, -3.53],
-    )
-    compiled = sb.simulate(drop, rtol=1e-6, compiled=True)
-    plain = sb.simulate(drop, rtol=1e-6, compiled=False)
-    assert compiled.rebound_speeds.tolist() == plain.rebound_speeds.tolist()
-    assert compiled.intervals.tolist() == plain.intervals.tolist()
-
-
 def test_steep_curve_in_one_step():
     """A force that grows like c^1000 grew beyond the last terms of a step's series."""
     contacts = [
@@ -145,13 +125,3 @@ def test_steep_curve_without_a_force():
     motion = result.sample(np.linspace(0.0, result.end_time, 20))
     assert np.isfinite(motion.force.values).all()
     assert np.isfinite(motion.energy.values).all()
-
-
-def test_the_highest_of_two_peaks_is_told():
-    """Of a spring that is pressed beyond its first peak again, the largest force was the first."""
-    drop = sb.Drop([sb.Ball(0.1), sb.Ball(1.0)], [sb.Spring(1.0), sb.Spring(1.0)], impact_speed=1.0)
-    result = sb.simulate(drop)
-    (floor,) = result.intervals[result.intervals["contact"] == 0]
-    record = result.sample(np.linspace(0.0, floor["end"], 2001)).sel(contact=0)
-    assert abs(floor["peak_compression"] - float(record.compression.max())) < 1e-5
-    assert abs(floor["peak_force"] - float(record.force.max())) < 1e-5

@@ -1,5 +1,6 @@
 """Plain Python raised where compiled code divides by zero, and runs ended as INVALID."""
 
+import numpy as np
 import pytest
 
 import stackbounce as sb
@@ -28,16 +29,13 @@ def test_gaps_that_vanish(compiled):
 )
 def test_numbers_out_of_range(mass, stiffness, speed, compiled):
     drop = sb.Drop([sb.Ball(mass)], [sb.Spring(stiffness)], impact_speed=speed)
-    assert sb.simulate(drop, compiled=compiled).status is sb.Status.INVALID
+    result = sb.simulate(drop, compiled=compiled)
+    assert result.status is sb.Status.INVALID
+    assert np.isnan(result.rebound_ratios).all()
 
 
 @pytest.mark.parametrize("compiled", [False, True])
-def test_a_very_slow_ball(compiled):
-    drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], impact_speed=1e-300)
-    assert sb.simulate(drop, compiled=compiled).rebound_speeds.tolist() == [1e-300]
-
-
-@pytest.mark.parametrize("compiled", [False, True])
-def test_a_very_fast_ball(compiled):
-    drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1e80)], impact_speed=1e40)
-    assert sb.simulate(drop, compiled=compiled).rebound_ratios.tolist() == pytest.approx([1.0])
+@pytest.mark.parametrize(("stiffness", "speed"), [(1.0, 1e-300), (1e80, 1e40)])
+def test_a_very_slow_ball_and_a_very_fast_one(stiffness, speed, compiled):
+    drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(stiffness)], impact_speed=speed)
+    assert sb.simulate(drop, compiled=compiled).rebound_ratios == pytest.approx([1.0], rel=1e-15)

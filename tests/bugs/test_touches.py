@@ -6,24 +6,6 @@ import pytest
 import stackbounce as sb
 
 
-@pytest.mark.parametrize("law", [sb.Hertz(1.0), sb.Spring(1.0)])
-def test_start_in_a_touching_row(law):
-    """In a touching row, later contacts began when an earlier one opened, not at the start."""
-    drop = sb.Drop([sb.Ball(1.0)] * 20, [None] + [law] * 19, velocities=[1.0] + [0.0] * 19)
-    assert (sb.simulate(drop).intervals["start"] == 0.0).all()
-
-
-def test_bounces_of_one_ball_under_gravity():
-    """A ball that came back after a flight counted as touching since its last release."""
-    drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1e4)], height=1.0, gravity=9.81)
-    result = sb.simulate(drop, until=5.0)
-    starts, ends = result.intervals["start"], result.intervals["end"]
-    assert len(starts) == 6
-    assert np.diff(starts) == pytest.approx(starts[1], abs=1e-12)
-    assert ends - starts == pytest.approx(ends[0], abs=1e-12)
-    assert result.apexes["height"] == pytest.approx(1.0, abs=1e-12)
-
-
 def test_slow_touch_stores_no_energy():
     """The compression at which a slow touch is noticed gave very heavy balls energy."""
     contacts = [

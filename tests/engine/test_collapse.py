@@ -13,25 +13,6 @@ from reference import rigid as reference
 PRECISION = 1e-11
 
 
-@pytest.mark.fast_cases(1)
-@pytest.mark.parametrize(
-    ("floor", "balls"), [(0.5, 0.5), (0.8, 0.8), (0.9, 0.9), (0.9, 0.3), (0.2, 0.95), (1.0, 0.5)]
-)
-def test_collapse_from_the_threshold_on(floor, balls):
-    threshold = float(reference.collapse_threshold(floor, balls))
-    for factor in (1.0001, 1.5, 1e3, 1e6):
-        result = sb.simulate(rigid([1.0, threshold * factor], [floor, balls]))
-        assert result.status is sb.Status.COLLAPSED
-        assert result.collisions.tolist() == [-1, -1]
-        assert result.rebound_speeds.tolist() == [0.0, 0.0]
-        assert result.energy_retained == 0.0
-    drop = rigid([1.0, threshold * 0.98], [floor, balls])
-    result, expected = sb.simulate(drop), exact(drop)
-    assert expected.finished
-    assert result.status is sb.Status.FINISHED
-    assert result.collisions.tolist() == expected.counts()
-
-
 @pytest.mark.parametrize("gap", [0.0, 1.0])
 def test_collapse_exactly_at_the_threshold(gap):
     result = sb.simulate(rigid([1.0, 8.0], 0.5, gaps=[gap]))
@@ -96,9 +77,9 @@ def test_collapse_of_two_balls_with_a_gap_ends_at_a_finite_time():
 
 
 @given(
-    floor=st.floats(0.05, 0.97),
+    floor=st.one_of(st.just(1.0), st.floats(0.05, 0.97)),
     balls=st.floats(0.05, 0.97),
-    side=st.floats(-2.0, 2.0).map(lambda x: 10**x),
+    side=st.floats(-2.0, 6.0).map(lambda x: 10**x),
     gap=st.sampled_from([0.0, 0.125, 2.0]),
 )
 def test_collapse_is_decided_by_theory(floor, balls, side, gap):
@@ -108,7 +89,9 @@ def test_collapse_is_decided_by_theory(floor, balls, side, gap):
     result = sb.simulate(drop)
     if side > 1:
         assert result.status is sb.Status.COLLAPSED
+        assert result.collisions.tolist() == [-1, -1]
         assert result.rebound_speeds.tolist() == [0.0, 0.0]
+        assert result.energy_retained == 0.0
     else:
         assert result.status is sb.Status.FINISHED
         assert result.collisions.tolist() == precise(drop).counts()
@@ -154,8 +137,8 @@ def test_collapse_on_the_way_up(masses, restitutions):
 
     They differ ever less, long before the last collision by less than a rounding error of theirs.
     """
-    assert reference.ends_in_collapse(masses, *restitutions)
     drop = rigid(masses, [1.0, *restitutions], [0.0, 1.0])
+    assert not exact(drop, limit=300).finished
     result = sb.simulate(drop)
     assert result.status is sb.Status.COLLAPSED
     assert result.collisions.tolist()[1:] == [-1, -1]

@@ -8,12 +8,12 @@ from mpmath import mp
 
 import stackbounce as sb
 from drops import by_contact, drop_of, springs
-from reference import make_data
+from reference import data
 from reference import rigid as rigid_reference
 
 PRECISION = 1e-11
 ENERGY = 1e-12
-ROWS = make_data.read("springs")
+ROWS = data.read("springs")
 
 
 @pytest.mark.fast_cases(3)

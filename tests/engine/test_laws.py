@@ -1,15 +1,13 @@
 """Every finite law, pure and mixed, against the thirty-digit reference of `reference.precise`."""
 
-import json
-
 import numpy as np
 import pytest
 
 import stackbounce as sb
 from drops import INTERVAL, drop_of_laws, interval_table
-from reference.make_data import DATA
+from reference import data
 
-ROWS = json.loads((DATA / "laws.json").read_text())
+ROWS = data.read("laws")
 TOLERANCES = (1e-4, 1e-6, 1e-9, 1e-12, 1e-13)
 ROUND_OFF = 1e-12  # of a time, below which the end of a creeping contact is not known
 CREEPING = 1e-3  # of the speed before: of a slower contact the end is less exact

@@ -58,21 +58,6 @@ def test_tie_at_the_end_on_springs(gap):
     assert result.status is sb.Status.FINISHED
 
 
-@pytest.mark.parametrize("gap", [0.0, 0.5, 10.0])
-@pytest.mark.parametrize("exponent", [1.0, 1.5])
-def test_separate_is_the_limit_of_wide_gaps(gap, exponent):
-    """With a wide gap hysteretic contacts are separate collisions; without one they are not."""
-    laws = [sb.Hysteretic(k, exponent=exponent, restitution=e) for k, e in ((1.0, 0.8), (1.0, 0.7))]
-    drop = sb.Drop([sb.Ball(3.0), sb.Ball(0.5)], laws, [gap], impact_speed=1.0)
-    together, separate = sb.simulate(drop), sb.simulate(sb.separate(drop))
-    difference = np.abs(together.rebound_ratios - separate.rebound_ratios).max()
-    if gap == 10.0:
-        assert difference <= 1e-10
-        assert together.collisions.tolist() == separate.collisions.tolist()
-    else:
-        assert difference > 0.01
-
-
 @pytest.mark.parametrize(("masses", "gap"), [((1.0, 1.0), 0.0), ((4.0, 1.0), 0.4), ((1.0, 6.0), 1)])
 def test_hysteretic_meets_springs(masses, gap):
     """With restitution 1 they are springs; 1 - e away from it the difference is of first order."""

@@ -88,15 +88,6 @@ def test_limits_of_the_relaxation_time():
         assert result.last_release == pytest.approx(spring.last_release, rel=1e-4)
 
 
-def test_no_relaxation_is_a_spring():
-    balls, gaps = [sb.Ball(1.0), sb.Ball(0.3)], [0.1]
-    solids = sb.Drop(balls, [Solid(2.0, 0.0, 1.0)] * 2, gaps, impact_speed=1.0)
-    springs = sb.Drop(balls, [sb.Spring(2.0)] * 2, gaps, impact_speed=1.0)
-    found, expected = sb.simulate(solids), sb.simulate(springs)
-    assert np.array_equal(found.rebound_speeds, expected.rebound_speeds)
-    assert np.array_equal(found.intervals, expected.intervals)
-
-
 def test_a_strong_and_quick_relaxation_is_a_dashpot():
     """With Δ k τ = b, and τ towards 0, the dashpot stands beside the spring."""
     damping, dashpot = 0.4, one_ball(sb.Dashpot(1.0, 0.4))

@@ -15,7 +15,7 @@ PRECISION = 1e-11
 G = 9.81
 
 
-def mean(law):
+def restitution_of(law, contact):
     """Return the restitution of a law with many digits, as a function of the speed."""
     if type(law) is sb.Rigid:
         return mpf(law.restitution)
@@ -23,14 +23,15 @@ def mean(law):
         sb.RigidBySpeed: restitution.falling_power,
         sb.RigidLossBySpeed: restitution.loss_power,
     }[type(law)]
-    return make(law.restitution, law.speed, law.speed_exponent)
+    mean = make(law.restitution, law.speed, law.speed_exponent)
+    return restitution.scattered(mean, law.scatter, law.seed, contact) if law.scatter else mean
 
 
 def precise(drop, limit=100_000):
     """Return the solution without gravity to fifty digits."""
     return rigid.run(
         [mpf(ball.mass) for ball in drop.balls],
-        [None if law is None else mean(law) for law in drop.contacts],
+        [law and restitution_of(law, i) for i, law in enumerate(drop.contacts)],
         [mpf(gap) for gap in drop.gaps],
         [mpf(v) for v in drop.start_velocities],
         limit,
@@ -41,7 +42,10 @@ def random_law(random):
     """Return one of the three rigid laws."""
     e, speed = random.uniform(0.3, 1.0), 10.0 ** random.uniform(-2.0, 1.0)
     kind = random.choice([sb.Rigid, sb.RigidBySpeed, sb.RigidLossBySpeed])
-    return kind(e) if kind is sb.Rigid else kind(e, speed, random.choice([0.1, 0.2, 0.25, 0.43, 1]))
+    if kind is sb.Rigid:
+        return kind(e)
+    exponent, scatter = random.choice([0.1, 0.2, 0.25, 0.43, 1]), random.choice([0.0, 0.0, 0.1])
+    return kind(e, speed, exponent, scatter=scatter, seed=random.randint(0, 9))
 
 
 def random_drop(random, **more):
@@ -80,7 +84,7 @@ def test_random_stacks_under_gravity():
         stopped = result.status is sb.Status.TIME_REACHED
         if not stopped or -1 in result.collisions or result.conditioning.max() > 1e2:
             continue
-        laws = [None if law is None else mean(law) for law in drop.contacts]
+        laws = [law and restitution_of(law, i) for i, law in enumerate(drop.contacts)]
         masses = [ball.mass for ball in drop.balls]
         collisions, _, velocities = falling.fall(
             masses, laws, drop.gaps, drop.start_velocities, G, until

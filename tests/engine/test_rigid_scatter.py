@@ -1,7 +1,5 @@
 """Restitutions that scatter from collision to collision: the draws, and how runs end."""
 
-from random import Random
-
 import numpy as np
 import pytest
 from scipy import stats
@@ -36,42 +34,6 @@ def test_each_draw_is_that_of_the_reference(seed):
     expected = [float(0.83 + 0.02 * restitution.normal(seed, 0, hit)) for hit in range(50)]
     assert max(expected) < 1.0
     assert drawn(bounces(law, 50)) == pytest.approx(expected, abs=1e-14)
-
-
-def test_draws_of_a_stack_are_those_of_the_reference():
-    """Three balls that touch, each contact with its own mean, scatter and seed."""
-    from mpmath import mpf
-
-    from reference import rigid
-
-    random, compared = Random(3), 0
-    for _ in range(30):
-        numbers = [
-            (random.uniform(0.6, 0.9), 1.0, random.choice([0.0, 0.2]), 0.1, random.randint(0, 9))
-            for _ in range(3)
-        ]
-        laws = [sb.RigidLossBySpeed(*given) for given in numbers]
-        masses = [random.uniform(0.5, 2.0) for _ in range(3)]
-        result = sb.simulate(sb.Drop([sb.Ball(m) for m in masses], laws, impact_speed=1.0))
-        means = [restitution.loss_power(*given[:3]) for given in numbers]
-        expected = rigid.run(
-            [mpf(m) for m in masses],
-            [
-                restitution.scattered(mean, given[3], given[4], i)
-                for i, (mean, given) in enumerate(zip(means, numbers, strict=True))
-            ],
-            [mpf(0)] * 2,
-            [mpf(-1)] * 3,
-            100,
-        )
-        if not expected.finished or result.conditioning.max() > 1e3:
-            continue
-        assert result.collisions.tolist() == expected.counts()
-        assert result.rebound_speeds == pytest.approx(
-            [float(v) for v in expected.velocities], abs=1e-11
-        )
-        compared += 1
-    assert compared > 20
 
 
 def test_scatter_is_normal():

@@ -2,23 +2,29 @@
 
 from collections.abc import Mapping
 from typing import Any
+from unittest import mock
 
 import numpy as np
+from mpmath import mpf
 
 import stackbounce as sb
 from fuzz import drive
 from fuzz.batch import Batch
 from fuzz.draw import EVENTS
 from fuzz.replay import drop_of, options_of
-from reference.integrate import integrate
+from reference import precise, taylor
+from reference.common import Outcome
 from stackbounce.engine import codes
 
 SAME, DIFFERENT, DOUBTFUL, UNFINISHED = "same", "different", "doubtful", "not finished"
 _EVENTS = 100  # with plain Python
-_STEPS = 20_000  # of the reference
+_STEPS = 300  # of the reference
+_EIGHTEEN_DIGITS = {  # of the reference, which has thirty otherwise and takes longer
+    taylor: {"TERMS": 24, "PRECISION": -60, "CONVERGED": -20},
+    precise: {"NEGLECTED": mpf(10) ** -18, "LEAST": mpf(10) ** -19},
+}
 _EQUAL = 1e-9  # velocities, in units of the largest
-_SHIFT = 1e-12  # of a velocity, in that unit, to see what an error of a step can become
-_LARGER = 30.0  # than what that shift makes of it
+_SHIFT = 3e-11  # of a velocity, in that unit, to see what errors of the steps can become
 _BEGUN = 1e-14  # of the momentum: what an interval under way has exerted if it counts
 
 
@@ -44,18 +50,19 @@ def can_be_compared_plainly(batch: Batch, row: int) -> bool:
 
 
 def can_be_integrated(batch: Batch, row: int) -> bool:
-    """Return whether the reference knows a drop's laws, and its end."""
-    other = np.any(batch.drops.law[row] == drive.RELAXING)
+    """Return whether a drop has contacts, the reference knows all of them, and the drop its end."""
+    law = batch.drops.law[row]
+    known = np.any(law != drive.NONE) and not np.any(law == drive.RELAXING)
     ended = batch.found[row, drive.STATUS] in (sb.Status.FINISHED, sb.Status.TIME_REACHED)
-    return bool(ended and not other)
+    return bool(known and ended)
 
 
 def otherwise(batch: Batch, row: int) -> str:
-    """Return whether a drop has the velocities and counts of collocation in short steps.
+    """Return whether a drop has the velocities and counts of the reference.
 
     Where they differ, the reference begins again, each time with the velocity of one ball slightly
-    changed: counts that change with it, or that it doubts itself, are doubtful, and velocities may
-    differ as much. An interval that has only just begun at the end is not counted.
+    changed: counts that change with it are doubtful, and velocities may differ as much. An
+    interval that has only just begun at the end is not counted.
     """
     drop = drop_of(batch.drops, row)
     options = options_of(batch.drops, row) | {"rtol": 1e-12, "event_limit": EVENTS[1]}
@@ -64,45 +71,49 @@ def otherwise(batch: Batch, row: int) -> str:
         return UNFINISHED
     if drop.gravity > 0.0:
         options |= {"until": ours.end_time}  # velocities are to be those of one time
-    theirs = _integrated(drop, options)
-    if theirs.status not in ("finished", "time reached"):
-        return UNFINISHED
-    speed = drop.reference_speed
-    error = np.max(np.abs(theirs.velocities - ours.rebound_speeds)) / speed
     rows = ours.intervals
     counts = _counts(rows["contact"], rows["end"], rows["impulse"], drop)
-    columns = theirs.intervals.T
-    alike = counts == _counts(columns[0], columns[2], columns[5], drop)
-    if alike and error < _EQUAL:
-        return SAME
-    shift, doubtful = 0.0, theirs.doubtful
-    for ball in range(len(drop.balls)):
-        shifted = _integrated(drop, options, ball)
-        doubtful = doubtful or shifted.counts != theirs.counts
-        shift = max(shift, np.max(np.abs(theirs.velocities - shifted.velocities)) / speed)
-    if doubtful:
+    try:
+        velocities, expected = _referred(drop, options)
+        alike, unit = counts == expected, drop.reference_speed
+        error = np.max(np.abs(velocities - ours.rebound_speeds)) / unit
+        if alike and error < _EQUAL:
+            return SAME
+        moved = [_referred(drop, options, ball) for ball in range(len(drop.balls))]
+    except ArithmeticError:
+        return UNFINISHED
+    if any(found != expected for _, found in moved):
         return DOUBTFUL
-    return SAME if alike and error < _LARGER * shift else DIFFERENT
+    shift = max(np.max(np.abs(velocities - other)) / unit for other, _ in moved)
+    return SAME if alike and error < shift else DIFFERENT
 
 
-def _counts(contact: np.ndarray, end: np.ndarray, impulse: np.ndarray, drop: sb.Drop) -> list[int]:
+def _counts(contact: Any, end: Any, impulse: Any, drop: sb.Drop) -> list[int]:
     """Return how often each contact closed, without what is only just closed at the end."""
     momentum = sum(ball.mass for ball in drop.balls) * drop.reference_speed
-    counted = np.isfinite(end) | (impulse > _BEGUN * momentum)
-    return np.bincount(contact[counted].astype(int), minlength=len(drop.balls)).tolist()
+    counted = np.isfinite(end) | (np.array(impulse) > _BEGUN * momentum)
+    return np.bincount(np.array(contact, int)[counted], minlength=len(drop.balls)).tolist()
 
 
-def _integrated(drop: sb.Drop, options: Mapping[str, float], ball: int = -1) -> Any:
-    """Return what the reference finds, with another velocity of one ball if any."""
+def _referred(
+    drop: sb.Drop, options: Mapping[str, float], ball: int = -1
+) -> tuple[np.ndarray, list[int]]:
+    """Return the reference's velocities and counts, with another velocity of one ball if any."""
     velocities = list(drop.velocities)
     if ball >= 0:
         velocities[ball] += _SHIFT * drop.reference_speed
-    return integrate(
-        [ball.mass for ball in drop.balls],
-        [law and law.to_mapping() for law in drop.contacts],
-        drop.gaps,
-        velocities,
-        drop.gravity,
-        options.get("until", np.inf),
-        _STEPS,
-    )
+    (one, few), (other, more) = _EIGHTEEN_DIGITS.items()
+    with mock.patch.multiple(one, **few), mock.patch.multiple(other, **more):
+        found: Outcome = precise.run(
+            [ball.mass for ball in drop.balls],
+            [law and law.to_mapping() for law in drop.contacts],
+            drop.gaps,
+            velocities,
+            drop.gravity,
+            options.get("until"),
+            _STEPS,
+        )
+    ends = [np.inf if i.end is None else float(i.end) for i in found.intervals]
+    impulses = [float(i.impulse) for i in found.intervals]
+    counts = _counts([i.contact for i in found.intervals], ends, impulses, drop)
+    return np.array([float(v) for v in found.velocities]), counts

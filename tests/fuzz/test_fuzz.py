@@ -45,11 +45,6 @@ def test_the_report_counts_every_drop_and_every_check():
     assert not tally.violations
 
 
-def test_a_batch_is_the_same_again():
-    one, other = (tally_of(seed=3, index=5, count=20, compiled=False) for _ in range(2))
-    assert (one.statuses, one.violations) == (other.statuses, other.violations)
-
-
 @pytest.mark.parametrize("index", [0, 2])
 def test_a_printed_drop_runs_as_it_did(index):
     batch = run_batch(seed=3, index=index, count=20, compiled=False)

@@ -1,6 +1,7 @@
 """Independent reference solutions, in mpmath and exact fractions: the tests' second opinion.
 
-Nothing here imports stackbounce. `springs` solves linear springs from the closed forms of
-eqs 5 and 6 (modes), `rigid` solves sequences of collisions (eqs 1 to 4), `precise`
-integrates all finite laws by Taylor series, and `make_data` and others write `tests/data`.
+`precise` integrates finite laws by Taylor series, `springs` solves linear ones in normal modes for
+the benchmark of impacts (eqs 5 and 6), `rigid` and `falling` solve sequences of collisions (eqs 1
+to 4); these import nothing of stackbounce. `pieces` and `relaxing` leave the steps to SciPy.
+`data` reads what is stored in `tests/data`.
 """

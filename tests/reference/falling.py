@@ -83,10 +83,3 @@ def _meeting(q: list[mpf], v: list[mpf], a: list[mpf], i: int) -> mpf:
     if s == 0:
         return -gap / r if r < -TINY else mp.inf
     return (r + mp.sqrt(r * r - 2 * s * gap)) / -s if gap or abs(r) > TINY else mpf(0)
-
-
-def bounces(restitution: Any, height: Any, gravity: Any) -> mpf:
-    """Return the time from the first touch of a ball dropped from a height to its rest."""
-    with mp.workdps(DIGITS):
-        e = mpf(restitution)
-        return mp.sqrt(2 * mpf(height) / mpf(gravity)) * 2 * e / (1 - e)

@@ -18,18 +18,9 @@ CLEAR = 1e-10  # a step without events after each: no event is found twice
 
 
 class Contact:
-    """One contact: a loading curve, its corners, and the share of it that is left.
+    """One contact: a loading curve L(c) and its corners, the share r(c/H, H) and those over c/H.
 
-    Parameters
-    ----------
-    loading : callable
-        Force in N over compression in m.
-    knots : sequence of float
-        Its corners, in m.
-    share : callable, optional
-        r(c/H, H), which is 1 for c = H; without it no energy is lost.
-    corners : sequence of float
-        Those of r, over c/H.
+    Without a share no energy is lost.
     """
 
     def __init__(self, loading, knots, share=None, corners=()):

@@ -192,12 +192,14 @@ def run(
     velocities: Sequence[float],
     gravity: float = 0,
     until: float | None = None,
+    limit: float = mp.inf,
 ) -> Outcome:
     """Solve a drop: ball 0 starts at the floor's height, the others above it by the gaps.
 
     Arguments are numbers that are taken as they are (floats are exact), bottom first. A contact is
     what `laws.read` reads, the first may be None (no floor). Without `until` the run ends once no
     force acts and no contact approaches. Intervals that go on at the end have the end None.
+    What takes more steps than the limit ends in an ArithmeticError.
     """
     with mp.workdps(DIGITS):
         m, v, gap = ([mpf(x) for x in row] for row in (masses, velocities, gaps))
@@ -208,7 +210,7 @@ def run(
         ]
         stop = mp.inf if until is None else mpf(until)
         stack = Stack(m, running, mpf(gravity), speed)
-        return stack.advance([mpf(0), *(-x for x in gap)], _rates(v), stop)
+        return stack.advance([mpf(0), *(-x for x in gap)], _rates(v), stop, limit)
 
 
 def _rates(v: Sequence[Number]) -> list[Number]:
@@ -229,13 +231,12 @@ class Stack:
         self.closed = [x for x in contacts if x]
         self.length = min(x.length for x in self.closed)
         self.rows = couplings(masses)
-        self.steps = 0
 
-    def advance(self, c: list[Number], rates: list[Number], stop: Number) -> Outcome:
+    def advance(self, c: list[Number], rates: list[Number], stop: Number, limit: float) -> Outcome:
         """Step, at most to the next event, until the end."""
         energy, now, done = kinetic(self.masses, self._velocities(rates)), mpf(0), []
         unit = self.length / self.speed
-        least, step = LEAST * self.length, unit
+        least, step, steps = LEAST * self.length, unit, 0
         while now < stop and not (stop == mp.inf and self._parting(rates)):
             for x in self.closed:
                 x.prepare(c[x.index], rates[x.index], now, least, self.speed)
@@ -247,7 +248,9 @@ class Stack:
             c, rates = piece.state(at)
             step = piece.duration(at)
             now += step
-            self.steps += 1
+            steps += 1
+            if steps > limit:
+                raise ArithmeticError(f"the drop takes more than {limit} steps")
             if contact:
                 i = contact.index
                 if OPEN in (contact.phase, phase):

@@ -113,22 +113,6 @@ def collapse_threshold(floor: Any, balls: Any) -> mpf:
         return ((a + b) / (1 - a * b)) ** 2
 
 
-def ends_in_collapse(masses: Sequence[Any], lower: Any, upper: Any) -> bool:
-    """Return whether three balls whose middle one goes to and fro do so infinitely often.
-
-    With u = (v0 - v1, v1 - v2), a = m0/(m0 + m1), b = m2/(m1 + m2) and the restitutions d, e of
-    the lower and the upper contact, a collision of each takes u to B A u,
-    A = ((-d, 0), (a (1 + d), 1)), B = ((1, b (1 + e)), (0, -e)): det B A = d e, and the
-    collisions go on for ever where the eigenvalues are real, trace**2 >= 4 det. A floor is a
-    lower ball with a = 1: then this is `collapse_threshold`.
-    """
-    with mp.workdps(DIGITS):
-        m, d, e = [mpf(x) for x in masses], mpf(lower), mpf(upper)
-        a, b = m[0] / (m[0] + m[1]), m[2] / (m[1] + m[2])
-        trace = a * b * (1 + d) * (1 + e) - d - e
-        return bool(trace >= 2 * mp.sqrt(d * e))
-
-
 def elastic_pair(lower: Any, upper: Any, collisions: int) -> tuple[mpf, mpf]:
     """Return both velocities after that many elastic collisions of a pair falling at speed 1.
 

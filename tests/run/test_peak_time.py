@@ -16,7 +16,7 @@ LAWS = {
 
 
 @pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("masses", [(0.06,), (0.06, 0.1, 0.03)], ids=["one ball", "three balls"])
+@pytest.mark.parametrize("masses", [(0.06,), (0.06, 0.1, 0.03), (0.1, 1.0)], ids=len)
 def test_no_force_is_larger_and_that_one_is_there(law, masses):
     result = sb.simulate(
         sb.Drop([sb.Ball(m) for m in masses], [LAWS[law]] * len(masses), height=0.5)
@@ -36,12 +36,3 @@ def test_a_dashpot_alone_has_its_peak_at_the_touch():
 def test_rigid_balls_have_it_at_the_collision():
     result = sb.simulate(sb.Drop([sb.Ball(1.0)] * 2, [sb.Rigid(0.5)] * 2, [0.1], impact_speed=1.0))
     assert (result.intervals["peak_time"] == result.intervals["start"]).all()
-
-
-def test_a_run_out_of_range_has_no_speeds():
-    drop = sb.Drop([sb.Ball(1e300)], [sb.Spring(1e-300)], impact_speed=1.0)
-    for compiled in (None, False):
-        result = sb.simulate(drop, compiled=compiled)
-        assert result.status is sb.Status.INVALID
-        assert np.isnan(result.rebound_ratios).all()
-    assert np.isnan(sb.sweep(drop, {"balls.0.mass": [1e300]}).rebound_ratio.values).all()

@@ -7,7 +7,6 @@ stiffness ratios are upper over lower here, the inverse of the paper's. Sources:
 
 import math
 
-import numpy as np
 import pytest
 
 import stackbounce as sb
@@ -39,58 +38,6 @@ def test_sequential_collisions(floor, pair, speeds):
     upper = (m1 * e1 - m2 + m1 * e2 * (1 + e1)) / (m1 + m2)
     assert result.rebound_ratios.tolist() == pytest.approx([lower, upper], rel=1e-14)
     assert result.rebound_ratios.tolist() == printed(*speeds, digits=6)
-
-
-@pytest.mark.parametrize(
-    ("ratio", "counts"),
-    [
-        (1.0, [2, 1]),
-        (3.0, [3, 2]),
-        (10.0, [5, 5]),
-        (100.0, [16, 15]),
-        (1e4, [157, 157]),
-        (1e6, [1571, 1570]),
-        (1e8, [15708, 15707]),
-    ],
-)
-def test_total_number_of_collisions(ratio, counts):
-    assert run([1.0, ratio], [sb.Rigid(1.0)] * 2).collisions.tolist() == counts
-
-
-@pytest.mark.parametrize(("ratio", "total"), [(1, 3), (100, 31), (1e4, 314), (1e6, 3141)])
-def test_counts_that_spell_pi(ratio, total):
-    """The upper ball alone comes down: ceil(pi/atan(sqrt(m1/m2))) - 1 (Redner; Galperin)."""
-    result = run([1.0, ratio], [sb.Rigid(1.0)] * 2, impact_speed=None, velocities=[0.0, -1.0])
-    assert result.collisions.sum() == total
-    assert total == math.ceil(math.pi / math.atan(math.sqrt(1.0 / ratio))) - 1
-
-
-@pytest.mark.parametrize("masses", [[3.0, 1.0], [6.0, 2.0, 1.0], [10.0, 10 / 3, 5 / 3, 1.0]])
-def test_cannon_in_which_each_lower_ball_stops(masses):
-    """m_n/m_(n+1) = (n+2)/n from the bottom up: top speed n, height n^2."""
-    count = len(masses)
-    gaps = [1e-3] * (count - 1)  # wide enough for the collisions to come one after the other
-    result = run(masses, [sb.Rigid(1.0)] * count, gaps)
-    assert result.rebound_ratios.tolist() == pytest.approx([0.0] * (count - 1) + [count], abs=1e-12)
-
-
-@pytest.mark.parametrize(("e", "threshold"), [(0.5, 8.0), (0.8, 80.0), (0.9, 360.0)])
-def test_inelastic_collapse(e, threshold):
-    for e1, e2 in ((e, e), (e, 0.9 * e)):
-        exact = (math.sqrt(e1) + math.sqrt(e2)) ** 2 / (1.0 - math.sqrt(e1 * e2)) ** 2
-        contacts = [sb.Rigid(e1), sb.Rigid(e2)]
-        assert run([1.0, exact * (1 + 1e-6)], contacts).collisions.tolist() == [-1, -1]
-        assert run([1.0, exact * (1 - 1e-6)], contacts).collisions.min() > 0
-    assert math.tan(2 * math.atan(math.sqrt(e))) ** 2 == pytest.approx(threshold, rel=1e-12)
-    assert (2 * math.sqrt(e)) ** 2 / (1 - e) ** 2 == pytest.approx(threshold, rel=1e-12)
-
-
-def test_collapse_is_decided_by_theory():
-    result = run([1.0, 7.999], [sb.Rigid(0.5)] * 2)
-    assert result.collisions.sum() == 842
-    last = np.abs(result.events["upper_velocity"][-1] - result.events["lower_velocity"][-1])
-    assert 1e-130 < last < 1e-124
-    assert run([1.0, 7.9], [sb.Rigid(0.5)] * 2).collisions.tolist() == [42, 41]
 
 
 @pytest.mark.parametrize(
@@ -159,15 +106,6 @@ def test_springs_without_a_gap(mass, stiffness, speeds):
     assert result.rebound_ratios.tolist() == printed(*speeds, digits=6)
 
 
-@pytest.mark.parametrize("mass", [1 / 3, 1.0, 0.1, 0.01])
-def test_springs_with_a_gap_wide_enough_are_a_sequence(mass):
-    """A gap of pi v sqrt(m1/k1) is enough where m2 <= m1."""
-    apart = run([1.0, mass], [sb.Spring(1.0), sb.Spring(1.0)], [math.pi])
-    sequence = run([1.0, mass], [sb.Rigid(1.0)] * 2, [math.pi])
-    assert apart.rebound_ratios == pytest.approx(sequence.rebound_ratios, abs=1e-13)
-    assert apart.collisions.tolist() == sequence.collisions.tolist()
-
-
 def test_springs_with_a_gap():
     apart = run([1.0, 10.0], [sb.Spring(1.0), sb.Spring(1.0)], [math.pi])
     sequence = run([1.0, 10.0], [sb.Rigid(1.0)] * 2, [math.pi])
@@ -188,6 +126,7 @@ def test_hertz_without_a_gap(radius, speeds):
     stiffness = math.sqrt(radius / (1 + radius)) / 2
     result = run([1.0, radius**3], [sb.Hertz(1.0), sb.Hertz(stiffness)])
     assert result.rebound_ratios.tolist() == printed(*speeds, digits=5)
+    assert result.energy_retained == pytest.approx(1.0, abs=1e-10)
 
 
 def test_delayed_rebound():
@@ -199,15 +138,6 @@ def test_delayed_rebound():
     upper = result.apexes[result.apexes["ball"] == 1]
     drop_height = 1.0 / (2.0 * gravity)
     assert (upper["height"][:2] / drop_height).tolist() == printed(0.571, 2.166, digits=3)
-
-
-@pytest.mark.parametrize("contacts", [[sb.Rigid(1.0)] * 2, [sb.Spring(1.0)] * 2])
-def test_a_tie_at_the_end(contacts):
-    """m2/m1 = 3: both leave at speed 1, and round-off makes no further collision of it."""
-    gap = 0.0 if contacts[0] == sb.Rigid(1.0) else 30.0
-    result = run([1.0, 3.0], contacts, [gap])
-    assert result.collisions.tolist() == [3, 2]
-    assert result.rebound_ratios.tolist() == pytest.approx([1.0, 1.0], abs=1e-12)
 
 
 def test_steel_balls_of_hessel():
