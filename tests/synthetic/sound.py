@@ -40,51 +40,13 @@ def sound(
     after: float = 0.5,
     seed: int = 0,
 ) -> xr.Dataset:
-    """Return the recording of a bouncing ball.
+    """Return the recording of a bouncing ball, of full scale 1, from `before` its first touch.
 
-    A knock is the sum of decaying tones of random pitch and phase, as loud as the impact is fast.
-
-    Parameters
-    ----------
-    falls : Falls
-        The times and speeds of its bounces. The recording begins `before` s before its first touch.
-    rate : float, optional
-        Samples per second.
-    bits : int, optional
-        Of a sample, 8 to 32; the sound is rounded to them, and clipped at full scale.
-    level : float, optional
-        Amplitude of the first knock, of full scale; above 1 it is clipped.
-    noise, hum, speech : float, optional
-        Amplitudes of white noise (standard deviation), of a 50 Hz hum, and of a burst like speech
-        in the first half of what precedes the first touch.
-    echo, double : (float, float), optional
-        Delay in s and relative amplitude: of an echo of everything, and of a second sound of each
-        impact.
-    alike : float, optional
-        The share of tones, 0 to 1, that all knocks have in common.
-    uneven : float, optional
-        Standard deviation of the logarithm of a knock's loudness.
-    room, wind, coarse : float, optional
-        Amplitude of the echoes of a room, of low noise in gusts (standard deviation), and the
-        coarseness of an encoder like that of MP3: see `disturbances`. 0 is none of it.
-    attack : float, optional
-        Time in s in which a knock rises.
-    before, after : float, optional
-        What is recorded before the first and after the last knock, in s.
-    seed : int, optional
-        Of the random numbers.
-
-    Returns
-    -------
-    xarray.Dataset
-        `sound` against `time`, of full scale 1.
-
-    Examples
-    --------
-    >>> from synthetic.falls import falls
-    >>> data = sound(falls(0.5, 0.7, bounces=3), rate=8000)
-    >>> data.sound.dims, data.attrs["holds"]
-    (('time',), 'sound')
+    A knock is the sum of decaying tones of random pitch and phase, as loud as the impact is fast,
+    of amplitude `level` for the first one, and rising within the `attack` (s). `noise`, a 50 Hz
+    `hum` and `speech` before the first touch are amplitudes; an `echo` of everything and a `double`
+    sound of each impact have a delay and a relative amplitude. `alike` is the share of tones that
+    all knocks have in common, and `uneven` the deviation of the logarithm of a knock's loudness.
     """
     random = np.random.default_rng(seed)
     zero = falls.touches[0] - before
