@@ -9,6 +9,7 @@ from uncertainties import correlation_matrix, ufloat
 
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.measure import one_ball
 from stackbounce.measure.kinds.bounces.analysis import bounces
 from stackbounce.measure.kinds.bounces.knocks import missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import laws_of
@@ -79,11 +80,10 @@ def test_phyphox_times_with_nothing_at_the_end():
 
 
 def test_parts_make_a_drop():
-    parts = bounces(FALL.touches, drop_height=1.0).parts()
-    contacts = [parts.pop("contact")]
-    drop = sb.Drop.from_mapping({"balls": [{"mass": 0.05}], "contacts": contacts, **parts})
+    found = bounces(FALL.touches, drop_height=1.0)
+    drop = one_ball([found.parts()], mass=0.05)
     assert drop.height == pytest.approx(1.0)
-    assert sb.simulate(drop).rebound_ratios[0] == pytest.approx(contacts[0]["restitution"])
+    assert sb.simulate(drop).rebound_ratios[0] == pytest.approx(found.mean.nominal_value)
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ import xarray as xr
 import stackbounce as sb
 from measure.near import near
 from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.measure import one_ball
 from stackbounce.measure.kinds.track.analysis import track
 from stackbounce.plots.measurements.track import draw as draw_track
 from synthetic.falls import falls
@@ -59,8 +60,7 @@ def test_axes_are_found_and_told():
     found = track(tracked(FALL, tilt=0.1, seed=1))
     assert found.tilt == pytest.approx(0.1, abs=0.005)
     assert any("degrees off" in note for note in found.notes)
-    found = track(tracked(FALL, down=True, seed=1))
-    assert found.axis == "-y"
+    assert track(tracked(FALL, down=True, seed=1)).axis == "-y"
     data = tracked(FALL, seed=1).rename(x="y", y="x")
     assert track(data).axis == "x"
     assert track(data, axis="x").balls[0].restitutions
@@ -146,9 +146,7 @@ def test_a_soft_ball_comes_out_too_fast_unless_the_floor_is_given():
 
 
 def test_parts_make_a_drop():
-    parts = track(tracked(FALL, seed=1)).parts()
-    contacts = [parts.pop("contact")]
-    drop = sb.Drop.from_mapping({"balls": [{"mass": 0.05}], "contacts": contacts, **parts})
+    drop = one_ball([track(tracked(FALL, seed=1)).parts()], mass=0.05)
     assert sb.simulate(drop).rebound_ratios[0] == pytest.approx(0.8, abs=0.01)
 
 

@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 from synthetic import attributes
 from synthetic.falls import Falls
 
-__all__ = ["accelerometer"]
-
 _AXES = ("x", "y", "z")
 
 

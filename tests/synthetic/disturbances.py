@@ -5,8 +5,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["ar_noise", "coded", "reverberated", "wind_noise"]
-
 Array = NDArray[np.float64]
 
 _ECHOES = 4
@@ -27,9 +25,7 @@ def ar_noise(random: np.random.Generator, shape: tuple[int, ...], correlation: f
     return np.asarray(lfilter([1.0], [1.0, -correlation], fresh))
 
 
-def reverberated(
-    values: Array, rate: float, amplitude: float, random: np.random.Generator
-) -> Array:
+def reverberated(values, rate, amplitude, random):
     """Return a sound in a room: four echoes within 40 ms and a tail of noise.
 
     The `amplitude` of the strongest echo is a share of that of the sound.

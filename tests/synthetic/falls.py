@@ -11,8 +11,6 @@ from stackbounce.model import ContactLaw, Rigid
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.run.collision import contact_time, restitution
 
-__all__ = ["Falls", "falls"]
-
 _LEAST_FLIGHT = 1e-3  # s; shorter ones are no flights of a measured ball
 
 
@@ -79,9 +77,7 @@ def falls(
     return Falls(height, gravity, *np.array(rows).T)
 
 
-def _bounce(
-    law: ContactLaw | Callable[[float], float], mass: float | None, speed: float
-) -> tuple[float, float]:
+def _bounce(law, mass, speed):
     """Return restitution and contact time of a bounce at a speed."""
     if isinstance(law, ContactLaw):
         time = 0.0 if mass is None else contact_time(law, mass, speed)

@@ -10,8 +10,6 @@ from stackbounce.model.laws import ContactLaw
 from synthetic import attributes
 from synthetic.disturbances import ar_noise
 
-__all__ = ["press_record"]
-
 Array = NDArray[np.float64]
 
 

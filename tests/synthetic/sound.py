@@ -10,8 +10,6 @@ from synthetic import attributes
 from synthetic.disturbances import coded, reverberated, wind_noise
 from synthetic.falls import Falls
 
-__all__ = ["sound"]
-
 _TONES = 8  # of a knock
 _LOW, _HIGH = 300.0, 6000.0  # Hz
 _DECAY = 6e-3  # s
@@ -93,14 +91,7 @@ def _tones(random: np.random.Generator) -> NDArray[np.float64]:
     return np.stack([pitch, phase, np.full(_TONES, math.sqrt(2.0 / _TONES) / 2.0), decay])
 
 
-def _add(
-    values: NDArray[np.float64],
-    time: float,
-    loud: float,
-    tones: NDArray[np.float64],
-    rate: float,
-    attack: float,
-) -> None:
+def _add(values, time, loud, tones, rate, attack):
     """Add a knock that begins at a time, between samples too."""
     first = math.ceil(time * rate)
     last = min(len(values), first + math.ceil(_LASTS * _DECAY * rate))
@@ -111,9 +102,7 @@ def _add(
     values[first:last] += loud * rise * waves.sum(axis=0)
 
 
-def _speech(
-    random: np.random.Generator, times: NDArray[np.float64], until: float
-) -> NDArray[np.float64]:
+def _speech(random, times, until):
     """Return syllables of a few harmonics, with a swell of 30 ms, four a second."""
     pitch = random.uniform(100.0, 200.0)
     values = sum(

@@ -12,8 +12,6 @@ from synthetic import attributes
 from synthetic.disturbances import ar_noise
 from synthetic.falls import Falls
 
-__all__ = ["track"]
-
 
 def track(
     source: Falls | Result,

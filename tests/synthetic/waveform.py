@@ -12,8 +12,6 @@ from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
 from synthetic import attributes
 
-__all__ = ["drooped", "waveform"]
-
 
 def waveform(
     drop: Drop | Result,
@@ -68,13 +66,7 @@ def waveform(
     return xr.Dataset(columns, {"time": time}, attrs)
 
 
-def _times(
-    result: Result,
-    rate: float,
-    duration: float | None,
-    before: float | None,
-    random: np.random.Generator,
-) -> NDArray[np.float64]:
+def _times(result, rate, duration, before, random):
     """Return the times of the samples, in s since the first touch."""
     step = 1.0 / rate
     ends = result.intervals["end"]
@@ -87,9 +79,7 @@ def _times(
     return np.asarray(step * (np.arange(count) + random.uniform()) - lead, dtype=np.float64)
 
 
-def _converted(
-    values: NDArray[np.float64], bits: int | None, full_scale: float | None
-) -> NDArray[np.float64]:
+def _converted(values, bits, full_scale):
     """Return the values quantised to the converter's steps and clipped to its range."""
     if full_scale is not None:
         values = np.clip(values, -full_scale, full_scale)

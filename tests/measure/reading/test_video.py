@@ -29,9 +29,9 @@ def rows(form):
 
 
 def imagej(slices=True, delimiter=","):
-    names = delimiter.join([" ", "Area", "Mean", "X", "Y", *["Slice"] * slices])
-    form = delimiter.join(["{n}", "12", "0", "{x:.4f}", "{y:.4f}", *["{n}"] * slices])
-    return f"{names}\n{rows(form)}"
+    names = [" ", "Area", "Mean", "X", "Y", *["Slice"] * slices]
+    cells = ["{n}", "12", "0", "{x:.4f}", "{y:.4f}", *["{n}"] * slices]
+    return f"{delimiter.join(names)}\n{rows(delimiter.join(cells))}"
 
 
 def mtrack2(between="\t", flag=" "):
@@ -207,9 +207,3 @@ def test_manual_tracking(read):
     data = read(head + rows("{n}\t1\t{n}\t{x:.0f}\t{y:.0f}\t-1\t-1\t0"))
     assert data.track.values.tolist() == ["track 1"]
     np.testing.assert_allclose(data.y.values[:, 0], np.round(Y))
-
-
-def test_heights_alone_stay_a_table_of_heights(read):
-    data = read("height (cm)\n100\n64\n41\n")
-    assert data.attrs["holds"] == "table"
-    assert analyse(data)[0].restitutions[0].nominal_value == pytest.approx(0.8)
