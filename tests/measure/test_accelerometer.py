@@ -8,6 +8,7 @@ import stackbounce as sb
 from measure.near import near
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import accelerometer, analyse, one_ball, one_law
+from stackbounce.measure.finding import channels
 from stackbounce.plots import measured
 from synthetic.accelerometer import accelerometer as record_of
 from synthetic.falls import falls
@@ -116,13 +117,19 @@ def test_bad_input(data, error, words):
 
 
 def test_a_ball_and_its_law_are_those_that_fell():
-    found = accelerometer(record_of(fall(), rate=1000.0, seed=1))
+    record = record_of(fall(), rate=1000.0, seed=1)
+    found = accelerometer(record)
     law = one_law("dashpot", [found], mass=0.2).law
     true = sb.calibrate(sb.Dashpot, mass=0.2, contact_time=0.012, restitution=0.6)
     assert law.stiffness == pytest.approx(true.stiffness, rel=0.15)
     drop = one_ball([found.parts()], mass=0.2)
     assert drop.height == pytest.approx(0.8, rel=0.02)
     assert drop.contacts[0].restitution == pytest.approx(0.6, abs=0.02)
+    rows = {row.name: row for row in found.rows()}
+    assert rows["contact time of bounce 0"].value.n == pytest.approx(0.012, rel=0.1)
+    assert rows["height of flight 0"].unit == "m"
+    shown = [(curve.label, curve.unit) for curve in channels(record)]
+    assert shown == [(name, "m/s^2") for name in record.data_vars]
 
 
 def test_the_picture_tells_heights_and_restitutions():

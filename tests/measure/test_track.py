@@ -162,6 +162,7 @@ def test_a_second_ball_that_lies_still_is_left_out():
     ("data", "error", "words"),
     [
         ((FRAMES, 0.0 * FRAMES), InvalidValue, "falls and bounces"),
+        ((FRAMES, FRAMES), InvalidValue, "falls and bounces"),
         ((FRAMES, math.nan * FRAMES), InvalidValue, "falls and bounces"),
         ((FRAMES, -(FRAMES**2)), InvalidValue, "falls and bounces"),
         ((np.arange(60) / 30.0, NOISE), InvalidValue, "falls and bounces"),

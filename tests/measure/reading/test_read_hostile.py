@@ -64,6 +64,8 @@ def test_too_large_a_file_is_not_read(tmp_path):
     (b"", "is empty"),
     (b"\n\n\n", "no row of numbers"),
     (b"words and words\nand more", "no row of numbers in its first 2 lines; it begins with 'words"),
+    (b"\xef\xbb\xbf", "no row of numbers"),
+    (b"Time (s),Force (N)\n", "no row of numbers"),
     (b"#multi:\n,a,,\nt,x,y,\n", "no row of numbers"),
     (b"Vernier Format 2\n1\t2\n", "no row of numbers"),
     (b"Vernier Format 2\na\nb\n1\t2\n3\t4\n", "lacks the names"),
