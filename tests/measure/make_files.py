@@ -245,11 +245,12 @@ def wav(bits=16, channels=1, floating=False, extensible=False, size=None):
 
 
 for _bits, _channels, _floating, _extensible in (
-    (8, 1, False, False), (16, 2, False, False), (24, 2, False, True), (32, 1, False, False),
-    (32, 1, True, True), (64, 1, True, False),
+    (8, 1, False, False), (16, 1, False, False), (16, 2, False, False), (24, 1, False, False),
+    (24, 2, False, True), (32, 1, False, False), (32, 2, True, False), (32, 1, True, True),
+    (64, 1, True, False),
 ):  # fmt: skip
-    _form = _bits, _channels, _floating, _extensible
-    MAKERS[f"wav_{'_'.join(map(str, _form))}.wav"] = partial(wav, *_form)
+    _name = f"wav_{_bits}{'f' if _floating else ''}_{_channels}{'_ext' if _extensible else ''}.wav"
+    MAKERS[_name] = partial(wav, _bits, _channels, _floating, _extensible)
 
 
 # --- other tables, press curves
