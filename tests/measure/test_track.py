@@ -167,6 +167,7 @@ def test_a_second_ball_that_lies_still_is_left_out():
         ((FRAMES, -(FRAMES**2)), InvalidValue, "falls and bounces"),
         ((np.arange(60) / 30.0, NOISE), InvalidValue, "falls and bounces"),
         ((0.0 * FRAMES, FRAMES), InvalidValue, "times must ascend"),
+        ((FRAMES[::-1], 0.0 * FRAMES), InvalidValue, "times must ascend"),
         ((np.arange(3.0), np.zeros(3)), InvalidValue, "at least 4"),
         ((FRAMES, np.zeros(3)), InvalidValue, "time and y of one length"),
         (NO_BALL, InvalidValue, "the track of a ball, got none"),

@@ -118,6 +118,7 @@ def test_locked_and_damaged_archives(read):
 
 @pytest.mark.parametrize(("content", "message"), [
     (archive({"inner.zip": archive({"a.csv": "1,2\n"})}), "without any table"),
+    (archive({}), "without any table"),
     (archive({f"{k}.csv": "" for k in range(1001)}), "more than 1000 files"),
     (archive({"[Content_Types].xml": "", "a.csv": "1,2"}), "it is a spreadsheet"),
     (archive({"a.csv": "1,2"}, zipfile.ZIP_BZIP2), "packed in an unusual way"),
@@ -170,6 +171,7 @@ def test_encodings(read, encoding, end):
     ("t;F\n0;1.234,5\n1;2,25\n", [1234.5, 2.25], False),
     ("t;F\n0,0;1.234\n1,0;2,25\n", [1234.0, 2.25], False),
     ("t;F\n0;1,234.5\n1;2.25\n", [1234.5, 2.25], False),
+    ("t;F\n0.5;1,234\n1;2.25\n", [1234.0, 2.25], False),
     ("t;F\n0;1,234\n1;2,345\n", [1.234, 2.345], True),
     ("t;F\n0;0,234\n1;2,345\n", [0.234, 2.345], False),
     ("t;F\n0;1 234,5\n1;2,5\n", [1234.5, 2.5], False),
