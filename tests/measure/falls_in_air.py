@@ -11,6 +11,12 @@ from synthetic.falls import Falls
 
 BALL = 2.7e-3, 0.040  # a table tennis ball: kg, m
 GRAVITY, DENSITY = 9.80665, 1.204
+AT_REST, SLOPE = 0.92, 0.012  # restitution at no speed, and its fall per m/s
+
+
+def kept(speed):
+    """Return a restitution that falls with the speed."""
+    return AT_REST - SLOPE * speed
 
 
 @dataclass(frozen=True)
@@ -59,13 +65,9 @@ def _flight(k, state):
         return y[1]
 
     floor.terminal, floor.direction, top.direction = True, -1.0, -1.0
-    return solve_ivp(
-        lambda _, y: [y[1], -GRAVITY - k * y[1] * abs(y[1])],
-        (0.0, 10.0),
-        state,
-        events=(floor, top),
-        method="DOP853",
-        rtol=1e-11,
-        atol=1e-13,
-        dense_output=True,
-    )
+
+    def falling(_, y):
+        return [y[1], -GRAVITY - k * y[1] * abs(y[1])]
+
+    exact = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-13, "dense_output": True}
+    return solve_ivp(falling, (0.0, 10.0), state, events=(floor, top), **exact)

@@ -1,15 +1,9 @@
-"""Files as the programs of this field write them, with known numbers in them.
-
-Each maker returns the bytes of a file. ``python tests/measure/make_files.py FOLDER`` writes all of
-them, to be tried from the command line.
-"""
+"""Files as the programs of this field write them, with known numbers in them, as bytes."""
 
 import io
 import struct
-import sys
 import zipfile
-from collections.abc import Callable
-from pathlib import Path
+from functools import partial
 
 import numpy as np
 
@@ -22,7 +16,7 @@ AWAY = np.round(0.012 + 0.1 * FRAMES, 6)  # m
 KNOCKS = np.array([0.5104, 1.1423, 1.6481, 2.0531, 2.3772, 2.6365])  # s
 PRESSED = np.round(np.concatenate([np.linspace(0, 5, 21), np.linspace(5, 0.6, 18)]), 4)  # mm
 LOAD = np.round(8.0 * PRESSED**1.2 * np.where(np.arange(39) < 21, 1.0, 0.8), 3)  # N
-MAKERS: dict[str, Callable[[], bytes]] = {}
+MAKERS = {}
 
 
 def makes(name):
@@ -157,7 +151,7 @@ def vernier(style):
 
 
 for _style in VERNIER:
-    MAKERS[f"vernier_{_style}.csv"] = lambda style=_style: vernier(style)
+    MAKERS[f"vernier_{_style}.csv"] = partial(vernier, _style)
 
 
 @makes("logger_pro.txt")
@@ -205,21 +199,15 @@ def tek_mdo():
 
 @makes("tek_tds.csv")
 def tek_tds():
-    keys = {
-        "Record Length": "4.000000e+01", "Sample Interval": "1.000000e-04",
-        "Trigger Point": "1.000000000000e+01", "": "", " ": "", "  ": "", "Source": "CH1",
-        "Vertical Units": "V", "Vertical Scale": "5.000000e-01", "Vertical Offset": "0.000000e+00",
-        "Horizontal Units": "s", "Horizontal Scale": "2.500000e-04", "Pt Fmt": "Y",
-        "Yzero": "0.000000e+00", "Probe Atten": "1.000000e+00", "Model Number": "TDS2014",
-        "Serial Number": "C000000", "Firmware Version": "FV:v24.26",
-    }  # fmt: skip
-    pairs = [f"{key.strip()},{value}" for key, value in keys.items()]
-    pairs += [","] * (len(TIMES) - len(pairs))
-    lines = [
-        f"{pair},,{t:018.12f},{v:10.5f},\n"
-        for pair, t, v in zip(pairs, TIMES - 1e-3, VOLTS, strict=True)
-    ]
-    return "".join(lines).encode()
+    keys = (
+        "Record Length,4.000000e+01;Sample Interval,1.000000e-04;Trigger Point,1.000000000000e+01;"
+        ",;,;Source,CH1;Vertical Units,V;Vertical Scale,5.000000e-01;Vertical Offset,0.000000e+00;"
+        "Horizontal Units,s;Horizontal Scale,2.500000e-04;Pt Fmt,Y;Yzero,0.000000e+00;"
+        "Probe Atten,1.000000e+00;Model Number,TDS2014;Firmware Version,FV:v24.26"
+    ).split(";")
+    keys += [","] * (len(TIMES) - len(keys))
+    rows = zip(keys, TIMES - 1e-3, VOLTS, strict=True)
+    return "".join(f"{pair},,{t:018.12f},{v:10.5f},\n" for pair, t, v in rows).encode()
 
 
 # --- sound
@@ -262,9 +250,7 @@ for _bits, _channels, _floating, _extensible in (
     (64, 1, True, False),
 ):  # fmt: skip
     _name = f"wav_{_bits}{'f' if _floating else ''}_{_channels}{'_ext' if _extensible else ''}.wav"
-    MAKERS[_name] = lambda bits=_bits, channels=_channels, floating=_floating, ext=_extensible: wav(
-        bits, channels, floating, ext
-    )
+    MAKERS[_name] = partial(wav, _bits, _channels, _floating, _extensible)
 
 
 # --- other tables, press curves
@@ -281,10 +267,7 @@ def press(header="Compression (mm),Force (N)", delimiter=","):
 
 
 def main(folder):
+    """Write all of them into a folder."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, maker in MAKERS.items():
         (folder / name).write_bytes(maker())
-
-
-if __name__ == "__main__":
-    main(Path(sys.argv[1]))

@@ -9,6 +9,7 @@ from uncertainties import correlation_matrix, ufloat
 
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.measure import one_ball
 from stackbounce.measure.kinds.bounces.analysis import bounces
 from stackbounce.measure.kinds.bounces.knocks import missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import laws_of
@@ -79,24 +80,20 @@ def test_phyphox_times_with_nothing_at_the_end():
 
 
 def test_parts_make_a_drop():
-    parts = bounces(FALL.touches, drop_height=1.0).parts()
-    drop = sb.Drop.from_mapping(
-        {"balls": [{"mass": 0.05}], "contacts": [parts["contact"]], "height": parts["height"]}
-    )
-    assert sb.simulate(drop).rebound_ratios[0] == pytest.approx(parts["contact"]["restitution"])
+    found = bounces(FALL.touches, drop_height=1.0)
+    drop = one_ball([found.parts()], mass=0.05)
+    assert drop.height == pytest.approx(1.0)
+    assert sb.simulate(drop).rebound_ratios[0] == pytest.approx(found.mean.nominal_value)
 
 
 @pytest.mark.parametrize(
     ("times", "words"),
     [
-        ([], "at least three"),
         ([1.0, 2.0], "at least three"),
         ([0.0, 1.0, 1.0], "must ascend"),
         ([0.0, 9e-10, 16e-10], "in s, got intervals of at most 9e-10 s"),
-        ([0.0, 2.0, 1.0], "must ascend"),
         ([0.0, math.nan, 1.0], "finite"),
-        (1e-4 * np.arange(25), "come faster and faster, got 24 equal intervals"),
-        ((1e-4 * np.arange(25)).astype(np.float32), "got 24 equal intervals"),
+        ((1e-4 * np.arange(25)).astype(np.float32), "faster and faster, got 24 equal intervals"),
         (np.arange(5000) ** 0.9, "bounces, at most 200, got 5000"),
     ],
 )
@@ -129,18 +126,17 @@ def test_intervals_in_which_a_bounce_is_missing():
 
 
 @pytest.mark.parametrize(
-    ("place", "added"),
+    ("place", "first", "later"),
     [
-        ("bottom", (0.0, 0.0)),
-        ("centre", (0.5, 0.5)),
-        ("top", (1.0, 1.0)),
-        (("bottom", "top"), (0.0, 1.0)),
+        ("bottom", 0.0, 0.0),
+        ("centre", 0.05, 0.05),
+        ("top", 0.1, 0.1),
+        (("bottom", "top"), 0.0, 0.1),
     ],
 )
-def test_heights_wherever_they_were_read(place, added):
-    size = 0.1
-    read = 1.0 + added[0] * size, [0.64 + added[1] * size, 0.4096 + added[1] * size]
-    found = heights(*read, diameter=size, measured_to=place, height_error=0.005)
+def test_heights_wherever_they_were_read(place, first, later):
+    read = 1.0 + first, [0.64 + later, 0.4096 + later]
+    found = heights(*read, diameter=0.1, measured_to=place, height_error=0.005)
     assert [one.nominal_value for one in found.restitutions] == pytest.approx([0.8, 0.8])
     assert found.mean.nominal_value == pytest.approx(0.8)
     assert found.drop_height.nominal_value == pytest.approx(1.0)
@@ -171,22 +167,23 @@ def test_repeated_heights_scatter():
 
 
 @pytest.mark.parametrize(
-    ("call", "error", "words"),
+    ("read", "options", "error", "words"),
     [
-        (lambda: heights(-1.0, 0.5), InvalidValue, "drop_height must be"),
-        (lambda: heights(1.0, [0.5, -0.1]), InvalidValue, "bounce_heights.1"),
-        (lambda: heights(1.0, []), InvalidValue, "at least one"),
-        (lambda: heights(1.0, 0.5, measured_to="top"), InvalidValue, "diameter must be given"),
-        (lambda: heights(1.0, 0.5, measured_to="side"), InvalidValue, "bottom, centre or top"),
-        (lambda: heights(1.0, 0.5, measured_to=3), InvalidType, "bottom, centre or top"),
-        (lambda: heights(1.0, "0.5"), InvalidType, "numbers"),
+        ((-1.0, 0.5), {}, InvalidValue, "drop_height must be"),
+        ((1.0, [0.5, -0.1]), {}, InvalidValue, "bounce_heights.1"),
+        ((1.0, []), {}, InvalidValue, "at least one"),
+        ((1.0, "0.5"), {}, InvalidType, "numbers"),
+        ((1.0, 0.5), {"measured_to": "top"}, InvalidValue, "diameter must be given"),
+        ((1.0, 0.5), {"measured_to": "side"}, InvalidValue, "bottom, centre or top"),
+        ((1.0, 0.5), {"measured_to": 3}, InvalidType, "bottom, centre or top"),
         (
-            lambda: heights(1.0, 0.05, diameter=0.1, measured_to="top"),
+            (1.0, 0.05),
+            {"measured_to": "top", "diameter": 0.1},
             InvalidValue,
-            "more than the height of the ball's top",
+            "more than the height",
         ),
     ],
 )
-def test_heights_that_make_no_sense(call, error, words):
+def test_heights_that_make_no_sense(read, options, error, words):
     with pytest.raises(error, match=words):
-        call()
+        heights(*read, **options)

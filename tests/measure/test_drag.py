@@ -1,61 +1,37 @@
 """Drag in times and heights of bounces: against falls that an integrator of scipy makes."""
 
-import json
 import math
 
 import numpy as np
 import pytest
-from scipy.stats import binom
+import xarray as xr
 from uncertainties import correlation_matrix, ufloat
 
 import stackbounce as sb
-from measure.falls_in_air import BALL, falls_in_air
+from measure.falls_in_air import AT_REST, BALL, SLOPE, falls_in_air, kept
+from measure.near import near, possible
 from stackbounce import plots
-from stackbounce.cli import main
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.explorer.answers import records
 from stackbounce.fitting.validation.series import make_series
-from stackbounce.measure import Drag, analyse, bounces, heights, knocks
+from stackbounce.measure import Drag, analyse, bounces, heights, knocks, one_ball, one_law
 from stackbounce.measure.kinds.sound.few_bounces import few_bounces
-from stackbounce.measure.option_values import read_options
 from synthetic.sound import sound
 
-AT_REST, SLOPE = 0.92, 0.012  # restitution at no speed, and its fall per m/s
 AIR = Drag(*BALL, 0.45)
 UNSURE = Drag(*BALL, ufloat(0.45, 0.05))
 UGLY = {"uneven": 0.2, "room": 0.4, "alike": 0.5, "wind": 0.01, "coarse": 0.4, "level": 2.0}
 TYPED = {"mass": "2.7 g", "diameter": "40 mm", "drag_coefficient": "0.45 ± 0.05"}
-OPTIONS = {"mass": 2.7e-3, "diameter": 0.040, "drag_coefficient": 0.45}
-
-
-def kept(speed):
-    return AT_REST - SLOPE * speed
 
 
 FALL = falls_in_air(0.5, kept, bounces=9)
 
 
-@pytest.fixture(scope="module")
-def path(tmp_path_factory):
-    """Return a file of knocks as phyphox writes it."""
-    path = tmp_path_factory.mktemp("knocks") / "knocks.csv"
-    steps = np.diff(FALL.touches, prepend=FALL.touches[0])
-    rows = "".join(f"{a:.9f},{b:.9f}\n" for a, b in zip(FALL.touches, steps, strict=True))
-    path.write_text(f'"Event time (s)","Interval (s)"\n{rows}', encoding="utf-8")
-    return path
-
-
-def possible(hits, count):
-    """Return whether so many of some trials can lie within one sigma, by chance of 1 in 100."""
-    return binom.cdf(hits, count, 0.683) > 0.005 and binom.sf(hits - 1, count, 0.683) > 0.005
+KNOCKS = xr.Dataset({"knock_time": ("knock", FALL.touches)}, attrs={"holds": "knocks"})
 
 
 def nominal(numbers):
     return [number.nominal_value for number in numbers]
-
-
-def within(found, true):
-    return abs(found.nominal_value - true) <= found.std_dev
 
 
 def test_exact_times_give_what_went_in():
@@ -105,7 +81,7 @@ def test_ugly_recordings_in_air(seeds):
         first = int(np.argmin(abs(fall.touches - fall.touches[0] + 0.1 - heard.times[0].n)))
         found, free = bounces(heard, drag=AIR), bounces(heard)
         true = fall.restitutions[np.array(found.numbers) + first]
-        hits += sum(within(*pair) for pair in zip(found.restitutions, true, strict=True))
+        hits += sum(near(*pair, 1.0) for pair in zip(found.restitutions, true, strict=True))
         count += len(true)
         low = [one.n - e for one, e in zip(free.restitutions[:3], true[:3], strict=True)]
         assert max(low) < -0.005
@@ -127,13 +103,13 @@ def test_an_unsure_drag_is_in_the_errors():
     for seed in range(100):
         fall, times, random = drawn(seed)
         told = bounces(times, time_error=2e-4, drag=UNSURE)
-        found["first"].append(within(told.restitutions[0], fall.restitutions[1]))
-        found["mean of a line"].append(within(told.laws[0].at(1.5), kept(1.5)))
+        found["first"].append(near(told.restitutions[0], fall.restitutions[1], 1.0))
+        found["mean of a line"].append(near(told.laws[0].at(1.5), kept(1.5), 1.0))
         exact = bounces(times, time_error=2e-4, drag=AIR)
-        found["exact"].append(within(exact.restitutions[0], fall.restitutions[1]))
+        found["exact"].append(near(exact.restitutions[0], fall.restitutions[1], 1.0))
         read = np.array([fall.height, *fall.apexes]) + random.normal(0.0, 1e-3, 8)
         ruler = heights(read[0], read[1:], height_error=1e-3, drag=UNSURE)
-        found["height"].append(within(ruler.restitutions[0], fall.restitutions[0]))
+        found["height"].append(near(ruler.restitutions[0], fall.restitutions[0], 1.0))
     hits = {name: sum(one) for name, one in found.items()}
     assert all(possible(hits[name], 100) for name in ("first", "mean of a line", "height")), hits
     assert hits["exact"] < hits["first"] - 15
@@ -185,73 +161,52 @@ def test_the_mean_lies_between_the_bounces_and_its_error_is_that_of_draws():
 def test_two_knocks_tell_how_high_it_rose_in_air():
     heard = knocks(sound(falls_in_air(0.5, kept, bounces=2), seed=1))
     found = few_bounces(heard, drag=AIR)
-    true = FALL.apexes[0]
-    assert found.apex_heights[0].n == pytest.approx(true, rel=2e-3)
+    assert found.apex_heights[0].n == pytest.approx(FALL.apexes[0], rel=2e-3)
     assert few_bounces(heard).apex_heights[0].n > found.apex_heights[0].n
     assert found.rows()[-1] == AIR.rows()[-1]
 
 
-def test_no_drag_is_no_air(path):
-    data = sb.read(path)
-    plain = [one.rows() for one in analyse(data, height=0.5)]
-    none = analyse(data, height=0.5, **OPTIONS | {"drag_coefficient": 0.0})
-    assert repr([one.rows() for one in none]) == repr(plain)
-    thin = bounces(FALL.touches, drop_height=0.5, time_error=1e-4, drag=Drag(*BALL, 1e-9))
-    free = bounces(FALL.touches, drop_height=0.5, time_error=1e-4)
+def test_no_drag_is_no_air():
+    known = {"drop_height": 0.5, "time_error": 1e-4}
+    thin = bounces(FALL.touches, drag=Drag(*BALL, 1e-9), **known)
+    free = bounces(FALL.touches, **known)
     assert nominal(thin.restitutions) == pytest.approx(nominal(free.restitutions), rel=1e-9)
+    options = {"height": 0.5, "mass": BALL[0], "diameter": BALL[1]}
+    plain, none = (
+        [one.rows() for one in analyse(KNOCKS, **options, **air)]
+        for air in ({}, {"drag_coefficient": 0.0})
+    )
+    assert repr(none) == repr(plain)
 
 
-def test_every_face_takes_the_same_air(path, capfd):
-    typed = ["--mass", "2.7g", "--diameter", "40mm", "--drag-coefficient", "0.45 ± 0.05"]
-    assert main(["measure", str(path), "--height", "0.5m", *typed, "--json"]) == 0
-    (told,) = json.loads(capfd.readouterr().out)["files"]
-    options = TYPED | {"height": "0.5 m"}
-    page = json.loads(records.measure_record(path.name, path.read_bytes(), options))
-    assert page["found"] == told["found"]
-    assert page["notes"] == told["notes"]
-    known = {one["name"]: one for one in told["found"]}
-    assert (known["drag coefficient"]["value"], known["drag coefficient"]["error"]) == (0.45, 0.05)
-    assert known["density of the air"] == {
-        "name": "density of the air", "value": 1.204, "error": 0.0, "unit": "kg/m^3"
-    }  # fmt: skip
-    assert told["notes"][0].startswith("The drag of the air is taken into account, with a coeff")
-    python = read_options(TYPED, lambda one: one.name)
-    (found,) = analyse(sb.read(path), height=0.5, **python)
-    assert found.mean.n == known["restitution, mean"]["value"]
-    thick = ["measure", str(path), *typed, "--air-density", "1.3kg/m^3", "--json"]
-    assert main(thick) == 0
-    (other,) = json.loads(capfd.readouterr().out)["files"]
-    assert other["found"][0]["value"] > told["found"][0]["value"]
+def test_air_is_told_with_its_density():
+    told = bounces(FALL.touches, drag=UNSURE)
+    rows = {row.name: row for row in told.rows()}
+    assert str(rows["drag coefficient"].value) == "0.45+/-0.05"
+    density = rows["density of the air"]
+    assert (density.value.n, density.value.s, density.unit) == (1.204, 0.0, "kg/m^3")
+    assert told.notes[0].startswith("The drag of the air is taken into account, with a coeff")
+    assert bounces(FALL.touches, drag=Drag(*BALL, 0.45, 1.3)).mean.n > told.mean.n
 
 
-def test_heights_are_typed_with_air(capfd, tmp_path):
-    picture = tmp_path / "heights.svg"
-    typed = ["--mass", "2.7g", "--diameter", "40mm", "--drag-coefficient", "0.45"]
-    read = "100, 70, 50, 38 cm"
-    assert main(["measure", "--heights", read, *typed, "--plot", str(picture), "--json"]) == 0
-    (told,) = json.loads(capfd.readouterr().out)["files"]
-    found = heights(1.0, [0.7, 0.5, 0.38], drag=AIR)
-    assert told["found"][0]["value"] == pytest.approx(found.mean.n, rel=1e-12)
-    assert picture.read_bytes().startswith(b"<?xml")
-    (line,) = [one for one in plots.measured(None, found).axes[0].lines if len(one.get_xdata()) > 9]
+def test_heights_in_air_are_drawn_with_a_curve_through_them():
+    figure = plots.measured(None, heights(1.0, [0.7, 0.5, 0.38], drag=AIR))
+    (line,) = [one for one in figure.axes[0].lines if len(one.get_xdata()) > 9]
     curve = dict(zip(np.round(line.get_xdata(), 9), line.get_ydata(), strict=True))
     assert (curve[0.0], curve[3.0]) == pytest.approx((1.0, 0.38))
 
 
-def test_the_ball_that_is_saved_has_the_impact_speed_in_air(path, tmp_path, capfd):
+def test_a_ball_has_the_impact_speed_in_air():
     """A simulated drop falls without air: from the height it would be too fast."""
-    ball = tmp_path / "ball.toml"
-    typed = ["--mass", "2.7g", "--diameter", "40mm", "--drag-coefficient", "0.45"]
-    arguments = ["measure", str(path), "--height", "0.5m", *typed, "--law", "rigid"]
-    assert main([*arguments, "--save", str(ball), "--json"]) == 0
-    drop = sb.Drop.from_toml(ball)
+    found = bounces(FALL.touches, drop_height=FALL.height, drag=AIR)
+    drop = one_ball([found.parts()], mass=BALL[0])
     assert drop.height is None
     assert drop.impact_speed == pytest.approx(FALL.speeds[0], rel=1e-9)
-    capfd.readouterr()
-    law = ["--heights", "50, 40 cm", *typed, "--height", "50cm", "--contact-time", "1ms"]
-    assert main(["measure", *law, "--law", "hunt-crossley", "--json"]) == 0
-    told = {one["name"]: one["value"] for one in json.loads(capfd.readouterr().out)["law"]}
-    assert told["from impact speed"] == pytest.approx(FALL.speeds[0], rel=1e-9)
+    ruler = heights(FALL.height, 0.4, height_error=1e-3, drag=AIR)
+    law = one_law("hunt-crossley", [ruler], mass=BALL[0], contact_time=1e-3).law
+    shape = {"mass": BALL[0], "contact_time": 1e-3, "impact_speed": FALL.speeds[0]}
+    wanted = sb.calibrate(sb.HuntCrossley, restitution=ruler.mean.n, **shape)
+    assert law.stiffness == pytest.approx(wanted.stiffness, rel=1e-8)
 
 
 def test_a_published_series_has_the_restitutions_of_the_validation():
@@ -261,35 +216,44 @@ def test_a_published_series_has_the_restitutions_of_the_validation():
     assert nominal(found.restitutions) == pytest.approx(make_series(data).values, rel=1e-9)
 
 
-def refused(call):
-    with pytest.raises((InvalidValue, InvalidType)) as caught:
-        call()
-    return str(caught.value)
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"drag_coefficient": 0.45, "mass": 1.0}, "needs mass and diameter of the ball: give diam"),
+        ({"air_density": 1.2}, "of the air counts with a drag_coefficient only, got none"),
+        (
+            {"drag_coefficient": ufloat(0.0, 0.1)},
+            "be above 0 where it has an error, or 0 for no air, got 0.0.*0.1",
+        ),
+        ({"drag_coefficient": -1.0}, "drag_coefficient must be"),
+        ({"drag_coefficient": "x"}, "drag_coefficient must be"),
+    ],
+)
+def test_options_of_air_that_are_missing_or_out_of_range(options, words):
+    with pytest.raises((InvalidValue, InvalidType), match=words):
+        analyse(KNOCKS, **options)
 
 
-def test_what_is_missing_or_out_of_range_is_told(path, capfd):
-    times = [0.0, 0.5, 0.9, 1.25]
-    data = sb.read(path)
-    missing = refused(lambda: analyse(data, drag_coefficient=0.45, mass=2.7e-3))
-    assert missing.endswith("needs mass and diameter of the ball: give diameter")
-    alone = refused(lambda: analyse(data, air_density=1.2))
-    assert alone.endswith("of the air counts with a drag_coefficient only, got none")
-    unsure = refused(lambda: analyse(data, drag_coefficient=ufloat(0.0, 0.1)))
-    assert unsure.endswith("be above 0 where it has an error, or 0 for no air, got 0.0+/-0.1")
-    assert "drag_coefficient must be" in refused(lambda: analyse(data, drag_coefficient=-1.0))
-    assert "drag_coefficient must be" in refused(lambda: analyse(data, drag_coefficient="x"))
-    assert "mass must be a positive" in refused(lambda: Drag(0.0, 0.04, 0.5))
-    assert "coefficient must be" in refused(lambda: Drag(1.0, 0.04, 0.0))
-    assert refused(lambda: bounces(times, drag=Drag(1e-5, 1.0, 0.5))).startswith(
-        "mass, diameter and drag_coefficient must be those of a ball that can fly so far, got 2.36"
-    )
-    assert refused(lambda: Drag(1e-100, 1.0, 0.5)) == (
-        "mass, diameter and drag_coefficient must be those of a ball in air, got 2.36e+99 1/m of "
-        "drag (a table tennis ball has 0.13)"
-    )
-    assert "of a ball in air, got inf 1/m" in refused(lambda: Drag(1.0, 1e300, 0.5))
-    file = path.name, path.read_bytes()
-    page = refused(lambda: records.measure_record(*file, {"drag_coefficient": "0.5"}))
-    assert page.endswith("give “Ball's mass” and “Diameter”")
-    assert main(["measure", "--heights", "1, 0.7 m", "--drag-coefficient", "0.5"]) == 2
-    assert "of the ball: give mass, diameter" in capfd.readouterr().err
+@pytest.mark.parametrize(
+    ("air", "words"),
+    [
+        ((0.0, 0.04, 0.5), "mass must be a positive"),
+        ((1.0, 0.04, 0.0), "coefficient must be"),
+        (
+            (1e-100, 1.0, 0.5),
+            r"of a ball in air, got 2.36e\+99 1/m of drag \(a table tennis",
+        ),
+        ((1.0, 1e300, 0.5), "of a ball in air, got inf 1/m"),
+    ],
+)
+def test_no_ball_in_air(air, words):
+    with pytest.raises(InvalidValue, match=words):
+        Drag(*air)
+
+
+def test_a_ball_that_cannot_fly_so_far():
+    with pytest.raises(InvalidValue, match="of a ball that can fly so far, got 2"):
+        bounces([0.0, 0.5, 0.9, 1.25], drag=Drag(1e-5, 1.0, 0.5))
+    page = {"drag_coefficient": "0.5"}  # options are named as the page names them
+    with pytest.raises(InvalidValue, match="give “Ball's mass” and “Diameter”"):
+        records.measure_record("a.csv", b"height (m)\n1\n0.7\n", page)

@@ -6,7 +6,6 @@ import types
 from dataclasses import dataclass
 from importlib import import_module
 
-import numpy as np
 import pytest
 
 import stackbounce as sb
@@ -39,24 +38,16 @@ class Swings(Finding):
         return {"restitution": 0.5}
 
 
-def analyse_swings(data, setup):
-    return Swings(1.0 / float(np.mean(data["period"])), setup.gravity)
-
-
-PENDULUM = Kind(
-    "pendulum",
-    "how often it swings",
-    "pendulum.kind",
-    options=("gravity",),
-    columns=(("period",),),
-    dimension="swing",
-)
+HOW = {"options": ("gravity",), "columns": (("period",),), "dimension": "swing"}
+PENDULUM = Kind("pendulum", "how often it swings", "pendulum.kind", **HOW)
 
 
 @pytest.fixture
 def path(tmp_path, monkeypatch):
     monkeypatch.setitem(KINDS, "pendulum", PENDULUM)
-    module = types.SimpleNamespace(analyse=analyse_swings)
+    module = types.SimpleNamespace(
+        analyse=lambda data, setup: Swings(1.0 / float(data["period"].mean()), setup.gravity)
+    )
     monkeypatch.setitem(sys.modules, PENDULUM.module, module)
     path = tmp_path / "swings.csv"
     path.write_text("period (s),angle\n2.0,1\n2.1,2\n1.9,3\n", encoding="utf-8")

@@ -19,13 +19,6 @@ FALL = falls(1.0, 0.8)
 LAW = sb.calibrate(sb.Dashpot, mass=0.2, contact_time=0.012, restitution=0.6)
 
 
-def in_pixels(data, scale):
-    """Return a track in pixels by frames."""
-    there = {name: (data[name].dims, data[name].values / scale, {"units": "px"}) for name in "xy"}
-    frames = ("time", np.arange(data.sizes["time"]) * 1.0, {"units": "frame"})
-    return xr.Dataset(there, {"time": frames, "track": data.track})
-
-
 @pytest.mark.parametrize("name", TRACKS)
 def test_what_does_not_fly_freely_and_bounce(name):
     make, words = TRACKS[name]
@@ -36,18 +29,17 @@ def test_what_does_not_fly_freely_and_bounce(name):
 @pytest.mark.parametrize("name", ["rectified sine", "pendulum", "bowl", "throw", "coaster"])
 def test_neither_where_the_scale_is_unknown(name):
     times, heights = TRACKS[name][0]()
-    data = xr.Dataset(
-        {"y": ("time", 500.0 * heights, {"units": "px"})},
-        {"time": ("time", np.arange(len(times)) * 1.0, {"units": "frame"})},
-    )
+    data = over_time("y", np.arange(len(times)) * 1.0, 500.0 * heights, "px", "frame")
     with pytest.raises(InvalidValue, match="must hold a ball that falls and bounces"):
         track(data)
 
 
 def test_a_bounce_in_pixels_and_frames_is_one():
-    data = tracked(FALL, down=True, seed=2)
-    found = track(in_pixels(data, 2e-3))
-    assert _values(found) == pytest.approx([0.8] * 3, abs=0.005)
+    data = tracked(FALL, down=True, seed=2) / 2e-3
+    data["time"] = ("time", np.arange(data.sizes["time"]) * 1.0, {"units": "frame"})
+    for name in "xy":
+        data[name].attrs["units"] = "px"
+    assert _values(track(data)) == pytest.approx([0.8] * 3, abs=0.005)
 
 
 def _values(found):
@@ -102,16 +94,15 @@ def test_a_very_long_track_is_shortened_and_says_so():
     assert _values(found)[0] == pytest.approx(0.8, abs=1e-3)
 
 
-def without_g(times, size):
-    return xr.Dataset(
-        {"acceleration_absolute": ("time", size, {"units": "m/s^2"})},
-        {"time": ("time", times, {"units": "s"})},
-        {"holds": "acceleration", "format": "acceleration without g"},
-    )
+def over_time(name, times, values, unit, of_time="s", **attrs):
+    columns = {name: ("time", values, {"units": unit})}
+    return xr.Dataset(columns, {"time": ("time", times, {"units": of_time})}, attrs)
 
 
 def test_a_swung_phone_and_a_jump():
-    for data in (without_g(*swings()), swings(), jumps()):
+    how = {"holds": "acceleration", "format": "acceleration without g"}
+    without_g = over_time("acceleration_absolute", *swings(), "m/s^2", **how)
+    for data in (without_g, swings(), jumps()):
         with pytest.raises(InvalidValue, match="what swings"):
             accelerometer(data)
 
@@ -138,20 +129,19 @@ def test_a_fall_to_the_end_of_the_record():
         accelerometer(cut)
 
 
-def felt(first, pulse, second, top):
-    """Return an acceleration with a pulse between two flights that begin and end at these times."""
-    times = np.arange(0.0, 3.0, 0.005)
-    size = np.where((times > first) & (times < second), 0.3, G)
-    size[(times > pulse[0]) & (times < pulse[1])] = top
-    return times, size
-
-
 def test_a_soft_pulse_is_no_bounce_and_a_gain_is_none():
+    def felt(pulse, end, top):
+        """Return an acceleration with a pulse between two flights, the first from 1 s on."""
+        times = np.arange(0.0, 3.0, 0.005)
+        size = np.where((times > 1.0) & (times < end), 0.3, G)
+        size[(times > pulse[0]) & (times < pulse[1])] = top
+        return times, size
+
     with pytest.raises(InvalidValue, match="above 2 g"):
-        accelerometer(felt(1.0, (1.5, 1.56), 2.0, 1.3 * G))
-    assert len(accelerometer(felt(1.0, (1.5, 1.56), 2.0, 15.0 * G)).restitutions) == 1
+        accelerometer(felt((1.5, 1.56), 2.0, 1.3 * G))
+    assert len(accelerometer(felt((1.5, 1.56), 2.0, 15.0 * G)).restitutions) == 1
     with pytest.raises(InvalidValue, match="nothing rebounds faster than it came"):
-        accelerometer(felt(1.0, (1.2, 1.22), 1.9, 200.0))
+        accelerometer(felt((1.2, 1.22), 1.9, 200.0))
 
 
 def test_a_machine_is_refused():
@@ -160,33 +150,27 @@ def test_a_machine_is_refused():
         accelerometer((times, np.where(times % 0.1 < 0.08, 0.2, 50.0)))
 
 
-def heights_of(values):
-    return xr.Dataset({"y": ("row", values)}, attrs={"holds": "table"})
-
-
 def test_a_column_of_positions_is_no_table_of_heights():
+    many, higher, up = (
+        xr.Dataset({"y": ("row", values)}, attrs={"holds": "table"})
+        for values in (np.full(325, 39.0), [1.0, 0.7, 0.5, 0.9], [1.0, 1.4])
+    )
     with pytest.raises(InvalidValue, match=r"up to 100 of them, got 325 heights"):
-        analyse(heights_of(np.full(325, 39.0)))
+        analyse(many)
     with pytest.raises(InvalidValue, match=r"0\.9 m after 0\.5 m in row 4"):
-        analyse(heights_of([1.0, 0.7, 0.5, 0.9]))
-    assert analyse(heights_of([1.0, 0.7, 0.5, 0.9]), repeated=True)[0].repeated
-    assert analyse(heights_of([1.0, 1.4]))[0].restitutions[0].nominal_value > 1.0
+        analyse(higher)
+    assert analyse(higher, repeated=True)[0].repeated
+    assert analyse(up)[0].restitutions[0].nominal_value > 1.0
 
 
-def test_kilometres_are_no_heights(tmp_path):
-    path = tmp_path / "way.csv"
+def test_kilometres_are_no_heights(read):
     rows = "\n".join(f"{k},{0.01 * k},{15 + k % 3}" for k in range(30))
-    path.write_text(f'"Time (s)","Distance (km)","Altitude (m)"\n{rows}\n', encoding="utf-8")
-    assert sb.read(path).attrs["holds"] != "track"
+    data = read(f'"Time (s)","Distance (km)","Altitude (m)"\n{rows}\n')
+    assert data.attrs["holds"] != "track"
 
 
 def test_an_oscillation_has_too_many_contacts():
     times = np.arange(20_000) * 1e-4
-    data = xr.Dataset(
-        {"force": ("time", np.abs(np.sin(2000.0 * times)), {"units": "N"})},
-        {"time": ("time", times, {"units": "s"})},
-        {"holds": "waveform"},
-    )
-    data["force"] += np.random.default_rng(1).normal(0.0, 0.01, len(times))
+    force = np.abs(np.sin(2000.0 * times)) + np.random.default_rng(1).normal(0.0, 0.01, len(times))
     with pytest.raises(InvalidValue, match=r"up to 120, got 1[0-9]+ stretches above the noise"):
-        analyse(data)
+        analyse(over_time("force", times, force, "N", holds="waveform"))

@@ -11,9 +11,6 @@ import stackbounce as sb
 from measure.near import near
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import press, series_stiffness, split_series
-from stackbounce.measure.kinds.press.branches import cycles, record_of
-from stackbounce.measure.kinds.press.cycle import _Branch, _scale
-from stackbounce.measure.kinds.press.fits import fit_power_law
 from stackbounce.measure.kinds.press.notes import sentences
 from stackbounce.plots.measurements.press import draw
 from synthetic.press import press_record
@@ -22,27 +19,10 @@ from work import calls_of, memory_of
 BALL = sb.Hysteretic(4e4, exponent=1.3, restitution=0.78)
 STEEP = np.linspace(-0.02, 0.05, 400)
 USUAL = {"peak": 5e-3, "slack": 1e-3, "noise": 0.1, "seed": 1}
+LOSSY = sb.Hysteretic(1e4, restitution=0.5)
 
 
-def way_in(data):
-    return data.isel(point=slice(0, int(data.compression.values.argmax()) + 1))
-
-
-def way_out(data):
-    return data.isel(point=slice(int(data.compression.values.argmax()), None))
-
-
-@pytest.mark.parametrize(
-    "law",
-    [
-        sb.Spring(1e4),
-        sb.Hertz(5e5),
-        sb.PowerLaw(3e8, 3.0),
-        BALL,
-        sb.Hysteretic(1e4, restitution=0.5),
-    ],
-    ids=repr,
-)
+@pytest.mark.parametrize("law", [sb.Spring(1e4), sb.Hertz(5e5), sb.PowerLaw(3e8, 3.0), BALL, LOSSY])
 def test_what_went_in_comes_out(law):
     found = press(press_record(law, **USUAL))
     assert near(found.exponent, law.exponent)
@@ -85,7 +65,8 @@ def test_a_drift_is_seen_where_there_is_slack_on_both_sides():
 
 
 def test_loading_only():
-    found = press(way_in(press_record(BALL, **USUAL)))
+    data = press_record(BALL, **USUAL)
+    found = press(data.isel(point=slice(0, data.compression.values.argmax() + 1)))
     assert near(found.exponent, 1.3)
     assert found.work_out is found.restitution is found.unloading is found.loss is None
     assert any("no unloading" in note for note in found.notes)
@@ -94,7 +75,8 @@ def test_loading_only():
 
 
 def test_unloading_only():
-    found = press(way_out(press_record(BALL, **USUAL)))
+    data = press_record(BALL, **USUAL)
+    found = press(data.isel(point=slice(data.compression.values.argmax(), None)))
     assert found.exponent is found.loading is None
     assert near(found.unloading_exponent, BALL.unloading_exponent)
     assert found.parts() == {}
@@ -153,16 +135,15 @@ def test_a_cycle_of_no_stiffness_is_not_compared():
 
 
 def test_small_reversals_on_the_way_in():
-    way = np.concatenate([np.linspace(0, 2, 80), np.linspace(2, 1.8, 10), np.linspace(1.8, 5, 120)])
-    way = 1e-3 * np.concatenate([way, np.linspace(5, 0, 200)])
+    turns = [(0, 2, 80), (2, 1.8, 10), (1.8, 5, 120), (5, 0, 200)]
+    way = 1e-3 * np.concatenate([np.linspace(*turn) for turn in turns])
     rng = np.random.default_rng(3)
     found = press((way, 1e4 * way + rng.normal(0.0, 0.1, len(way))))
     assert found.cycles == 1
     assert near(found.work_in, 0.125)
     assert near(found.exponent, 1.0)
-    assert found.parts() == {
-        "contact": {"law": "Spring", "stiffness": pytest.approx(1e4, rel=0.01)}
-    }
+    contact = found.parts()["contact"]
+    assert contact == {"law": "Spring", "stiffness": pytest.approx(1e4, rel=0.01)}
 
 
 def test_the_machine_gives_way():
@@ -203,24 +184,12 @@ def test_a_million_points_take_hardly_more_steps_than_few():
     assert found.exponent.std_dev < 2e-3
 
 
-def test_points_weigh_as_their_noise_with_that_of_the_compression_along_the_curve():
-    data = press_record(sb.Hertz(5e5), peak=5e-3, slack=1e-3, noise=0.1, jitter=2e-5, seed=1)
-    record = record_of(data, 0.0, None)
-    (one,) = cycles(record)
-    x, y = record.compression[one.loading], record.force[one.loading]
-    first = np.array([5e5 * 5e-3**1.5, np.log(1.5), np.log(5e-3)])
-    fit = fit_power_law(x, y, one.peak, first, 3)
-    top, p, c = fit.plain
-    slope = top * p / c * np.clip((x - one.peak + c) / c, 0.0, None) ** (p - 1.0)
-    noise = np.hypot(record.hiss, slope * record.jitter)
-    found = _scale(record, _Branch(0, x, y, x), fit)
-    np.testing.assert_allclose(found / found[0], noise / noise[0])
-    assert found.max() > 3.0 * found[0]
-    again = fit_power_law(x, y, one.peak, first, 3, found)
-    pulls = again.jacobian * (again.residual / found**2)[:, None]
-    assert np.abs(pulls.sum(axis=0)).max() < 1e-6 * np.abs(pulls).sum()
-    rows = np.linalg.inv(again.jacobian.T @ (again.jacobian / found[:, None] ** 2))
-    np.testing.assert_allclose(again.weights, rows @ again.jacobian.T / found**2, atol=1e-9)
+@pytest.mark.parametrize("seed", range(3))
+def test_points_weigh_as_their_noise_with_that_of_the_compression_along_the_curve(seed):
+    how = {"peak": 5e-3, "slack": 1e-3, "noise": 0.1, "jitter": 2e-5, "seed": seed}
+    found = press(press_record(sb.Hertz(5e5), **how))
+    assert near(found.exponent, 1.5)
+    assert found.exponent.std_dev < 6e-3  # 8e-3, or much more, if all points weigh the same
 
 
 def test_correlated_noise_has_larger_errors():
@@ -233,25 +202,20 @@ def test_correlated_noise_has_larger_errors():
     ("data", "message"),
     [
         (([0.0, 1.0], [0.0, 1.0]), "at least 6 points"),
+        ((np.arange(9.0), np.full(9, np.nan)), "at least 6 points"),
         ((np.arange(9.0), np.ones(9)), "force must change"),
         ((np.ones(9), np.arange(9.0)), "compression must change"),
-        ((np.arange(9.0), np.full(9, np.nan)), "at least 6 points"),
         ((np.arange(9.0), np.arange(8.0)), "one length"),
         ((np.arange(200.0), np.random.default_rng(1).normal(0, 1, 200)), "rise with the compress"),
         ((STEEP, np.exp(1e3 * STEEP)), "power law in numbers of a finite size"),
+        (3.0, "data must be"),
+        (xr.Dataset({"x": ("point", [1.0])}), "data must be"),
     ],
-    ids=["two points", "constant force", "constant compression", "nan", "lengths", "noise", "exp"],
 )
 def test_what_is_no_press_curve(data, message):
-    with pytest.raises(InvalidValue, match=message) as caught:
+    with pytest.raises((InvalidType, InvalidValue), match=message) as caught:
         press(data)
     assert "\n" not in str(caught.value)
-
-
-@pytest.mark.parametrize("data", [None, 3.0, "file.csv", xr.Dataset({"x": ("point", [1.0])})])
-def test_what_is_no_data(data):
-    with pytest.raises(InvalidType, match="data must be"):
-        press(data)
 
 
 @pytest.mark.parametrize("option", [{"sign": 2}, {"compliance": -1.0}, {"tabulated": 1}])
@@ -262,9 +226,8 @@ def test_options_are_checked(option):
 
 def test_parts_make_a_contact():
     contact = press(press_record(BALL, **USUAL)).parts()["contact"]
-    drop = sb.Drop.from_mapping(
-        {"balls": [{"mass": 0.1}], "contacts": [contact], "impact_speed": 1.0}
-    )
+    balls = [{"mass": 0.1}]
+    drop = sb.Drop.from_mapping({"balls": balls, "contacts": [contact], "impact_speed": 1.0})
     assert isinstance(drop.contacts[0], sb.Hysteretic)
     linear = press(press_record(sb.Hysteretic(1e4, restitution=0.8), **USUAL)).parts()["contact"]
     assert set(linear) == {"law", "stiffness", "restitution"}
@@ -293,10 +256,14 @@ def test_springs_in_series_have_no_excess():
     assert split.parts()["contact"]["law"] == "Spring"
 
 
-def test_split_series_is_checked():
-    with pytest.raises(InvalidValue, match="force must be given"):
-        split_series(1e-3, 1e-3, 3e-3)
-    with pytest.raises(InvalidType, match="upper must be what press found"):
-        split_series(1e-3, "2 mm", 3e-3, force=1.0)
-    with pytest.raises(InvalidValue, match="both must be compressed"):
-        split_series(3e-3, 1e-3, 1e-3, force=1.0)
+@pytest.mark.parametrize(
+    ("found", "force", "error", "words"),
+    [
+        ((1e-3, 1e-3, 3e-3), None, InvalidValue, "force must be given"),
+        ((1e-3, "2 mm", 3e-3), 1.0, InvalidType, "upper must be what press found"),
+        ((3e-3, 1e-3, 1e-3), 1.0, InvalidValue, "both must be compressed"),
+    ],
+)
+def test_split_series_is_checked(found, force, error, words):
+    with pytest.raises(error, match=words):
+        split_series(*found, force=force)

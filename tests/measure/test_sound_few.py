@@ -1,15 +1,11 @@
 """Sounds of one bounce or two: what they tell, and what is missing."""
 
-import json
-
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
-import stackbounce as sb
-from stackbounce.cli import app
+from stackbounce import plots
 from stackbounce.errors import InvalidValue
-from stackbounce.measure import analyse
+from stackbounce.measure import analyse, one_ball
 from stackbounce.measure.kinds.bounces.analysis import Bounces, bounces
 from stackbounce.measure.kinds.sound.few_bounces import FewBounces
 from synthetic.falls import falls
@@ -60,25 +56,9 @@ def test_gravity_counts():
     assert earth.apex_heights[0].n / moon.apex_heights[0].n == pytest.approx(9.81 / 1.62)
 
 
-def test_the_command_shows_what_was_heard(tmp_path):
-    from scipy.io import wavfile
-
+def test_two_knocks_have_a_picture_and_no_ball():
     data = sound(TWO, seed=1)
-    path = tmp_path / "two.wav"
-    wavfile.write(path, 48000, (data.sound.values * 32767).astype(np.int16))
-    assert sb.read(path).attrs["holds"] == "sound"
-    done = CliRunner().invoke(app, ["measure", str(path), "--json"])
-    assert done.exit_code == 0, done.output
-    (one,) = json.loads(done.stdout)["files"]
-    names = [row["name"] for row in one["found"]]
-    assert names[:2] == ["flight after bounce 0", "apex height after bounce 0"]
-    assert "loudness of knock 1" in names
-    assert any("needs 3 bounces" in note for note in one["notes"])
-    picture = tmp_path / "two.png"
-    done = CliRunner().invoke(app, ["measure", str(path), "--plot", str(picture)])
-    assert done.exit_code == 0, done.output
-    assert picture.stat().st_size > 10_000
-    saved = ["measure", str(path), "--mass", "57g", "--save", str(tmp_path / "ball.toml")]
-    done = CliRunner().invoke(app, saved)
-    assert isinstance(done.exception, InvalidValue)
-    assert "no contact was found" in str(done.exception)
+    found = analyse(data)
+    assert all(plots.measured(data, told).axes for told in found)
+    with pytest.raises(InvalidValue, match="no contact was found"):
+        one_ball([told.parts() for told in found], mass=0.057)

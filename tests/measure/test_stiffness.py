@@ -6,7 +6,6 @@ from uncertainties import correlation_matrix, ufloat
 import stackbounce as sb
 from stackbounce.cross2007 import PAPER
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.tables import make_table_one
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import dynamic_stiffness, law_constants, series_stiffness, split_series
 
@@ -61,10 +60,7 @@ def test_constants_know_their_correlation():
     [
         (sb.Rigid, {"restitution": ufloat(0.0, 0.01)}),
         (sb.Rigid, {"restitution": ufloat(1.0, 0.01)}),
-        (
-            sb.Spring,
-            {"mass": 0.1, "contact_time": ufloat(1e-3, 1e-5), "restitution": ufloat(1, 0.1)},
-        ),
+        (sb.Spring, {"mass": 1, "contact_time": ufloat(1e-3, 1e-5), "restitution": ufloat(1, 0.1)}),
         (sb.PowerLaw, {**MEASURED, "restitution": 1.0, "exponent": ufloat(1.0, 0.1)}),
         (sb.Hysteretic, {**MEASURED, "restitution": ufloat(1.0, 0.02)}),
     ],
@@ -78,19 +74,21 @@ def test_at_the_ends_of_a_range(law, given):
     assert found.rows()[0].value == law.__name__
 
 
-def test_what_cannot_be():
-    with pytest.raises(InvalidValue, match="mass must be a positive number"):
-        dynamic_stiffness(ufloat(-1.0, 0.1), 1e-3)
-    with pytest.raises(InvalidType, match="contact_time must be"):
-        dynamic_stiffness(1.0, "5 ms")
-    with pytest.raises(InvalidValue, match="pair"):
-        dynamic_stiffness((1.0, 1.0, 1.0), 1e-3)
-    with pytest.raises(InvalidValue, match="error"):
-        dynamic_stiffness(ufloat(1.0, float("nan")), 1e-3)
-    with pytest.raises(InvalidValue, match="did you mean Spring"):
-        law_constants("Sprung", mass=1.0, contact_time=1.0)
-    with pytest.raises(InvalidValue, match="restitution must be 1"):
-        law_constants("Spring", mass=1.0, contact_time=1.0, restitution=0.9)
+@pytest.mark.parametrize(
+    ("function", "given", "error", "words"),
+    [
+        (dynamic_stiffness, (ufloat(-1.0, 0.1), 1.0), InvalidValue, "mass must be a positive num"),
+        (dynamic_stiffness, (1.0, "5 ms"), InvalidType, "contact_time must be"),
+        (dynamic_stiffness, ((1.0, 1.0, 1.0), 1e-3), InvalidValue, "pair"),
+        (dynamic_stiffness, (ufloat(1.0, float("nan")), 1e-3), InvalidValue, "error"),
+        (law_constants, ("Sprung",), InvalidValue, "did you mean Spring"),
+        (law_constants, ("Spring",), InvalidValue, "restitution must be 1"),
+    ],
+)
+def test_what_cannot_be(function, given, error, words):
+    more = {"mass": 1.0, "contact_time": 1.0, "restitution": 0.9}
+    with pytest.raises(error, match=words):
+        function(*given, **more if function is law_constants else {})
 
 
 # The paper's own numbers, with the errors that it states or its digits show.
@@ -106,28 +104,20 @@ def bounced(bench, ball):
     return dynamic_stiffness(bench.measured(f"{ball}.mass"), bench.measured(f"{ball}.contact_time"))
 
 
-@pytest.mark.parametrize(
-    ("ball", "expected"), [("B1", "5.39±0.25"), ("B2", "3.62±0.28"), ("B3", "2.32±0.24")]
-)
-def test_table_one_comes_out_with_errors(bench, ball, expected):
-    k = bounced(bench, ball)
-    printed = bench(f"{ball}.dynamic_stiffness")
-    assert f"{1e-4 * k:.2fP}" == expected
-    assert abs(k.nominal_value - printed) < 500.0  # half a unit of the last digit
-    row = next(row for row in make_table_one(bench).rows if row[0] == ball)
-    assert f"{1e-4 * k:P}" in row
-
-
 def test_a_bounce_is_stiffer_than_a_press(bench):
     balls = ("B1", "B2", "B3")
     ratios = [bounced(bench, ball) / bench.measured(f"{ball}.static_stiffness") for ball in balls]
     assert [f"{ratio:.1fP}" for ratio in ratios] == ["1.3±0.2", "2.8±0.3", "1.9±0.2"]
+    pressed = bench.measured("static.force") / bench.measured("static.tennis")
+    tennis = [f"{1e-4 * one:.2fP}" for one in (bounced(bench, "tennis"), pressed)]
+    assert tennis == ["2.25±0.05", "1.03±0.02"]
 
 
-def test_the_tennis_ball(bench):
-    static = bench.measured("static.force") / bench.measured("static.tennis")
-    assert f"{1e-4 * bounced(bench, 'tennis'):.2fP}" == "2.25±0.05"
-    assert f"{1e-4 * static:.2fP}" == "1.03±0.02"
+def test_two_superballs_in_series_are_stiffer_than_the_fits(bench):
+    for upper, fit, expected in (("B2", "fig13", "2.17±0.11"), ("B3", "B3_fit", "1.62±0.12")):
+        both = series_stiffness(bounced(bench, "B1"), bounced(bench, upper))
+        assert f"{1e-4 * both:.2fP}" == expected
+        assert both.nominal_value > bench(f"{fit}.ball_stiffness")
 
 
 def test_hessels_steel_balls(bench):
@@ -138,14 +128,9 @@ def test_hessels_steel_balls(bench):
     stiffness = dynamic_stiffness(masses, times) / dynamic_stiffness(1.0, 1.0)
     assert f"{stiffness:.3fP}" == "1.422±0.001"
     assert f"{diameters:.3fP}" == "1.411±0.003"
-    apart = stiffness - diameters
-    assert 3.0 < apart.nominal_value / apart.std_dev < 4.0  # "essentially the same": 0.8 % apart
-    cubes = masses - diameters**3
-    assert abs(cubes.nominal_value) < cubes.std_dev
-    # Hertz's law at one speed makes the times go as the diameters: 1.3 standard errors apart
+    # Hertz's law at one speed makes the times go as the diameters, and its constant as their roots
     late = diameters - times
     assert 1.0 < late.nominal_value / late.std_dev < 2.0
-    # and its constant as their roots
     large, small = (
         law_constants("Hertz", mass=mass, contact_time=time, impact_speed=1.0).constants
         for mass, time in ((masses, times), (1.0, 1.0))
@@ -161,18 +146,5 @@ def test_figure_seven(bench):
     assert f"{1e3 * split.top:.2fP}" == "15.50±0.08"
     assert f"{1e3 * split.excess:.2fP}" == "6.20±0.09"
     assert f"{split.ratio:.3fP}" == "1.823±0.010"  # printed 1.8
-    with_all = (split.top + split.upper) / split.bottom
-    without = split.top / split.bottom
-    assert f"{with_all:.2fP} {without:.2fP}" == "1.98±0.01 1.67±0.01"
     assert f"{split.floor_stiffness:.0fP}" == "3226±54"
     assert f"{split.ball_stiffness:.0fP}" == "1770±30"
-
-
-@pytest.mark.parametrize(
-    ("upper", "fit", "expected"), [("B2", "fig13", "2.17±0.11"), ("B3", "B3_fit", "1.62±0.12")]
-)
-def test_two_superballs_in_series_are_stiffer_than_the_fits(bench, upper, fit, expected):
-    """What section VI calls series accounts for most of the softness between the balls."""
-    both = series_stiffness(bounced(bench, "B1"), bounced(bench, upper))
-    assert f"{1e-4 * both:.2fP}" == expected
-    assert both.nominal_value > bench(f"{fit}.ball_stiffness")

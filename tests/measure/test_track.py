@@ -9,24 +9,19 @@ import xarray as xr
 import stackbounce as sb
 from measure.near import near
 from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.measure import one_ball
 from stackbounce.measure.kinds.track.analysis import track
 from stackbounce.plots.measurements.track import draw as draw_track
 from synthetic.falls import falls
 from synthetic.track import track as tracked
 
 FALL = falls(1.0, 0.8)
-STACK = sb.Drop(
-    [sb.Ball(0.6, diameter=0.24), sb.Ball(0.06, diameter=0.065)],
-    [sb.Rigid(0.8)] * 2,
-    height=0.6,
-    gravity=9.80665,
-)
+BALLS = [sb.Ball(0.6, diameter=0.24), sb.Ball(0.06, diameter=0.065)]
+STACK = sb.Drop(BALLS, [sb.Rigid(0.8)] * 2, height=0.6, gravity=9.80665)
 
-NO_BALL = xr.Dataset(
-    {"y": (("track", "time"), np.zeros((0, 9)))}, {"time": np.arange(9.0), "track": []}
-)
-
+NO_BALL = xr.Dataset({"y": (("track", "time"), np.zeros((0, 9)))}, {"time": np.arange(9.0)})
 NOISE = np.random.default_rng(1).normal(0.0, 1e-3, 60)
+FRAMES = np.arange(20.0)
 
 
 @pytest.mark.fast_cases(3)
@@ -65,8 +60,7 @@ def test_axes_are_found_and_told():
     found = track(tracked(FALL, tilt=0.1, seed=1))
     assert found.tilt == pytest.approx(0.1, abs=0.005)
     assert any("degrees off" in note for note in found.notes)
-    found = track(tracked(FALL, down=True, seed=1))
-    assert found.axis == "-y"
+    assert track(tracked(FALL, down=True, seed=1)).axis == "-y"
     data = tracked(FALL, seed=1).rename(x="y", y="x")
     assert track(data).axis == "x"
     assert track(data, axis="x").balls[0].restitutions
@@ -97,8 +91,7 @@ def test_a_wrong_scale_is_told():
 
 
 def test_two_balls_of_a_stack():
-    data = tracked(sb.simulate(STACK, until=0.2), names=["basketball", "tennis"], seed=1)
-    found = track(data)
+    found = track(tracked(sb.simulate(STACK, until=0.2), names=["basketball", "tennis"], seed=1))
     true = sb.simulate(sb.Drop(STACK.balls, STACK.contacts, height=0.6)).rebound_ratios
     assert [ball.name for ball in found.balls] == ["basketball", "tennis"]
     assert all(near(one, value) for one, value in zip(found.rebound_ratios, true, strict=True))
@@ -108,9 +101,8 @@ def test_two_balls_of_a_stack():
 
 def test_three_points_a_flight():
     times = np.arange(0.0, 0.95, 0.07)
-    heights = falls(0.3, 0.7).position(times)
-    seen = heights + np.random.default_rng(1).normal(0.0, 1e-3, len(times))
-    found = track((times, seen))
+    noise = np.random.default_rng(1).normal(0.0, 1e-3, len(times))
+    found = track((times, falls(0.3, 0.7).position(times) + noise))
     assert near(found.balls[0].restitutions[0], 0.7)
     assert any("points; a higher frame rate" in note for note in found.notes)
 
@@ -121,10 +113,10 @@ def test_a_track_that_begins_late_says_so():
 
 
 def test_the_floor_may_be_given():
-    found = track(tracked(FALL, seed=1), floor=0.0)
-    assert near(found.balls[0].drop_height, 1.0)
+    data = tracked(FALL, seed=1)
+    assert near(track(data, floor=0.0).balls[0].drop_height, 1.0)
     with pytest.raises(InvalidValue, match="floor must be a level"):
-        track(tracked(FALL, seed=1), floor=5.0)
+        track(data, floor=5.0)
 
 
 def test_frames_may_come_at_uneven_times():
@@ -145,10 +137,8 @@ def test_a_ball_that_is_held_does_not_bounce_in_the_air(seed):
 
 
 def test_a_soft_ball_comes_out_too_fast_unless_the_floor_is_given():
-    law = sb.calibrate(
-        sb.HuntCrossley, mass=0.06, restitution=0.8, contact_time=0.015, impact_speed=3.13
-    )
-    fall = falls(0.5, law, mass=0.06)
+    how = {"mass": 0.06, "restitution": 0.8, "contact_time": 0.015, "impact_speed": 3.13}
+    fall = falls(0.5, sb.calibrate(sb.HuntCrossley, **how), mass=0.06)
     data = tracked(fall, frame_rate=240.0, until=0.95, seed=1)
     alone, told = (track(data, floor=floor).balls[0].impact_speeds[0] for floor in (None, 0.0))
     assert alone.nominal_value == pytest.approx(1.02 * fall.speeds[0], rel=0.005)
@@ -156,9 +146,7 @@ def test_a_soft_ball_comes_out_too_fast_unless_the_floor_is_given():
 
 
 def test_parts_make_a_drop():
-    parts = track(tracked(FALL, seed=1)).parts()
-    contacts = [parts.pop("contact")]
-    drop = sb.Drop.from_mapping({"balls": [{"mass": 0.05}], "contacts": contacts, **parts})
+    drop = one_ball([track(tracked(FALL, seed=1)).parts()], mass=0.05)
     assert sb.simulate(drop).rebound_ratios[0] == pytest.approx(0.8, abs=0.01)
 
 
@@ -173,18 +161,17 @@ def test_a_second_ball_that_lies_still_is_left_out():
 @pytest.mark.parametrize(
     ("data", "error", "words"),
     [
-        ((np.arange(20.0), np.zeros(20)), InvalidValue, "falls and bounces"),
-        ((np.arange(20.0), np.arange(20.0)), InvalidValue, "falls and bounces"),
-        ((np.arange(20.0), np.full(20, math.nan)), InvalidValue, "falls and bounces"),
-        ((np.arange(20.0), -(np.arange(20.0) ** 2)), InvalidValue, "falls and bounces"),
-        ((np.zeros(20), np.zeros(20)), InvalidValue, "times must ascend"),
-        ((np.arange(20.0)[::-1], np.zeros(20)), InvalidValue, "times must ascend"),
-        ((np.arange(3.0), np.zeros(3)), InvalidValue, "at least 4"),
-        ((np.arange(20.0), np.zeros(3)), InvalidValue, "time and y of one length"),
-        ("track.txt", InvalidType, "data must be"),
-        (NO_BALL, InvalidValue, "the track of a ball, got none"),
+        ((FRAMES, 0.0 * FRAMES), InvalidValue, "falls and bounces"),
+        ((FRAMES, FRAMES), InvalidValue, "falls and bounces"),
+        ((FRAMES, math.nan * FRAMES), InvalidValue, "falls and bounces"),
+        ((FRAMES, -(FRAMES**2)), InvalidValue, "falls and bounces"),
         ((np.arange(60) / 30.0, NOISE), InvalidValue, "falls and bounces"),
-        (3, InvalidType, "data must be"),
+        ((0.0 * FRAMES, FRAMES), InvalidValue, "times must ascend"),
+        ((FRAMES[::-1], 0.0 * FRAMES), InvalidValue, "times must ascend"),
+        ((np.arange(3.0), np.zeros(3)), InvalidValue, "at least 4"),
+        ((FRAMES, np.zeros(3)), InvalidValue, "time and y of one length"),
+        (NO_BALL, InvalidValue, "the track of a ball, got none"),
+        ("track.txt", InvalidType, "data must be"),
         (xr.Dataset({"z": ("time", [1.0])}), InvalidType, "variables x and y"),
     ],
 )

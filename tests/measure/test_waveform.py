@@ -57,11 +57,9 @@ def test_one_bounce(sign, sensitivity):
 
 def test_rows_tell_all_with_units_and_parts_make_a_drop():
     found = waveform(record_of(ONE, rate=1e5, noise=1.0), mass=ufloat(0.1, 0.001), impact_speed=2.0)
-    rows = {row.name: row for row in found.rows()}
-    assert rows["contacts"].value == 1
-    assert rows["contact time"].unit == "s"
-    assert rows["impulse"].unit == "N s"
-    assert rows["dynamic stiffness"].unit == "N/m"
+    units = {row.name: row.unit for row in found.rows()}
+    told = {"contact time": "s", "impulse": "N s", "dynamic stiffness": "N/m"}
+    assert told.items() <= units.items()
     parts = found.parts()
     law = sb.Spring(parts["contact"]["stiffness"])
     drop = sb.Drop([sb.Ball(**parts["ball"])], [law], impact_speed=parts["impact_speed"])
@@ -92,10 +90,10 @@ def test_separate_collisions_are_separate_contacts():
     balls, laws = [sb.Ball(0.0085), sb.Ball(0.101)], [sb.Spring(2.3e4), sb.Spring(1.4e4)]
     result = sb.simulate(sb.Drop(balls, laws, gaps=[0.012], height=0.2))
     record = record_of(result, rate=5e4, noise=0.3, before=0.01, duration=0.04)
-    found = waveform(record)
+    contacts = waveform(record).contacts
     rows = result.intervals[(result.intervals["contact"] == 0) & (result.intervals["end"] < 0.02)]
-    assert len(found.contacts) == len(rows) == 5
-    for contact, row in zip(found.contacts, rows, strict=True):
+    assert len(contacts) == len(rows) == 5
+    for contact, row in zip(contacts, rows, strict=True):
         assert near(contact.start, record.attrs["touch"] + row["start"])
         assert near(contact.time, row["end"] - row["start"])
         assert near(contact.impulse, row["impulse"])
@@ -130,8 +128,7 @@ def test_a_million_samples_take_hardly_more_steps_than_few():
     found, held = memory_of(waveform, data)
     assert held < 20 * data[0].nbytes
     assert len(found.contacts) == 3
-    assert all(near(one.time, 4e-3) for one in found.contacts)
-    assert all(one.time.std_dev < 1e-5 for one in found.contacts)
+    assert all(near(one.time, 4e-3) and one.time.std_dev < 1e-5 for one in found.contacts)
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -221,28 +218,24 @@ def test_hum_is_taken_off(mains):
 
 
 def test_hum_in_a_short_record_is_a_drift():
-    record = record_of(ONE, rate=1e5, noise=0.5, hum=5.0, seed=2)
-    (contact,) = waveform(record).contacts
+    (contact,) = waveform(record_of(ONE, rate=1e5, noise=0.5, hum=5.0, seed=2)).contacts
     assert contact.time.nominal_value == pytest.approx(TIME, rel=0.02)
     assert contact.peak_force.nominal_value == pytest.approx(PEAK, rel=0.04)
 
 
 def test_few_samples_are_said_and_covered_by_the_error():
-    record = record_of(ONE, rate=1100.0, noise=0.5, before=0.02)
-    found = waveform(record)
+    found = waveform(record_of(ONE, rate=1100.0, noise=0.5, before=0.02))
     (contact,) = found.contacts
     assert contact.samples < 6
     assert any("sample faster" in note for note in found.notes)
-    assert near(contact.time, TIME, 3.0)
+    assert near(contact.time, TIME)
 
 
 def test_a_record_that_begins_or_stops_within_a_contact():
     times, force = pulses(3)
-    late = waveform((times[550:], force[550:]))
-    assert late.contacts[0].start is None
-    assert late.contacts[0].time is None
+    late, early = (waveform((times[part], force[part])) for part in (np.s_[550:], np.s_[:2580]))
+    assert late.contacts[0].start is late.contacts[0].time is None
     assert any("begins within" in note for note in late.notes)
-    early = waveform((times[:2580], force[:2580]))
     assert early.contacts[-1].end is None
     assert any("stops within" in note for note in early.notes)
     assert near(early.contacts[0].time, 4e-3)
@@ -285,7 +278,6 @@ def test_further_channels_are_named():
 @pytest.mark.parametrize(
     ("data", "error"),
     [
-        (3, InvalidType),
         ("record.csv", InvalidType),
         (([1.0] * 20,), InvalidValue),
         (([1, 2, 3], [1, 2, 3]), InvalidValue),
@@ -304,20 +296,20 @@ def test_what_is_no_waveform_is_refused_in_one_line(data, error):
 
 
 @pytest.mark.parametrize(
-    "option",
+    ("option", "value"),
     [
-        {"mass": -1.0},
-        {"mass": "1 kg"},
-        {"impact_speed": 0.0},
-        {"time_constant": 0.0},
-        {"threshold": -3.0},
-        {"sign": 2},
-        {"mass": ufloat(1.0, np.inf)},
+        ("mass", -1.0),
+        ("mass", "1 kg"),
+        ("mass", ufloat(1.0, np.inf)),
+        ("impact_speed", 0.0),
+        ("time_constant", 0.0),
+        ("threshold", -3.0),
+        ("sign", 2),
     ],
 )
-def test_options_are_checked(option):
-    with pytest.raises((InvalidValue, InvalidType), match=next(iter(option))):
-        waveform(pulses(1), **option)
+def test_options_are_checked(option, value):
+    with pytest.raises((InvalidValue, InvalidType), match=option):
+        waveform(pulses(1), **{option: value})
 
 
 def test_an_impulse_between_two_samples_is_zero():
@@ -326,9 +318,8 @@ def test_an_impulse_between_two_samples_is_zero():
 
 
 def test_pictures_of_every_kind():
-    assert len(draw(None, waveform(pulses(1))).axes) == 1
-    figure = draw(None, waveform(pulses(5, apart=0.5, rate=1e4)))
-    assert len(figure.axes) == 2
+    axes = [draw(None, waveform(pulses(n, apart=0.5, rate=1e4))).axes for n in (1, 5)]
+    assert [len(panels) for panels in axes] == [1, 2]
     record = record_of(ONE, rate=2e3, noise=0.5).assign_attrs(source="bounce.csv")
     assert "bounce.csv" in draw(record, waveform(record)).axes[0].get_title(loc="left")
 
@@ -358,9 +349,7 @@ def test_a_half_sine_after_a_high_pass_has_its_known_end():
 @pytest.mark.parametrize("offset", [0.0, -7.0])
 def test_droop_is_put_back(time_constant, offset):
     how = {"noise": 0.5, "offset": offset, "time_constant": time_constant, "before": 0.01}
-    record = record_of(ONE, rate=1e5, **how)
-    found = waveform(record, time_constant=time_constant)
-    (contact,) = found.contacts
+    (contact,) = waveform(record_of(ONE, rate=1e5, **how), time_constant=time_constant).contacts
     assert near(contact.time, TIME)
     assert abs(contact.impulse.nominal_value - 0.4) < max(4.0 * contact.impulse.std_dev, 1e-3)
 
@@ -368,11 +357,11 @@ def test_droop_is_put_back(time_constant, offset):
 def test_droop_that_is_not_put_back_is_said_with_its_time_constant():
     record = record_of(ONE, rate=1e5, noise=0.2, time_constant=0.04, before=0.01)
     (note,) = [one for one in waveform(record).notes if "droop" in one]
-    assert re.search(r"about 0\.0(3[5-9]|4[0-5]?) s|about 0\.04\d s", note)
+    assert float(re.search(r"about (0\.0\d+) s", note)[1]) == pytest.approx(0.04, abs=0.005)
     assert not any("droop" in one for one in waveform(record, time_constant=0.04).notes)
 
 
-def test_a_wrong_time_constant_is_refused():
+def test_wrong_times_are_refused():
     with pytest.raises(InvalidValue, match="time_constant must be a positive number of seconds"):
         undrooped([0.0, 1.0], [0.0, 1.0], -1.0)
     with pytest.raises(InvalidValue, match="times and values of one length"):

@@ -1,27 +1,20 @@
 """Force records whose contact law is told: surer touches and releases, right ones for a dashpot."""
 
-import json
-import shutil
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import stackbounce as sb
-from stackbounce.cli import main
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import analyse
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from synthetic.waveform import waveform as record_of
 
-LAB = Path(__file__).parents[2] / "docs" / "lab"
 
-
-def bounce(law, seed=1, **shape):
+def bounce(law, seed=1, rate=5e4, noise=2.0, **shape):
     """Return a record of 4 ms with 1 % noise, and when the contact in it began and ended."""
     made = sb.calibrate(law, mass=0.1, contact_time=4e-3, impact_speed=2.0, **shape)
     result = sb.simulate(sb.Drop([sb.Ball(0.1)], [made], impact_speed=2.0))
-    record = record_of(result, rate=5e4, noise=2.0, seed=seed)
+    record = record_of(result, rate=rate, noise=noise, seed=seed)
     touch = record.attrs["touch"]
     return record, touch, touch + float(result.intervals["end"][0])
 
@@ -72,21 +65,18 @@ def test_a_viscoelastic_contact_begins_as_a_root_of_the_time(seed):
 
 
 def test_an_averaged_jump_is_as_unsure_as_its_samples_are_apart():
-    made = sb.calibrate(sb.Dashpot, mass=0.1, contact_time=4e-3, impact_speed=2.0, restitution=0.7)
-    drop = sb.Drop([sb.Ball(0.1)], [made], impact_speed=2.0)
-    record = record_of(drop, rate=2e5, noise=0.01, seed=1)
-    (told,) = waveform(record, law=made).contacts
+    record, touch, _ = bounce(sb.Dashpot, rate=2e5, noise=0.01, restitution=0.7)
+    (told,) = waveform(record, law="dashpot").contacts
     assert told.start.std_dev >= 5e-6 / 12**0.5
-    assert abs(off(told.start, record.attrs["touch"])) < 3.0
+    assert abs(off(told.start, touch)) < 3.0
 
 
 def test_an_exponent_says_more_than_a_law_that_leaves_it_open():
     record, _, _ = bounce(sb.PowerLaw, exponent=1.25)
-    errors = [
-        waveform(record, law=sb.PowerLaw, exponent=one).contacts[0].start.std_dev
-        for one in (1.25, None)
-    ]
-    assert errors[0] < 0.7 * errors[1]
+    told, open_ = (
+        waveform(record, law=sb.PowerLaw, exponent=one).contacts[0].start for one in (1.25, None)
+    )
+    assert told.std_dev < 0.7 * open_.std_dev
 
 
 def test_an_unloading_exponent_says_how_the_contact_ends():
@@ -118,19 +108,13 @@ def test_class_name_and_law_say_the_same_and_a_rigid_one_nothing(laws):
         ("power-law", 0.5, InvalidValue, "exponent must be a number .*got 0.5"),
         ("power-law", float("nan"), InvalidValue, "exponent must be .*got nan"),
         ("power-law", "steep", InvalidType, "exponent must be .*got 'steep'"),
-        (
-            sb.PowerLaw(1e6, 1.3),
-            1.5,
-            InvalidValue,
-            "exponent must be that of the law, 1.3, got 1.5",
-        ),
+        (sb.PowerLaw(1e6, 1.3), 1.5, InvalidValue, "exponent must be that of the law, 1.3, got 1"),
     ],
 )
 def test_what_makes_no_sense_is_refused(law, exponent, error, words):
-    times = np.arange(0.0, 0.02, 1e-5)
-    force = 200.0 * np.sin(np.pi * np.clip(times - 3e-3, 0.0, 4e-3) / 4e-3)
+    record, _, _ = bounce(sb.Spring)
     with pytest.raises(error, match=words):
-        waveform((times, force), law=law, exponent=exponent)
+        waveform(record, law=law, exponent=exponent)
 
 
 @pytest.mark.parametrize("exponent", [1.0, 8.0, 100.0])
@@ -172,7 +156,6 @@ STEEP = "more steeply than that of any spring"
     ("law", "shape"),
     [
         (sb.Spring, {}),
-        (sb.Hertz, {}),
         (sb.PowerLaw, {"exponent": 2.0}),
         (sb.HuntCrossley, {"exponent": 1.0, "restitution": 0.7}),
         (sb.Hysteretic, {"exponent": 1.0, "restitution": 0.75}),
@@ -188,28 +171,3 @@ def test_a_jump_that_is_not_told_is_said(seed):
     record, _, _ = bounce(sb.Dashpot, seed, restitution=0.7)
     assert any(STEEP in note for note in waveform(record).notes)
     assert not any(STEEP in note for note in waveform(record, law="dashpot").notes)
-
-
-@pytest.fixture
-def run(capfd, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    shutil.copy(LAB / "tennis-force.csv", tmp_path)
-
-    def run_main(*more):
-        code = main(["measure", "tennis-force.csv", "--mass", "57g", *more])
-        return code, *capfd.readouterr()
-
-    return run_main
-
-
-def touch_error(out):
-    file = json.loads(out)["files"][0]
-    (error,) = (row["error"] for row in file["found"] if row["name"] == "touch")
-    return error
-
-
-def test_the_command_tells_the_law(run):
-    _, free, _ = run("--json")
-    code, told, _ = run("--json", "--restitution", "0.75", "--law", "hysteretic exponent=1")
-    assert code == 0
-    assert touch_error(told) < 0.7 * touch_error(free)

@@ -20,9 +20,8 @@ def one():
 
 @pytest.fixture(scope="module")
 def two():
-    truth = sb.simulate(
-        sb.Drop(BALLS, [sb.Spring(2500.0), sb.Spring(1480.0)], gaps=[4e-3], impact_speed=3.53)
-    )
+    laws = [sb.Spring(2500.0), sb.Spring(1480.0)]
+    truth = sb.simulate(sb.Drop(BALLS, laws, gaps=[4e-3], impact_speed=3.53))
     data = {
         "rebound_ratios": [(ratio, 0.02) for ratio in truth.rebound_ratios.tolist()],
         "first_touch.1": (float(truth.first_touch[1]), 0.3e-3),

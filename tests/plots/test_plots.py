@@ -10,6 +10,11 @@ from stackbounce.plots.sweep_curves import TITLES
 
 DROP = sb.Drop([sb.Ball(1.0)] * 2, [sb.Rigid(0.9), sb.Rigid(0.5)], impact_speed=1.0)
 MASS, LOSS = np.geomspace(0.001, 1.0, 12), np.linspace(0.05, 1.0, 9)
+OVER_BOTH = {"balls.0.mass": MASS, "contacts.1.restitution": LOSS}
+
+
+def texts(labels):
+    return [label.get_text() for label in labels]
 
 
 @pytest.mark.parametrize("law", [sb.Rigid(0.9), sb.Spring(2500.0)])
@@ -26,13 +31,13 @@ def test_lines_follow_each_ball():
     for b, line in enumerate(axes.get_lines()):
         assert np.array_equal(line.get_xdata(), MASS)
         assert np.array_equal(line.get_ydata(), ds.rebound_ratio[:, b])
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["ball 0", "ball 1"]
+    assert texts(axes.get_legend().get_texts()) == ["ball 0", "ball 1"]
     assert (axes.get_xscale(), axes.get_xlabel()) == ("log", "balls.0.mass (kg)")
     assert plots.lines(ds, "energy_retained").axes[0].get_ylabel() == "energy retained"
 
 
 def test_a_map_has_a_color_for_each_value():
-    ds = sb.sweep(DROP, {"balls.0.mass": MASS, "contacts.1.restitution": LOSS})
+    ds = sb.sweep(DROP, OVER_BOTH)
     axes = plots.heatmap(ds).axes[0]
     assert np.array_equal(axes.collections[0].get_array(), ds.rebound_ratio[:, :, 1])
     assert (axes.get_ylabel(), axes.get_xlabel()) == ("balls.0.mass (kg)", "contacts.1.restitution")
@@ -41,10 +46,10 @@ def test_a_map_has_a_color_for_each_value():
 
 
 def test_a_map_of_collisions_names_infinity():
-    ds = sb.sweep(DROP, {"balls.0.mass": MASS, "contacts.1.restitution": LOSS})
+    ds = sb.sweep(DROP, OVER_BOTH)
     assert (ds.collisions == -1).any()
     _, bar = plots.heatmap(ds, "collisions").axes
-    names = [text.get_text() for text in bar.get_yticklabels()]
+    names = texts(bar.get_yticklabels())
     assert names[-1] == "∞"
     assert names[0] == str(int(ds.collisions.where(ds.collisions > 0).min()))
 
@@ -60,7 +65,7 @@ def test_unfinished_drops_are_told_and_left_out():
 
 @pytest.mark.parametrize("show", TITLES)
 def test_nothing_to_draw(show):
-    ds = sb.sweep(DROP, {"balls.0.mass": MASS, "contacts.1.restitution": LOSS})
+    ds = sb.sweep(DROP, OVER_BOTH)
     ds["status"][:] = int(sb.Status.INVALID)
     axes = plots.heatmap(ds, show).axes[0]
     assert axes.collections[0].get_array().mask.all()
@@ -85,7 +90,7 @@ def test_balls_have_their_names():
     titles = [plots.heatmap(ds, index=k).axes[0].get_title(loc="left") for k in (0, 1)]
     assert titles == ["rebound ratio of ball 0 (basketball)", "rebound ratio of ball 1"]
     legend = plots.lines(ds.isel({"gaps.0": 0})).axes[0].get_legend()
-    assert [text.get_text() for text in legend.get_texts()] == ["ball 0 (basketball)", "ball 1"]
+    assert texts(legend.get_texts()) == ["ball 0 (basketball)", "ball 1"]
 
 
 def test_cells_lie_around_their_values():
@@ -106,7 +111,7 @@ def test_axes_tell_small_values_in_small_units():
     figure.draw_without_rendering()
     assert (axes.get_ylabel(), axes.get_xlabel()) == ("gaps.0 (mm)", "balls.0.mass (g)")
     assert axes.get_title(loc="left") == "last release of contact 1 (ms)"
-    assert [text.get_text() for text in axes.get_yticklabels()][1:-1] == list("01234")
+    assert texts(axes.get_yticklabels())[1:-1] == list("01234")
     assert {"100", "200"} <= {text.get_text() for text in axes.get_xticklabels()}
     assert float(bar.get_yticklabels()[0].get_text()) > 1.0  # ms
     assert axes.get_ylim() == pytest.approx((-0.0005, 0.0045))  # the data stay in m
@@ -121,7 +126,7 @@ def test_differences_of_round_off_are_not_drawn():
     assert 0.0 < np.ptp(ds.energy_retained.values) < 1e-9
     axes, bar = plots.heatmap(ds, "energy_retained").axes
     assert len(axes.collections) == 1  # no contours
-    assert [text.get_text() for text in bar.get_yticklabels()] == ["1"]
+    assert texts(bar.get_yticklabels()) == ["1"]
     low, high = plots.lines(ds[{"balls.0.mass": 3}], "energy_retained").axes[0].get_ylim()
     assert (low, high) == pytest.approx((0.5, 1.5))
 
@@ -140,10 +145,8 @@ def test_a_change_of_sign_is_white():
 @pytest.mark.slow
 def test_names_of_contours_do_not_touch():
     drop = sb.Drop([sb.Ball(1.0)] * 2, [sb.Spring(1.0)] * 2, impact_speed=1.0)
-    over = {
-        "balls.0.mass": np.geomspace(0.1, 20, 60),
-        "contacts.0.stiffness": np.geomspace(0.05, 50, 60),
-    }
+    masses, stiffnesses = np.geomspace(0.1, 20, 60), np.geomspace(0.05, 50, 60)
+    over = {"balls.0.mass": masses, "contacts.0.stiffness": stiffnesses}
     figure = plots.heatmap(sb.sweep(drop, over), index=0)
     figure.draw_without_rendering()
     boxes = [text.get_window_extent() for text in figure.axes[0].texts]
@@ -155,9 +158,7 @@ def test_lines_show_infinitely_many_above_all_others():
     ds = sb.sweep(DROP, {"balls.0.mass": np.geomspace(0.002, 1.0, 30)})
     assert (ds.collisions == -1).any()
     axes = plots.lines(ds, "collisions").axes[0]
-    ticks = dict(
-        zip([t.get_text() for t in axes.get_yticklabels()], axes.get_yticks(), strict=True)
-    )
+    ticks = dict(zip(texts(axes.get_yticklabels()), axes.get_yticks(), strict=True))
     drawn = axes.get_lines()[0].get_ydata()
     finite = ds.collisions[:, 0].values
     assert np.array_equal(drawn[finite >= 0], finite[finite >= 0])
@@ -166,9 +167,9 @@ def test_lines_show_infinitely_many_above_all_others():
 
 
 def test_many_counts_are_grouped():
-    ds = sb.sweep(DROP, {"balls.0.mass": MASS, "contacts.1.restitution": LOSS})
+    ds = sb.sweep(DROP, OVER_BOTH)
     axes, bar = plots.heatmap(ds, "collisions").axes
-    names = [text.get_text() for text in bar.get_yticklabels()]
+    names = texts(bar.get_yticklabels())
     counts = ds.collisions[:, :, 1].values
     assert counts.max() > 12
     for count, place in zip(counts.ravel(), axes.collections[0].get_array().ravel(), strict=True):
@@ -179,7 +180,7 @@ def test_many_counts_are_grouped():
 @pytest.mark.parametrize("shape", [(1, 1), (1, 7), (2, 2), (7, 1)])
 @pytest.mark.parametrize("show", TITLES)
 def test_small_maps_fill_their_axes(shape, show):
-    ds = sb.sweep(DROP, {"balls.0.mass": MASS, "contacts.1.restitution": LOSS})
+    ds = sb.sweep(DROP, OVER_BOTH)
     few = ds[{"balls.0.mass": slice(shape[0]), "contacts.1.restitution": slice(shape[1])}]
     axes = plots.heatmap(few, show).axes[0]
     assert np.isfinite(axes.collections[0].get_coordinates()).all()
@@ -198,9 +199,8 @@ def test_small_maps_fill_their_axes(shape, show):
     ],
 )
 def test_errors(draw, message):
-    ds = sb.sweep(DROP, {"balls.0.mass": MASS, "contacts.1.restitution": LOSS})
     with pytest.raises(sb.StackbounceError, match=message):
-        draw(ds)
+        draw(sb.sweep(DROP, OVER_BOTH))
 
 
 def test_no_figure_is_left_with_pyplot():
@@ -210,10 +210,7 @@ def test_no_figure_is_left_with_pyplot():
 
 def test_a_prediction_is_drawn_with_bands():
     drop = sb.Drop([sb.Ball(0.15), sb.Ball(0.057)], [sb.Spring(2500.0)] * 2, height=0.6)
-    figure = plots.bounce(sb.predict(drop, {"height": (0.6, 0.02)}))
-    plain = plots.bounce(sb.simulate(drop))
-    bands = [
-        len(one.collections) - len(other.collections)
-        for one, other in zip(figure.axes, plain.axes, strict=True)
-    ]
-    assert bands == [2, 2]
+    banded = plots.bounce(sb.predict(drop, {"height": (0.6, 0.02)})).axes
+    plain = plots.bounce(sb.simulate(drop)).axes
+    more = [len(b.collections) - len(p.collections) for b, p in zip(banded, plain, strict=True)]
+    assert more == [2, 2]

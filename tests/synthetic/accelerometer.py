@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 from synthetic import attributes
 from synthetic.falls import Falls
 
-__all__ = ["accelerometer"]
-
 _AXES = ("x", "y", "z")
 
 
@@ -27,43 +25,10 @@ def accelerometer(
 ) -> xr.Dataset:
     """Return the record of an accelerometer that goes through a fall and its bounces.
 
-    Parameters
-    ----------
-    fall : Falls
-        With a law that has a contact time; a pulse is half a sine and lasts for this time.
-    rate : float, optional
-        Samples per second; the first sample is at a random time within a step.
-    before : float, optional
-        How long in s it is held before its release.
-    noise : float, optional
-        Of each axis and sample, in m/s².
-    full_range : float, optional
-        Of each axis, in m/s²; larger values are clipped. 157 is 16 g.
-    smear : float, optional
-        The time in s over which the sensor averages.
-    spin : float, optional
-        Acceleration in m/s² that spinning adds while it flies.
-    linear : bool, optional
-        Whether gravity is subtracted, in the direction that it had before the release.
-    missing : float, optional
-        Fraction of samples that are missing, at random.
-    seed : int, optional
-        Of the random numbers.
-
-    Returns
-    -------
-    xarray.Dataset
-        As `read` gives phyphox's acceleration with g: `acceleration_x` … and
-        `acceleration_absolute` in m/s² over `time` in s. It stops within the last flight.
-
-    Examples
-    --------
-    >>> import stackbounce as sb
-    >>> from synthetic.falls import falls
-    >>> law = sb.calibrate(sb.Dashpot, mass=0.2, contact_time=0.01, restitution=0.6)
-    >>> record = accelerometer(falls(0.5, law, mass=0.2, bounces=4), rate=400)
-    >>> float(record.acceleration_absolute[:50].mean().round(1))
-    9.8
+    A pulse is half a sine and lasts for the law's contact time. The record begins `before` the
+    release, with `noise` on each axis, clipped at `full_range` (m/s²), averaged over the time
+    `smear`; `spin` is an acceleration in flight, and `linear` subtracts gravity as it was before
+    the release. A fraction of samples is `missing`.
     """
     step = 1.0 / rate
     random = np.random.default_rng(seed)

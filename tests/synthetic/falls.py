@@ -11,27 +11,14 @@ from stackbounce.model import ContactLaw, Rigid
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.run.collision import contact_time, restitution
 
-__all__ = ["Falls", "falls"]
-
 _LEAST_FLIGHT = 1e-3  # s; shorter ones are no flights of a measured ball
 
 
 @dataclass(frozen=True)
 class Falls:
-    """The bounces of one ball; t = 0 is its release.
+    """The bounces of one ball: when each begins and ends, its impact speed and restitution (N,).
 
-    Attributes
-    ----------
-    height : float
-        The height in m from which it was released.
-    gravity : float
-        In m/s**2.
-    touches, releases : ndarray
-        (N,) when each bounce begins and ends, in s.
-    speeds : ndarray
-        (N,) at which the ball meets the floor, in m/s.
-    restitutions : ndarray
-        (N,) of each bounce.
+    t = 0 is the release from the height; all numbers are in SI units.
     """
 
     height: float
@@ -42,15 +29,7 @@ class Falls:
     restitutions: NDArray[np.float64]
 
     def position(self, times: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the height in m of the ball's lowest point at times in s.
-
-        Before its release the ball is held; in contact it is taken to be on the floor.
-
-        Examples
-        --------
-        >>> falls(1.0, 0.5).position(np.array([-1.0, 0.0, 10.0])).round(3)
-        array([1., 1., 0.])
-        """
+        """Return the height in m of the ball's lowest point; it is held before its release."""
         held = np.maximum(times, 0.0)
         heights = self.height - 0.5 * self.gravity * held**2
         for k, (release, speed) in enumerate(zip(self.releases, self.rebounds, strict=True)):
@@ -75,23 +54,9 @@ def falls(
 ) -> Falls:
     """Return the bounces of a ball that is released from rest.
 
-    Parameters
-    ----------
-    height : float
-        In m, above 0.
-    law : float or ContactLaw or callable
-        A restitution, the law of the floor's contact, or a function from the impact speed in m/s
-        to the restitution.
-    mass : float, optional
-        In kg, for laws whose restitution depends on it.
-    gravity : float, optional
-        In m/s**2, above 0.
-    bounces : int, optional
-        How many at most; the ball stops where its flights become shorter than 1 ms.
-
-    Returns
-    -------
-    Falls
+    The law is a restitution, that of the floor's contact, or a function from the impact speed to
+    the restitution; the mass is for laws whose restitution depends on it. The ball stops where its
+    flights become shorter than 1 ms.
 
     Examples
     --------
@@ -112,9 +77,7 @@ def falls(
     return Falls(height, gravity, *np.array(rows).T)
 
 
-def _bounce(
-    law: ContactLaw | Callable[[float], float], mass: float | None, speed: float
-) -> tuple[float, float]:
+def _bounce(law, mass, speed):
     """Return restitution and contact time of a bounce at a speed."""
     if isinstance(law, ContactLaw):
         time = 0.0 if mass is None else contact_time(law, mass, speed)

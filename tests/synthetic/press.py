@@ -10,8 +10,6 @@ from stackbounce.model.laws import ContactLaw
 from synthetic import attributes
 from synthetic.disturbances import ar_noise
 
-__all__ = ["press_record"]
-
 Array = NDArray[np.float64]
 
 
@@ -36,41 +34,11 @@ def press_record(
 ) -> xr.Dataset:
     """Return the record of slow loading and unloading of a contact, as a testing machine writes it.
 
-    Parameters
-    ----------
-    law : ContactLaw
-        The contact, whose force must not depend on the rate; each cycle starts afresh.
-    peak : float
-        Compression from contact to peak, in m.
-    points : int, optional
-        Of a cycle, at constant speed: half of them, rounded down, are the loading with the peak.
-    cycles : int, optional
-        How many.
-    slack : float, optional
-        Travel before the contact, and after it, in m.
-    hold : int, optional
-        Further points at the peak.
-    relaxation : float, optional
-        Share of the force that is lost by the end of the hold, or at the turn, and is not regained.
-    noise, jitter : float, optional
-        Standard deviations of force, in N, and of compression, in m.
-    memory : float, optional
-        Correlation length of the force's AR(1) noise, in points; 0 is white noise.
-    drift : float, optional
-        Of the force's zero from the first point to the last, in N.
-    offset : float, optional
-        Of the force's zero, in N.
-    force_step, compression_step : float, optional
-        To which both are rounded, in N and m.
-    compliance : float, optional
-        Of the machine, in m/N, which adds to the compression that is recorded.
-    seed : int, optional
-        Of the noise.
-
-    Returns
-    -------
-    xarray.Dataset
-        `compression` (m) and `force` (N) along `point`, as a file of a press curve is read.
+    The force of the law must not depend on the rate; each cycle starts afresh. Half of the `points`
+    of a cycle, rounded down, are the loading to the `peak` (m), after a travel (`slack`) before the
+    contact; `hold` are further points at the peak, where the `relaxation`, a share of the force, is
+    lost. `noise` is of the force (N), with a `memory` in points, and `jitter` of the compression;
+    the zero has an `offset` and a `drift` over the record; the machine's `compliance` is in m/N.
 
     Examples
     --------

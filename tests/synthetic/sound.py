@@ -10,8 +10,6 @@ from synthetic import attributes
 from synthetic.disturbances import coded, reverberated, wind_noise
 from synthetic.falls import Falls
 
-__all__ = ["sound"]
-
 _TONES = 8  # of a knock
 _LOW, _HIGH = 300.0, 6000.0  # Hz
 _DECAY = 6e-3  # s
@@ -40,51 +38,13 @@ def sound(
     after: float = 0.5,
     seed: int = 0,
 ) -> xr.Dataset:
-    """Return the recording of a bouncing ball.
+    """Return the recording of a bouncing ball, of full scale 1, from `before` its first touch.
 
-    A knock is the sum of decaying tones of random pitch and phase, as loud as the impact is fast.
-
-    Parameters
-    ----------
-    falls : Falls
-        The times and speeds of its bounces. The recording begins `before` s before its first touch.
-    rate : float, optional
-        Samples per second.
-    bits : int, optional
-        Of a sample, 8 to 32; the sound is rounded to them, and clipped at full scale.
-    level : float, optional
-        Amplitude of the first knock, of full scale; above 1 it is clipped.
-    noise, hum, speech : float, optional
-        Amplitudes of white noise (standard deviation), of a 50 Hz hum, and of a burst like speech
-        in the first half of what precedes the first touch.
-    echo, double : (float, float), optional
-        Delay in s and relative amplitude: of an echo of everything, and of a second sound of each
-        impact.
-    alike : float, optional
-        The share of tones, 0 to 1, that all knocks have in common.
-    uneven : float, optional
-        Standard deviation of the logarithm of a knock's loudness.
-    room, wind, coarse : float, optional
-        Amplitude of the echoes of a room, of low noise in gusts (standard deviation), and the
-        coarseness of an encoder like that of MP3: see `disturbances`. 0 is none of it.
-    attack : float, optional
-        Time in s in which a knock rises.
-    before, after : float, optional
-        What is recorded before the first and after the last knock, in s.
-    seed : int, optional
-        Of the random numbers.
-
-    Returns
-    -------
-    xarray.Dataset
-        `sound` against `time`, of full scale 1.
-
-    Examples
-    --------
-    >>> from synthetic.falls import falls
-    >>> data = sound(falls(0.5, 0.7, bounces=3), rate=8000)
-    >>> data.sound.dims, data.attrs["holds"]
-    (('time',), 'sound')
+    A knock is the sum of decaying tones of random pitch and phase, as loud as the impact is fast,
+    of amplitude `level` for the first one, and rising within the `attack` (s). `noise`, a 50 Hz
+    `hum` and `speech` before the first touch are amplitudes; an `echo` of everything and a `double`
+    sound of each impact have a delay and a relative amplitude. `alike` is the share of tones that
+    all knocks have in common, and `uneven` the deviation of the logarithm of a knock's loudness.
     """
     random = np.random.default_rng(seed)
     zero = falls.touches[0] - before
@@ -131,14 +91,7 @@ def _tones(random: np.random.Generator) -> NDArray[np.float64]:
     return np.stack([pitch, phase, np.full(_TONES, math.sqrt(2.0 / _TONES) / 2.0), decay])
 
 
-def _add(
-    values: NDArray[np.float64],
-    time: float,
-    loud: float,
-    tones: NDArray[np.float64],
-    rate: float,
-    attack: float,
-) -> None:
+def _add(values, time, loud, tones, rate, attack):
     """Add a knock that begins at a time, between samples too."""
     first = math.ceil(time * rate)
     last = min(len(values), first + math.ceil(_LASTS * _DECAY * rate))
@@ -149,9 +102,7 @@ def _add(
     values[first:last] += loud * rise * waves.sum(axis=0)
 
 
-def _speech(
-    random: np.random.Generator, times: NDArray[np.float64], until: float
-) -> NDArray[np.float64]:
+def _speech(random, times, until):
     """Return syllables of a few harmonics, with a swell of 30 ms, four a second."""
     pitch = random.uniform(100.0, 200.0)
     values = sum(

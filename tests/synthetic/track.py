@@ -12,8 +12,6 @@ from synthetic import attributes
 from synthetic.disturbances import ar_noise
 from synthetic.falls import Falls
 
-__all__ = ["track"]
-
 
 def track(
     source: Falls | Result,
@@ -34,48 +32,12 @@ def track(
 ) -> xr.Dataset:
     """Return the track of one ball (`Falls`) or of a stack (the `Result` of a run with gravity).
 
-    Parameters
-    ----------
-    source : Falls or Result
-        What the balls do. The time of a `Result` is 0 when the lowest ball touches the floor, and
-        before that all of its balls fall from rest.
-    frame_rate : float, optional
-        Frames per second; the first frame is at a random time within a step.
-    read_as : float, optional
-        The frame rate from which the times are computed, to simulate a wrong one.
-    until : float, optional
-        The end of the track in s; by default after the third bounce, or at the end of the run.
-    before : float, optional
-        How long in s the balls are held before their release; below 0 the track begins as long
-        after it.
-    noise, correlation : float, optional
-        Error of a point in m, and the correlation of neighbouring ones.
-    pixel : float, optional
-        To which positions are rounded, in m; 0 for none.
-    missing : float, optional
-        Fraction of points that are blank, at random.
-    tilt : float, optional
-        Angle of the y axis with the vertical, in radians.
-    drift : float, optional
-        Horizontal speed in m/s.
-    down : bool, optional
-        Whether y points down.
-    names : sequence of str, optional
-        Of the tracks.
-    seed : int, optional
-        Of the random numbers.
-
-    Returns
-    -------
-    xarray.Dataset
-        `x` and `y` against `time` and `track`.
-
-    Examples
-    --------
-    >>> from synthetic.falls import falls
-    >>> data = track(falls(1.0, 0.8), frame_rate=30, until=1.0)
-    >>> data.y.dims, data.sizes["time"]
-    (('time', 'track'), 33)
+    The time of a `Result` is 0 when the lowest ball touches the floor; before that all of its balls
+    fall from rest. They are held for a time `before` their release; below 0 the track begins as
+    long after it. It ends at `until`, by default after the third bounce or with the run. `read_as`
+    is a wrong frame rate; `correlation` that of the `noise` (m) of neighbours; positions are
+    rounded to a `pixel` (m); a fraction is `missing`; the y axis has a `tilt` or points `down`; the
+    ball has a horizontal speed, `drift`.
     """
     random = np.random.default_rng(seed)
     first, last = _span(source, before, until)

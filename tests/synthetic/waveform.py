@@ -12,8 +12,6 @@ from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
 from synthetic import attributes
 
-__all__ = ["drooped", "waveform"]
-
 
 def waveform(
     drop: Drop | Result,
@@ -34,54 +32,13 @@ def waveform(
     sign: int = 1,
     seed: int = 0,
 ) -> xr.Dataset:
-    """Return the record that force sensors at the contacts of a drop would give.
+    """Return the record that force sensors at the contacts of a drop would give, a channel each.
 
-    Parameters
-    ----------
-    drop : Drop or Result
-        What falls on the sensors.
-    rate : float
-        Samples per second, above 0.
-    contacts : int or sequence of int, optional
-        The contact that each sensor measures, a channel each; default one sensor, at the floor.
-    duration : float, optional
-        Of the record in s; default until the last release and as long again as `before`.
-    before : float, optional
-        How long in s it begins before the first touch; default half of the impact's duration. The
-        first sample is up to one step later, at random, as recorders are not synchronised.
-    noise : float, optional
-        Standard deviation of normal noise, in N, or in V with a `sensitivity`.
-    hum, mains : float, optional
-        Amplitude of the mains' hum in the same unit, at a random phase; its frequency in Hz.
-    offset, drift : float, optional
-        The level without force, in the same unit, and its change over the record.
-    bits : int, optional
-        Of the converter, from 1 to 32; default no quantisation.
-    full_scale : float, optional
-        The converter's range, from minus to plus this, in the same unit; default no limit, or with
-        `bits` the next power of two above all values.
-    time_constant : float, optional
-        RC in s of a piezo sensor and its amplifier; default no droop.
-    sensitivity : float, optional
-        In V/N: the record is a voltage; default a force in N.
-    sign : int, optional
-        -1 for a sensor whose compression is negative.
-    seed : int, optional
-        Of the noise, the phases and the first sample's time.
-
-    Returns
-    -------
-    xarray.Dataset
-        As `read` gives a waveform: `force` in N or `voltage` in V over `time` in s, with
-        ``force_2`` and so on for further channels.
-
-    Examples
-    --------
-    >>> import stackbounce as sb
-    >>> drop = sb.Drop([sb.Ball(0.1)], [sb.Spring(6e4)], impact_speed=2.0)
-    >>> record = waveform(drop, rate=1e5, noise=0.5, bits=12, full_scale=500.0)
-    >>> record.attrs["holds"], 150.0 < float(record.force.max()) < 160.0
-    ('waveform', True)
+    It begins `before` the first touch (default: half of the impact's duration) and lasts as long
+    after the last release; the first sample is up to one step later. `noise`, `hum`, `offset`,
+    `drift` and `full_scale` are in N, or in V with a `sensitivity` (V/N). The converter has some
+    `bits`, by default with a range that is the next power of two above all values. A piezo
+    sensor's droop has a `time_constant` (RC, s).
     """
     result = simulate(drop) if isinstance(drop, Drop) else drop
     random = np.random.default_rng(seed)
@@ -109,13 +66,7 @@ def waveform(
     return xr.Dataset(columns, {"time": time}, attrs)
 
 
-def _times(
-    result: Result,
-    rate: float,
-    duration: float | None,
-    before: float | None,
-    random: np.random.Generator,
-) -> NDArray[np.float64]:
+def _times(result, rate, duration, before, random):
     """Return the times of the samples, in s since the first touch."""
     step = 1.0 / rate
     ends = result.intervals["end"]
@@ -128,9 +79,7 @@ def _times(
     return np.asarray(step * (np.arange(count) + random.uniform()) - lead, dtype=np.float64)
 
 
-def _converted(
-    values: NDArray[np.float64], bits: int | None, full_scale: float | None
-) -> NDArray[np.float64]:
+def _converted(values, bits, full_scale):
     """Return the values quantised to the converter's steps and clipped to its range."""
     if full_scale is not None:
         values = np.clip(values, -full_scale, full_scale)
@@ -146,14 +95,7 @@ def _converted(
 def drooped(times: NDArray[np.float64], values: NDArray[np.float64], time_constant: float) -> Any:
     """Return the output of a high-pass of first order: the exact inverse of `undrooped`.
 
-    The values (n,) at times in s, ascending, are taken as linear between samples; the response to a
-    constant force decays to 1/e in the time constant, in s.
-
-    Examples
-    --------
-    >>> out = drooped(np.array([0.0, 0.1, 0.2]), np.ones(3), 0.1)
-    >>> [round(one, 6) for one in out.tolist()]  # 1, 1/e, 1/e**2
-    [1.0, 0.367879, 0.135335]
+    The values at ascending times are taken as linear between samples.
     """
     share = np.diff(times) / time_constant
     gained = np.diff(values) * -np.expm1(-share) / share

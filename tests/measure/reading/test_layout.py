@@ -29,9 +29,3 @@ def test_a_registered_layout_is_all_that_a_format_takes(read):
     assert data.attrs["why"] == "it begins with TOYLOGGER"
     assert data.time.values.tolist() == [0.0, 1e-3, 2e-3]
     assert data.force.values.tolist() == [0.0, 500.0, 250.0]
-
-
-def test_each_layout_is_registered_once(read):
-    read(FILE)
-    names = [recognise.__name__ for recognise in LAYOUTS]
-    assert len(names) == len(set(names))

@@ -43,12 +43,9 @@ def test_gw_instek(read):
     is_waveform(read(f"{keys}Mode,Detail,\nWaveform Data,\n{rows}"), "GW Instek oscilloscope")
     with pytest.raises(FileError, match="in the mode Fast"):
         read(f"{keys}Mode,Fast,\nWaveform Data,\n{rows}")
-
-
-def test_gw_instek_with_two_channels_beside_each_other(read):
     each = ("Memory Length,60", "Source,CH1", "Vertical Units,V", "Sampling Period,1e-4")
-    keys = "".join(f"{one},{one}\n" for one in each)
-    data = read(f"{keys}Waveform Data,\n" + lines(TIMES, VOLTS, TIMES, -VOLTS))
+    beside = "".join(f"{one},{one}\n" for one in each)  # two channels
+    data = read(f"{beside}Waveform Data,\n" + lines(TIMES, VOLTS, TIMES, -VOLTS))
     is_waveform(data, "GW Instek oscilloscope")
     np.testing.assert_allclose(data.voltage_2.values, -VOLTS, atol=1e-6)
 
@@ -78,12 +75,14 @@ def test_lecroy_and_its_segments(read):
     np.testing.assert_allclose(two.voltage.values, 2.0 * VOLTS, atol=1e-6)
 
 
-def test_saleae_and_keysight_by_their_headers(read):
-    for head in ("Time [s],Channel 0", "Time[s], Channel 0", "sec,Volt1", "x-axis,1\nsecond,Volt"):
-        data = read(f"{head}\n" + lines(TIMES, VOLTS))
-        np.testing.assert_allclose(data.voltage.values, VOLTS, atol=1e-6)
-        assert data.attrs["holds"] == "waveform"
-    assert read("sec,Volt1\n" + lines(TIMES, VOLTS)).voltage.attrs["units"] == "V"
+@pytest.mark.parametrize(
+    "head", ["Time [s],Channel 0", "Time[s], Channel 0", "sec,Volt1", "x-axis,1\nsecond,Volt"]
+)
+def test_saleae_and_keysight_by_their_headers(read, head):
+    data = read(f"{head}\n" + lines(TIMES, VOLTS))
+    np.testing.assert_allclose(data.voltage.values, VOLTS, atol=1e-6)
+    assert data.attrs["holds"] == "waveform"
+    assert data.voltage.attrs["units"] == ("V" if "Volt" in head else "")
 
 
 @pytest.mark.parametrize("decimal", [".", ","])
@@ -98,9 +97,6 @@ def test_labview(read, timed, decimal):
     rows = lines(TIMES, VOLTS, between="\t") if timed else lines(VOLTS, form="\t{:.6e}")
     data = read((head + rows).replace(".", decimal), "file.lvm")
     is_waveform(data, "LabVIEW")
-
-
-def test_labview_without_times_or_step(read):
     with pytest.raises(FileError, match="without their step"):
         read("LabVIEW Measurement\nX_Dimension\tTime\nX_Value\tVoltage\n\t1\n\t2\n")
 
@@ -152,8 +148,7 @@ def test_sensor_logger_with_and_without_g_by_the_name_of_the_file(read):
 def test_three_axes_are_three_accelerations(read, names):
     data = read(f"Time (s),{','.join(names)}\n0,1,2,3\n0.01,1,2,3\n0.02,1,2,3\n")
     assert data.attrs["holds"] == "acceleration"
-    held = [float(data[f"acceleration_{axis}"][0]) for axis in "xyz"]
-    assert held == [1.0, 2.0, 3.0]
+    assert [data[f"acceleration_{axis}"][0] for axis in "xyz"] == [1.0, 2.0, 3.0]
 
 
 @pytest.mark.parametrize(
@@ -161,9 +156,6 @@ def test_three_axes_are_three_accelerations(read, names):
     [
         ("Tiempo;Extensión;Carga", "(s);(mm);(N)"),
         ("Tempo;Extensão;Força", "(s);(mm);(kN)"),
-        ("Zeit;Dehnung;Kraft", "(s);(mm);(N)"),
-        ("Temps;Allongement;Charge", "(s);(mm);(N)"),
-        ("Tempo;Estensione;Carico", "(s);(mm);(N)"),
         ("Time;Strain gauge 7;Load", "(s);(mm);(N)"),
     ],
 )

@@ -26,19 +26,20 @@ def refused(read, content, message, error=FileError, **options):
 # --- what is no file
 
 
-def test_no_file(tmp_path):
-    with pytest.raises(FileError, match="cannot be read: No such file"):
-        sb.read(tmp_path / "missing")
-    with pytest.raises(FileError, match="is a folder"):
-        sb.read(tmp_path)
-    with pytest.raises(FileError, match="cannot be read: embedded null"):
-        sb.read("a\0b")
-    with pytest.raises(FileError, match="cannot be read: "):
-        sb.read("x" * 100_000)
-    with pytest.raises(InvalidType, match="path must be"):
-        sb.read(b"x")
-    with pytest.raises(InvalidType, match="path must be"):
-        sb.read(None)
+@pytest.mark.parametrize(
+    ("path", "error", "message"),
+    [
+        ("missing", FileError, "cannot be read: No such file"),
+        (".", FileError, "is a folder"),
+        ("a\0b", FileError, "cannot be read: embedded null"),
+        ("x" * 100_000, FileError, "cannot be read: "),
+        (b"x", InvalidType, "path must be"),
+        (None, InvalidType, "path must be"),
+    ],
+)
+def test_no_file(path, error, message):
+    with pytest.raises(error, match=message):
+        sb.read(path)
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes here")
@@ -46,17 +47,6 @@ def test_a_pipe_is_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     with pytest.raises(FileError, match="is no ordinary file"):
         sb.read(tmp_path / "pipe")
-
-
-def test_no_permission(tmp_path, monkeypatch):
-    def refuse(*_args, **_options):
-        raise PermissionError(13, "Permission denied")
-
-    path = tmp_path / "locked"
-    path.write_bytes(made.force_ms())
-    monkeypatch.setattr("pathlib.Path.open", refuse)
-    with pytest.raises(FileError, match="locked cannot be read: Permission denied"):
-        sb.read(path)
 
 
 def test_too_large_a_file_is_not_read(tmp_path):
@@ -73,16 +63,13 @@ def test_too_large_a_file_is_not_read(tmp_path):
 @pytest.mark.parametrize(("content", "message"), [
     (b"", "is empty"),
     (b"\n\n\n", "no row of numbers"),
-    (b" ", "no row of numbers"),
-    (b"\xef\xbb\xbf", "no row of numbers"),
     (b"words and words\nand more", "no row of numbers in its first 2 lines; it begins with 'words"),
+    (b"\xef\xbb\xbf", "no row of numbers"),
     (b"Time (s),Force (N)\n", "no row of numbers"),
     (b"#multi:\n,a,,\nt,x,y,\n", "no row of numbers"),
     (b"Vernier Format 2\n1\t2\n", "no row of numbers"),
     (b"Vernier Format 2\na\nb\n1\t2\n3\t4\n", "lacks the names"),
-    (b"X,CH1,Start,Increment\nSequence,Volt,,\n0,1,,\n", "no start and increment"),
     (bytes(range(256)) * 8, "it is no text"),
-    (b"\0" * 1000, "it is no text"),
     (b"\xff\xfe1", "UTF-16"),
     (b"<?xml version='1.0'?><tracker/>", "it is XML or HTML"),
     (b"\xef\xbb\xbf  <html>", "it is XML or HTML"),
@@ -91,7 +78,6 @@ def test_too_large_a_file_is_not_read(tmp_path):
     (b"ID3\x03" + bytes(100), "save it as WAV"),
     (b"%PDF-1.7", "it is a PDF"),
     (b"t,x\n0,1\n" + b"1," * 2000, "at most 1000 columns"),
-    (b"1," * 5000, "at most 1000 columns"),
     (b"1," * 600_000, "more than 1048576 characters"),
     (b"t,x\n0,1\n" + b"1" * 1_100_000, "more than 1048576 characters"),
     (b"t,x\n" + b"0,1\n" * 500 + b"1" * 5_000_000, "more than 1048576 characters"),
@@ -99,11 +85,6 @@ def test_too_large_a_file_is_not_read(tmp_path):
 ])  # fmt: skip
 def test_refused(read, content, message):
     refused(read, content, message)
-
-
-def test_words_below_the_numbers(read):
-    doubt = read("t (s),F (N)\n0,1\n" + "words,words\n" * 300).attrs["doubt"]
-    assert doubt == "300 lines among the numbers are words, first 'words,words': left out"
 
 
 # --- zip archives
@@ -117,18 +98,22 @@ def test_a_bomb_does_not_go_off(read):
     tracemalloc.stop()
 
 
-def test_a_bomb_that_lies_of_its_size(read, monkeypatch):
+def test_bombs_that_lie_of_their_size_or_are_many(read, monkeypatch):
     monkeypatch.setattr(zipped, "BYTES", 2**20)
     content = bytearray(archive({"a.csv": b"0,0\n" * 300_000}))
     at = content.rindex(b"PK\x01\x02") + 24
     content[at : at + 4] = (2**21).to_bytes(4, "little")
     refused(read, bytes(content), "would unpack to more than")
-
-
-def test_many_small_bombs_count_together(read, monkeypatch):
-    monkeypatch.setattr(zipped, "BYTES", 2**20)
     files = {f"{k}.csv": b"0,0\n" * 50_000 for k in range(10)}
     refused(read, archive(files), "its tables would unpack to more than 1 MiB")
+
+
+def test_locked_and_damaged_archives(read):
+    content = bytearray(archive({"a.csv": made.force_ms()}, zipfile.ZIP_STORED))
+    content[100] ^= 1
+    refused(read, bytes(content), "broken zip archive: Bad CRC-32")
+    content[content.rindex(b"PK\x01\x02") + 8] |= 1
+    refused(read, bytes(content), "locked by a password")
 
 
 @pytest.mark.parametrize(("content", "message"), [
@@ -144,18 +129,6 @@ def test_many_small_bombs_count_together(read, monkeypatch):
 ])  # fmt: skip
 def test_archives_refused(read, content, message):
     refused(read, content, message)
-
-
-def test_a_locked_archive(read):
-    content = bytearray(archive({"a.csv": "1,2\n"}))
-    content[content.rindex(b"PK\x01\x02") + 8] |= 1
-    refused(read, bytes(content), "locked by a password")
-
-
-def test_a_damaged_table(read):
-    content = bytearray(archive({"a.csv": made.force_ms()}, zipfile.ZIP_STORED))
-    content[100] ^= 1
-    refused(read, bytes(content), "broken zip archive: Bad CRC-32")
 
 
 def test_names_in_archives_are_names_only(read, tmp_path):
@@ -215,12 +188,11 @@ def test_marks_in_numbers(read, text, values, doubtful):
     assert bool(data.attrs["doubt"]) == doubtful
 
 
-def test_a_decimal_mark_that_is_told(read):
-    text = "t (s);F (N)\n0;1,234\n1;2,345\n"
-    for decimal, values in ((",", [1.234, 2.345]), (".", [1234.0, 2345.0])):
-        data = read(text, decimal=decimal)
-        np.testing.assert_allclose(data.force, values)
-        assert data.attrs["doubt"] == ""
+@pytest.mark.parametrize(("decimal", "values"), [(",", [1.234, 2.345]), (".", [1234.0, 2345.0])])
+def test_a_decimal_mark_that_is_told(read, decimal, values):
+    data = read("t (s);F (N)\n0;1,234\n1;2,345\n", decimal=decimal)
+    np.testing.assert_allclose(data.force, values)
+    assert data.attrs["doubt"] == ""
 
 
 def test_cells_that_are_no_numbers(read):
@@ -231,30 +203,23 @@ def test_cells_that_are_no_numbers(read):
     assert "1 numbers are infinite" in data.attrs["doubt"]
 
 
-def test_a_column_of_words_is_left_out(read):
-    text = "t (s),F (N),remark\n" + "".join(
-        f"{k},{k},{'fine' if k > 3 else ''}\n" for k in range(9)
-    )
-    assert list(read(text).data_vars) == ["force"]
-
-
-def test_rows_without_a_time_and_lines_of_words_are_left_out(read):
-    data = read("t (s),F (N)\n0,1\n,5\n1,2\nend of run,\n2,3\n\n\n")
-    np.testing.assert_array_equal(data.force, [1, 2, 3])
+def test_words_and_rows_without_a_time_are_left_out(read):
+    data = read("t (s),F (N),remark\n0,1,\n,5,\n1,2,\nend of run,,\n2,3,fine\n3,4,fine\n\n\n")
+    assert list(data.data_vars) == ["force"]
+    np.testing.assert_array_equal(data.force, [1, 2, 3, 4])
+    doubt = read("t (s),F (N)\n0,1\n" + "words,words\n" * 300).attrs["doubt"]
+    assert doubt == "300 lines among the numbers are words, first 'words,words': left out"
 
 
 def test_ragged_rows(read):
     data = read("t (s),F (N)\n0,1\n1,2,9\n2\n3,4\n4,5\n")
     np.testing.assert_array_equal(data.force, [1, 2, np.nan, 4, 5])
-    assert data.attrs["doubt"] == (
-        "1 rows have more cells than the others; 1 rows have fewer cells than the others"
-    )
+    more, fewer = (f"1 rows have {word} cells than the others" for word in ("more", "fewer"))
+    assert data.attrs["doubt"] == f"{more}; {fewer}"
 
 
 def test_names_that_come_twice_or_not_at_all(read):
-    data = read(
-        "t (s),F (N),F (N),time,,a b,a-b\n" + "".join(f"{k},1,2,3,4,5,6\n" for k in range(5))
-    )
+    data = read("t (s),F (N),F (N),time,,a b,a-b\n" + "0,1,2,3,4,5,6\n1,1,2,3,4,5,6\n")
     names = ["force", "force_2", "time_2", "column_5", "a_b", "a_b_2"]
     assert list(data.data_vars) == names
     assert [int(data[name][0]) for name in names] == [1, 2, 3, 4, 5, 6]
@@ -272,18 +237,15 @@ def test_units_that_are_not_known(read):
 # --- times
 
 
-def test_times_that_start_again(read):
+def test_times_that_start_again_or_are_none(read):
     text = "t (s),F (N)\n" + "".join(f"{k % 10},{k}\n" for k in range(20))
     data = read(text)
     assert data.sizes == {"time": 10}
     assert "time starts again 1 times; run 1 of 2 is read" in data.attrs["doubt"]
     np.testing.assert_array_equal(read(text, run=2).force, range(10, 20))
     refused(read, text, "run must be one of the 2", InvalidValue, run=3)
-
-
-def test_times_that_are_none(read):
-    text = "t (s),F (N)\n" + "".join(f"{k * 7 % 13},{k}\n" for k in range(200))
-    refused(read, text, "time runs backwards in", InvalidValue)
+    back = "t (s),F (N)\n" + "".join(f"{k * 7 % 13},{k}\n" for k in range(200))
+    refused(read, back, "time runs backwards in", InvalidValue)
 
 
 def test_gaps_and_repeats(read):
@@ -294,16 +256,6 @@ def test_gaps_and_repeats(read):
 
 
 # --- much of it
-
-
-def test_a_long_file_is_read_fast_and_whole(read):
-    count = 300_000
-    lines = [f"{k * 1e-6:.6f},{k % 1000 / 8}" for k in range(count)]
-    lines[200_000] = "0.2,"  # read cell by cell from there on to the end of its part
-    data = read("Time (s),Force (N)\n" + "\n".join(lines))
-    wanted = np.arange(count) % 1000 / 8
-    wanted[200_000] = np.nan
-    np.testing.assert_array_equal(data.force, wanted)
 
 
 def test_too_many_odd_lines(read, monkeypatch):
@@ -345,10 +297,4 @@ def test_only_our_own_errors_come_of_anything(read, name, holds):
             assert data.attrs["holds"]
             assert max(data.sizes.values()) > 0
             numbers = [data[name] for name in data.variables if name != "track"]
-            assert all(one.dtype == np.float64 for one in numbers)
-            assert not any(np.isinf(one).any() for one in numbers)
-
-
-@pytest.mark.parametrize("content", ["0,0;0", "t,x\n1,"])
-def test_hardly_a_table_is_read(read, content):
-    assert max(read(content).sizes.values()) > 0
+            assert all(one.dtype == np.float64 and not np.isinf(one).any() for one in numbers)

@@ -54,7 +54,8 @@ def test_rounded_times_are_even(read, written, step):
     assert (off <= 0.51 * rounding_of(as_written).steps(as_written)).all()
 
 
-UNEVEN = {
+AS_THEY_ARE = {
+    "exact": np.round(np.arange(2000) / 44100, 9),
     "jitter": np.round(10 * np.arange(300) + np.random.default_rng(1).normal(0, 2, 300)),
     "a lost sample": np.delete(np.arange(300), 150),
     "some lost samples": np.delete(np.arange(300), [20, 150, 160]),
@@ -62,18 +63,11 @@ UNEVEN = {
 }
 
 
-@pytest.mark.parametrize("times", UNEVEN.values(), ids=UNEVEN)
-def test_times_with_gaps_or_jitter_stay_as_they_are(read, times):
+@pytest.mark.parametrize("times", AS_THEY_ARE.values(), ids=AS_THEY_ARE)
+def test_exact_times_and_those_with_gaps_or_jitter_stay_as_they_are(read, times):
     data = read("t (s),F (N)", times, noise(len(times)))
     np.testing.assert_array_equal(data.time, times)
     assert "even" not in data.attrs["doubt"]
-
-
-def test_exact_times_stay_as_they_are(read):
-    times = [f"{k / 44100:.9f}" for k in range(2000)]
-    data = read("t (s),F (N)", times, noise(2000))
-    np.testing.assert_array_equal(data.time, np.array(times, dtype=float))
-    assert data.attrs["doubt"] == ""
 
 
 def test_the_rate_of_a_sound_is_not_that_of_its_rounded_steps(read):
@@ -125,14 +119,10 @@ EPOCHS = {"nanoseconds": 10**9, "microseconds": 10**6, "milliseconds": 10**3, "s
 @pytest.mark.parametrize(("words", "rate"), EPOCHS.items())
 def test_times_since_1970_are_told_by_their_size(read, words, rate):
     step = max(1, rate // 100)
-    start = 1_691_674_088 * rate
-    data = read("time,F (N)", [start + step * k for k in range(50)], noise(50))
-    assert float(data.time[0]) == 0.0
-    assert float(data.time[-1]) == pytest.approx(49 * step / rate, rel=1e-4)
-    assert (
-        f"time counts {words} since 1970: taken from the first on, 2023-08-10 13:28:08 UTC"
-        in data.attrs["doubt"]
-    )
+    data = read("time,F (N)", [1_691_674_088 * rate + step * k for k in range(50)], noise(50))
+    assert data.time.values[[0, -1]] == pytest.approx([0.0, 49 * step / rate], rel=1e-4)
+    told = f"time counts {words} since 1970: taken from the first on, 2023-08-10 13:28:08 UTC"
+    assert told in data.attrs["doubt"]
 
 
 def test_seconds_elapsed_are_taken_rather_than_those_since_1970(read):
@@ -170,11 +160,13 @@ def test_steps_tell_the_unit_of_times(read, head, step, unit, factor):
         assert f"units={{'{name}': 's'}} tells another" in data.attrs["doubt"]
 
 
-def test_a_unit_that_is_told_is_not_doubted(read):
-    for options, head in (({}, "time (s),F (N)"), ({"units": {"time": "s"}}, "time,F (N)")):
-        data = read(head, range(0, 6000, 100), noise(60), **options)
-        assert float(data.time[-1]) == 5900.0
-        assert data.attrs["doubt"] == ""
+@pytest.mark.parametrize(
+    ("head", "options"), [("time (s),F (N)", {}), ("time,F (N)", {"units": {"time": "s"}})]
+)
+def test_a_unit_that_is_told_is_not_doubted(read, head, options):
+    data = read(head, range(0, 6000, 100), noise(60), **options)
+    assert float(data.time[-1]) == 5900.0
+    assert data.attrs["doubt"] == ""
 
 
 # --- values
