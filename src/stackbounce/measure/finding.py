@@ -1,10 +1,10 @@
 """The shape that the results of all analyses share."""
 
-from abc import ABC, abstractmethod
 from collections.abc import Iterable
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
-from stackbounce.measure.quantities import Array, Number, Row, nominal
+from stackbounce.measure.quantities import Array, Number, Row, known_rows, nominal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,8 +29,15 @@ class Branch(NamedTuple):
     fit: Array
 
 
-class Finding(ABC):
-    """The result of an analysis.
+class Listed(NamedTuple):
+    """The name in a table, and the SI unit, of a dataclass's field that is annotated with it."""
+
+    name: str
+    unit: str = ""
+
+
+class Finding:
+    """The result of an analysis, a dataclass.
 
     Attributes
     ----------
@@ -43,9 +50,16 @@ class Finding(ABC):
     picture: ClassVar[str] = "numbers"
     notes: tuple[str, ...]
 
-    @abstractmethod
     def rows(self) -> list[Row]:
-        """Return the quantities that were found, the most important first."""
+        """Return the quantities that were found, the most important first.
+
+        They are the fields that are annotated as `Listed` and known, in their order.
+        """
+        return known_rows(
+            (label.name, getattr(self, one.name), label.unit)
+            for one in fields(self)  # type: ignore[arg-type]
+            for label in getattr(one.type, "__metadata__", ())
+        )
 
     def parts(self) -> dict[str, Any]:
         """Return ball, contact, height and impact speed, as far as known, as in a drop's TOML."""

@@ -4,21 +4,21 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.errors import InvalidType, InvalidValue, non_negative, shown, whole
-from stackbounce.measure.kinds.press.branches import Cycle, Record, cycles, record_of
 from stackbounce.measure.kinds.press.cycle import result_of
-from stackbounce.measure.kinds.press.notes import sentences
+from stackbounce.measure.kinds.press.record import cycles, record_of
 from stackbounce.measure.kinds.press.result import Press
 from stackbounce.measure.quantities import measured
 
 if TYPE_CHECKING:
     import xarray as xr
 
+_CLEAR = 3.0  # standard errors
+
 
 def press(
     data: "xr.Dataset | Any",
     *,
     compliance: Any = 0.0,
-    sign: int | None = None,
     cycle: int | None = None,
     tabulated: bool = False,
 ) -> Press:
@@ -32,8 +32,6 @@ def press(
         peak may occur. Points without a number are left out.
     compliance : float or UFloat, optional
         Of the machine, in m/N; the compression of the machine is subtracted.
-    sign : {1, -1}, optional
-        Of the force in the record while the ball is pressed. By default that of the larger forces.
     cycle : int, optional
         Which cycle, from 0; negative from the last. By default the last one that has a loading and
         an unloading, as the first cycles of a ball differ from later ones.
@@ -50,8 +48,8 @@ def press(
     InvalidType
         If `data` is neither of these.
     InvalidValue
-        If there are fewer than 6 points, values are constant, the force does not exceed its noise,
-        or there is no such cycle.
+        If there are fewer than 6 points of loading, values are constant, the force does not exceed
+        its noise, or there is no such cycle.
 
     Notes
     -----
@@ -64,8 +62,8 @@ def press(
 
     The errors follow from the residuals. These are correlated from point to point where the press
     drifts, the sensor is filtered, or the law does not quite fit; errors that assume independence
-    would be far too small. The residuals are modelled as the sum of white and AR(1) noise, both of
-    unknown size, and the errors and correlations of all numbers follow from that.
+    would be far too small. The errors and correlations of all numbers follow from the size of the
+    residuals and their autocorrelation.
 
     A press is slow. In a bounce a ball is stiffer, and it may lose more or less energy.
 
@@ -79,20 +77,18 @@ def press(
     >>> force += np.random.default_rng(1).normal(0.0, 0.1, 401)
     >>> found = press(xr.Dataset({"force": ("point", force), "compression": ("point", c)}))
     >>> print(f"exponent {found.exponent:.1uS}, restitution {found.restitution:.1uS}")
-    exponent 1.299(3), restitution 0.7800(6)
+    exponent 1.299(3), restitution 0.7799(6)
     >>> found.parts()["contact"]["law"]
     'Hysteretic'
     """
-    if sign not in (None, 1, -1):
-        raise InvalidValue(f"sign must be 1, -1 or None, got {shown(sign)}")
     if not isinstance(tabulated, bool):
         raise InvalidType(f"tabulated must be True or False, got {shown(tabulated)}")
     soft = measured("compliance", compliance, "m/N", non_negative)
     at = float(soft.nominal_value)
-    found = replace(_press(record_of(data, at, sign), cycle), tabulated=tabulated)
+    found = replace(_press(data, at, cycle), tabulated=tabulated)
     if soft.std_dev == 0.0:
         return found
-    moved = _press(record_of(data, at + float(soft.std_dev), sign), found.cycle)
+    moved = _press(data, at + float(soft.std_dev), cycle)
     unit = (soft - at) / soft.std_dev
     changes = {
         name: value + (getattr(moved, name).nominal_value - value.nominal_value) * unit
@@ -102,47 +98,47 @@ def press(
     return replace(found, **changes)
 
 
-def _press(record: Record, number: int | None) -> Press:
+def _press(data: Any, compliance: float, number: int | None) -> Press:
+    record = record_of(data, compliance)
     found = cycles(record)
-    chosen = _chosen(found, number)
-    if len(found[chosen].loading):
-        results = {
-            k: result_of(record, member) for k, member in enumerate(found) if len(member.loading)
-        }
-    else:
-        results = {chosen: _unloading_only(record, found[chosen])}
-    results = {k: replace(one, cycle=k, cycles=len(found)) for k, one in results.items()}
-    result = results.pop(chosen)
-    result = replace(result, others=tuple(results.values()))
-    notes = result.notes or sentences(result, len(found[chosen].held))
-    return replace(result, notes=(*record.notes, *notes))
-
-
-def _chosen(found: list[Cycle], number: int | None) -> int:
-    """Return the place of the cycle that was asked for, or of the best one."""
+    # a cycle with both branches is preferred to a loading alone
+    whole_ones = [k for k, one in enumerate(found) if len(one.loading) and len(one.unloading)]
+    pressed = whole_ones or [k for k, one in enumerate(found) if len(one.loading)] or [-1]
+    chosen = pressed[-1]
     if number is not None:
-        place = whole("cycle", number, -len(found), len(found) - 1)
-        if not len(found[place].loading) and not len(found[place].unloading):
-            raise InvalidValue(f"cycle must be one with enough points, got {number}")
-        return place % len(found)
-    # a cycle with both branches is preferred to a loading alone, that to an unloading alone
-    worth = [2 * bool(len(cycle.loading)) + bool(len(cycle.unloading)) for cycle in found]
-    if max(worth) > 0:
-        return len(worth) - 1 - worth[::-1].index(max(worth))
-    raise InvalidValue("a press curve must have a loading or an unloading of 6 points, got none")
+        chosen = whole("cycle", number, -len(found), len(found) - 1) % len(found)
+    if not len(found[chosen].loading):
+        raise InvalidValue("a press curve must have a loading of 6 points, got none")
+    result = result_of(record, found[chosen])
+    which = f"{chosen + 1} of {len(found)}" if len(found) > 1 else None
+    return replace(result, cycle=which, notes=(*record.notes, *_notes(result)))
 
 
-def _unloading_only(record: Record, cycle: Cycle) -> Press:
-    """Return the peak, the returned work and the exponent n of an unloading without a loading."""
-    # Read backwards it is a loading, whose exponent is n.
-    back = replace(cycle, loading=cycle.unloading[::-1], unloading=cycle.loading, sampled=False)
-    mirror = result_of(record, back)
-    note = "There is no loading curve: only the peak, the energy returned and n can be determined."
-    same = ("secant_stiffness", "peak_compression", "peak_force", "contact", "zero", "record")
-    return Press(
-        **{name: getattr(mirror, name) for name in same},
-        work_out=mirror.work_in,
-        unloading_exponent=mirror.exponent,
-        unloading=mirror.loading,
-        notes=(note,),
-    )
+def _notes(found: Press) -> list[str]:
+    """Return the notes on a cycle, a sentence each."""
+    notes = []
+    if found.zero.nominal_value == 0.0 and found.zero.std_dev == 0.0:
+        notes.append(
+            "There are no points before the contact: the zero of the force was assumed to be "
+            "right, and the contact follows from the curve."
+        )
+    if found.exponent.nominal_value < 1.0 - _CLEAR * found.exponent.std_dev:
+        notes.append(
+            "The ball gets softer as it is pressed (exponent below 1), which no power law of this "
+            "package does: the straight line stands for it, or the table of its points."
+        )
+    laws = {"loading": "one power law", "unloading": "the power law that Hysteretic unloads by"}
+    for name, law in laws.items():
+        curve = getattr(found, name)
+        if curve is not None and not curve.fits:
+            notes.append(
+                f"The {name} is not well described by {law}: it is off by "
+                f"{100.0 * curve.misfit:.2g} % of the peak force."
+            )
+    if found.loss is None:
+        notes.append("There is no unloading: what is lost cannot be known.")
+    elif found.loss.nominal_value < -_CLEAR * found.loss.std_dev:
+        notes.append(
+            "More work comes back than went in: the branches are swapped, or the machine drifts."
+        )
+    return notes

@@ -4,9 +4,6 @@ To first order every number that is found is a linear function of the noise of t
 weights are kept as a row; all errors and correlations follow from one covariance of the noise.
 """
 
-from dataclasses import dataclass
-from typing import Any
-
 import numpy as np
 
 from stackbounce.measure.quantities import Array
@@ -14,42 +11,7 @@ from stackbounce.measure.quantities import Array
 _FIRST_EXPONENTS = (0.7, 1.0, 1.5, 2.0, 3.0)  # of the grid on which the fit's start is sought
 _FIRST_CONTACTS = 48  # places of the contact on the same grid
 _GRID_POINTS = 300  # of the curve that are compared on that grid, for speed
-_LARGEST_LOG = 20.0  # of a parameter, so that no power overflows
-
-
-@dataclass(frozen=True)
-class PowerFit:
-    """A power of the compression, fitted to a branch: ``F = P ((c - c0)/C)**p``, 0 below c0.
-
-    Parameters
-    ----------
-    peak : float
-        The compression at which the force is P.
-    values : ndarray
-        P, ln p and ln C, where c0 is the peak less C.
-    weights : ndarray
-        (q, N) derivatives of those that were fitted by the noise of each point.
-    jacobian : ndarray
-        (N, q) derivatives of the curve by them.
-    residual : ndarray
-        (N,) force less fit.
-    """
-
-    peak: float
-    values: Array
-    weights: Array
-    jacobian: Array
-    residual: Array
-
-    @property
-    def plain(self) -> tuple[float, float, float]:
-        """P, p and C."""
-        top, log_p, log_c = self.values.tolist()
-        return top, float(np.exp(log_p)), float(np.exp(log_c))
-
-    def ratio(self, x: Any) -> Any:
-        """Return ``(x - c0)/C`` of a compression."""
-        return 1.0 - (self.peak - x) / self.plain[2]
+LARGEST_LOG = 20.0  # of a parameter, so that no power overflows
 
 
 def power(ratio: Array, exponent: float) -> Array:
@@ -115,7 +77,7 @@ def power_law(x: Array, peak: float, values: Array) -> tuple[Array, Array]:
     jacobian : ndarray
         (N, 3).
     """
-    top, p, c = values[0], *np.exp(np.clip(values[1:], -_LARGEST_LOG, _LARGEST_LOG))
+    top, p, c = values[0], *np.exp(np.clip(values[1:], -LARGEST_LOG, LARGEST_LOG))
     ratio = 1.0 - (peak - x) / c
     unit = power(ratio, p)
     by_exponent = top * p * unit * np.log(np.where(ratio > 0.0, ratio, 1.0))
@@ -123,10 +85,8 @@ def power_law(x: Array, peak: float, values: Array) -> tuple[Array, Array]:
     return top * unit, np.column_stack([unit, by_exponent, by_length])
 
 
-def fit_power_law(
-    x: Array, y: Array, peak: float, first: Array, free: int, scale: Any = 1.0
-) -> PowerFit:
-    """Fit `power_law` by least squares.
+def fit_power_law(x: Array, y: Array, peak: float, first: Array, free: int, scale: Array) -> Array:
+    """Return P, ln p and ln C of the `power_law` that fits points best.
 
     Parameters
     ----------
@@ -138,30 +98,22 @@ def fit_power_law(
         P, ln p and ln C to start from.
     free : int
         How many of them are fitted: 3, or 2 where C is known.
-    scale : ndarray or float, optional
-        Relative noise of the points.
-
-    Returns
-    -------
-    PowerFit
+    scale : ndarray
+        (N,) relative noise of the points.
     """
     from scipy.optimize import least_squares
 
     def curve(values: Array) -> tuple[Array, Array]:
-        force, jacobian = power_law(x, peak, np.append(values, first[free:]))
-        return force, jacobian[:, :free]
+        return power_law(x, peak, np.append(values, first[free:]))
 
-    weight: Array = np.broadcast_to(1.0 / np.asarray(scale, float), y.shape)
     solved = least_squares(
-        lambda values: (curve(values)[0] - y) * weight,
+        lambda values: (curve(values)[0] - y) / scale,
         first[:free],
-        jac=lambda values: curve(values)[1] * weight[:, None],
+        jac=lambda values: curve(values)[1][:, :free] / scale[:, None],
         method="lm",
         xtol=1e-10,
         ftol=1e-12,
         max_nfev=300,
     )
-    fitted, jacobian = curve(solved.x)
-    # weights = (JᵀWJ)⁻¹ JᵀW
-    inverse = np.linalg.pinv(jacobian * weight[:, None], rcond=1e-11)
-    return PowerFit(peak, np.append(solved.x, first[free:]), inverse * weight, jacobian, y - fitted)
+    values = np.append(solved.x, first[free:])
+    return np.append(values[0], np.clip(values[1:], -LARGEST_LOG, LARGEST_LOG))

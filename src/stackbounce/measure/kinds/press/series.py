@@ -1,23 +1,24 @@
 """Two balls pressed in series: the compression of each."""
 
-import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
-from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown
-from stackbounce.measure.kinds.press.result import Press
-from stackbounce.measure.quantities import Number, Row, measured
+from stackbounce.errors import InvalidValue, between, positive, shown
+from stackbounce.measure.finding import Finding, Listed
+from stackbounce.measure.quantities import Number, measured
 from stackbounce.model.laws import STEEPEST, PowerLaw, series
 
 
 @dataclass(frozen=True)
-class Split:
+class Split(Finding):
     """The parts of a compression in series at one force; see `split_series`. Lengths in m.
 
     Parameters
     ----------
-    force : UFloat
-        In N.
+    ratio : UFloat
+        Of both stiffnesses, k1/k2.
+    floor_stiffness, ball_stiffness : UFloat
+        Force over `bottom` and over `between`, in N/m.
     bottom : UFloat
         Compression of the lower ball at the plate (or floor) below it.
     top : UFloat
@@ -28,38 +29,22 @@ class Split:
         Of the centres' distance: `top` and half of `upper`.
     excess : UFloat
         Of both together, less the sum of each alone: 0 for springs in series.
-    floor_stiffness, ball_stiffness : UFloat
-        Force over `bottom` and over `between`, in N/m.
-    ratio : UFloat
-        Their ratio, k1/k2.
+    force : UFloat
+        In N.
     notes : tuple of str
         What a reader of the numbers should know, a sentence each.
     """
 
-    force: Number
-    bottom: Number
-    top: Number
-    upper: Number
-    between: Number
-    excess: Number
-    floor_stiffness: Number
-    ball_stiffness: Number
-    ratio: Number
+    ratio: Annotated[Number, Listed("stiffness ratio, floor over balls")]
+    floor_stiffness: Annotated[Number, Listed("stiffness at the floor", "N/m")]
+    ball_stiffness: Annotated[Number, Listed("stiffness between the balls", "N/m")]
+    bottom: Annotated[Number, Listed("compression of the lower ball's bottom", "m")]
+    top: Annotated[Number, Listed("compression of the lower ball's top", "m")]
+    upper: Annotated[Number, Listed("compression of the upper ball", "m")]
+    between: Annotated[Number, Listed("compression between the centres", "m")]
+    excess: Annotated[Number, Listed("compression beyond the sum of each alone", "m")]
+    force: Annotated[Number, Listed("force", "N")]
     notes: tuple[str, ...]
-
-    def rows(self) -> list[Row]:
-        """Return the parts as rows of a table."""
-        return [
-            Row("stiffness ratio, floor over balls", self.ratio),
-            Row("stiffness at the floor", self.floor_stiffness, "N/m"),
-            Row("stiffness between the balls", self.ball_stiffness, "N/m"),
-            Row("compression of the lower ball's bottom", self.bottom, "m"),
-            Row("compression of the lower ball's top", self.top, "m"),
-            Row("compression of the upper ball", self.upper, "m"),
-            Row("compression between the centres", self.between, "m"),
-            Row("compression beyond the sum of each alone", self.excess, "m"),
-            Row("force", self.force, "N"),
-        ]
 
     def parts(self) -> dict[str, object]:
         """Return the contact between the two balls as a linear spring, as a drop's TOML has it."""
@@ -67,18 +52,18 @@ class Split:
         return {"contact": {"law": "Spring", "stiffness": float(k)}} if k > 0.0 else {}
 
 
-def split_series(lower: Any, upper: Any, both: Any, *, force: Any = None) -> Split:
+def split_series(lower: Any, upper: Any, both: Any, *, force: Any) -> Split:
     """Return the parts of the compression of two balls pressed in series, as in Figure 7.
 
     Parameters
     ----------
-    lower, upper : Press, float or UFloat
-        Each ball pressed alone between two plates: what `press` found, or its compression in m at
-        `force`.
-    both : Press, float or UFloat
-        The upper ball on the lower one, pressed between the same plates.
-    force : float or UFloat, optional
-        In N; needed with compressions. By default the lowest of the peak forces.
+    lower, upper : float or UFloat
+        Compression in m of each ball pressed alone between two plates; `Press.compression_at` reads
+        it off a press curve.
+    both : float or UFloat
+        That of the upper ball on the lower one, pressed between the same plates.
+    force : float or UFloat
+        In N, the same in all three.
 
     Returns
     -------
@@ -87,9 +72,9 @@ def split_series(lower: Any, upper: Any, both: Any, *, force: Any = None) -> Spl
     Raises
     ------
     InvalidType
-        If one of them is neither.
+        If one of them is no number.
     InvalidValue
-        If a number is not positive, or `force` is needed and missing.
+        If one is not positive, or both are compressed too little.
 
     Notes
     -----
@@ -108,49 +93,25 @@ def split_series(lower: Any, upper: Any, both: Any, *, force: Any = None) -> Spl
     >>> print(f"{1e3 * split.top:.1f} mm, {1e3 * split.excess:.1f} mm, {split.ratio:.2f}")
     15.5+/-0.1 mm, 6.2+/-0.1 mm, 1.82+/-0.01
     """
-    given = {"lower": lower, "upper": upper, "both": both}
-    curves = [curve for curve in given.values() if isinstance(curve, Press)]
-    if force is None:
-        if len(curves) < 3:
-            raise InvalidValue("force must be given with compressions, got None")
-        force = min((curve.peak_force for curve in curves), key=lambda peak: peak.nominal_value)
     at = measured("force", force, "newtons")
-    below, above, pair = (_compression(name, value, at) for name, value in given.items())
-    bottom, half = below / 2.0, above / 2.0
+    given = {"lower": lower, "upper": upper, "both": both}
+    below, above, pair = (measured(name, value, "metres") for name, value in given.items())
+    bottom = below / 2.0
     top = pair - bottom - above
-    closer = top + half
+    closer = top + above / 2.0
     excess = pair - below - above
-    notes = []
-    lowest = min((float(curve.peak_force.nominal_value) for curve in curves), default=math.inf)
-    if at.nominal_value > 1.001 * lowest:
-        notes.append("The force is beyond the peak of a curve, whose power law was continued.")
     if closer.nominal_value <= 0.0:
         raise InvalidValue(
             "both must be compressed by more than the lower ball's bottom and the upper ball's "
             f"upper half, got {shown(float(pair.nominal_value))} m"
         )
+    note = "The upper ball indents the lower one locally: it is softer there."
     if abs(excess.nominal_value) <= 2.0 * excess.std_dev:
-        notes.append("Within the errors the two are springs in series: no extra indentation.")
-    elif excess.nominal_value > 0.0:
-        notes.append("The upper ball indents the lower one locally: it is softer there.")
-    else:
-        notes.append("Both give way by less than the two alone, which springs in series never do.")
+        note = "Within the errors the two are springs in series: no extra indentation."
+    elif excess.nominal_value < 0.0:
+        note = "Both give way by less than the two alone, which springs in series never do."
     floor, ball = at / bottom, at / closer
-    return Split(at, bottom, top, above, closer, excess, floor, ball, closer / bottom, tuple(notes))
-
-
-def _compression(name: str, one: Any, force: Number) -> Number:
-    """Return a compression at a force, as given or read off a curve."""
-    if isinstance(one, Press):
-        if one.loading is None:
-            raise InvalidValue(f"{name} must be a press curve with a loading, got none")
-        return one.compression_at(force)
-    try:
-        return measured(name, one, "metres")
-    except InvalidType:
-        raise InvalidType(
-            f"{name} must be what press found, or a compression in m, got {shown(one)}"
-        ) from None
+    return Split(closer / bottom, floor, ball, bottom, top, above, closer, excess, at, (note,))
 
 
 def series_stiffness(stiffness_a: Any, stiffness_b: Any, *, exponent: float = 1.0) -> Number:

@@ -7,10 +7,9 @@ import numpy as np
 from stackbounce.errors import InvalidValue, whole
 from stackbounce.measure.quantities import Array
 from stackbounce.model import Tabulated
-from stackbounce.model.laws.tabulated import MOST_POINTS, monotone_spline
+from stackbounce.model.laws.tabulated import MOST_POINTS
 
 _FEWEST = 6
-_ROUNDS = 3  # each fits what the spline of the last one leaves over
 _STEEP = 1e-6  # of the mean rise: the smallest rise of the loading from point to point
 _FIRM = 1e3  # weight of the condition that unloading begins where loading ends, over all points
 
@@ -30,17 +29,25 @@ def fitted_table(loading: Any, unloading: Any, points: int) -> Tabulated:
     InvalidValue
         If a branch has too few points.
     """
+    from scipy.interpolate import PchipInterpolator
+
     whole("points", points, 3, MOST_POINTS)
     c, f = _pressed("loading", *loading)
-    most = float(c.max())
-    knots = np.linspace(0.0, most, points)
-    force = _fitted_loading(knots, c, f)
-    force = np.cumsum(np.maximum(np.diff(force, prepend=0.0), 0.0))
+    knots = np.linspace(0.0, float(c.max()), points)
+    force, bulge = np.zeros(points), np.zeros(len(c))
+    for _ in range(2):  # the second time by how much the law's spline is off straight lines
+        force = np.append(0.0, np.cumsum(_rises(_ramps(knots, c), f - bulge)))
+        bulge = PchipInterpolator(knots, force)(c) - np.interp(c, knots, force)
     force[1:] += _STEEP * force[-1] * np.arange(1, points) / points
     if unloading is None:
         return Tabulated(knots.tolist(), force.tolist())
     c, f = _pressed("unloading", *unloading)
-    back = np.append(0.0, force[1:] * _fitted_shares(knots, c, f, _spline_at(knots, force, c)))
+    # The share of the loading rises to 1: all rises together are 1, by a firm condition.
+    ramps = np.insert(_ramps(knots, c)[:, 1:], 0, 1.0, axis=1) * np.interp(c, knots, force)[:, None]
+    firm = _FIRM * len(c) ** 0.5 * force[-1]
+    shares = np.cumsum(_rises(np.vstack([ramps, np.full(points - 1, firm)]), np.append(f, firm)))
+    shares[-1] = 1.0
+    back = np.append(0.0, force[1:] * np.minimum(shares, 1.0))
     return Tabulated(knots.tolist(), force.tolist(), back.tolist())
 
 
@@ -55,39 +62,13 @@ def _pressed(name: str, c: Array, f: Array) -> tuple[Array, Array]:
     return c[keep], f[keep]
 
 
-def _fitted_loading(knots: Array, c: Array, f: Array) -> Array:
-    """Return the forces at the knots whose monotone spline from 0 fits points best."""
+def _ramps(knots: Array, c: Array) -> Array:
+    """Return how far each point is within each interval of the knots, from 0 to 1, (N, K - 1)."""
+    return np.asarray(np.clip((c[:, None] - knots[None, :-1]) / np.diff(knots), 0.0, 1.0))
+
+
+def _rises(ramps: Array, wanted: Array) -> Array:
+    """Return the rises, none below 0, whose sum along the ramps fits points best."""
     from scipy.optimize import nnls
 
-    ramps = np.clip((c[:, None] - knots[None, :-1]) / np.diff(knots), 0.0, 1.0)
-    values = np.zeros(len(knots))
-    wanted = f
-    for _ in range(_ROUNDS):
-        rises, _ = nnls(ramps, wanted)
-        values = np.concatenate([[0.0], np.cumsum(rises)])
-        straight = np.interp(c, knots, values)
-        wanted = f - (_spline_at(knots, values, c) - straight)
-    return values
-
-
-def _fitted_shares(knots: Array, c: Array, f: Array, loading: Array) -> Array:
-    """Return the shares of the loading at the knots, rising to 1, that fit points best."""
-    from scipy.optimize import nnls
-
-    ramps = np.clip((c[:, None] - knots[None, 1:-1]) / np.diff(knots)[1:], 0.0, 1.0)
-    rows = loading[:, None] * np.column_stack([np.ones(len(c)), ramps])
-    firm = _FIRM * len(c) ** 0.5 * loading.max()  # that all rises together are 1
-    rises, _ = nnls(np.vstack([rows, np.full(rows.shape[1], firm)]), np.append(f, firm))
-    shares: Array = np.minimum(np.cumsum(rises), 1.0)
-    shares[-1] = 1.0
-    return shares
-
-
-def _spline_at(knots: Array, values: Array, c: Array) -> Array:
-    """Return the monotone spline through the values at some compressions."""
-    pieces = np.array(monotone_spline(knots.tolist(), values.tolist()))
-    at = np.maximum(np.searchsorted(pieces[:, 0], c, side="right") - 1, 0)
-    begin, a, b, s = pieces[at].T
-    beyond = c - begin
-    spline: Array = a + beyond * (b + beyond * s)
-    return spline
+    return np.asarray(nnls(ramps, wanted)[0])

@@ -53,24 +53,18 @@ class Cycle:
     Parameters
     ----------
     loading, unloading : ndarray of int
-        Their places in the record; either may be empty, not both.
-    held : ndarray of int
-        Places at which the press stood still at the peak.
+        Their places in the record; either may be empty.
     peak, peak_error : float
         The compression in m of the turning point, and its standard error.
-    sampled : bool
-        Whether the turning point is the last point of the loading, and shares its error.
     """
 
     loading: NDArray[np.intp]
     unloading: NDArray[np.intp]
-    held: NDArray[np.intp]
     peak: float
     peak_error: float
-    sampled: bool = False
 
 
-def record_of(data: "xr.Dataset | Any", compliance: float, sign: int | None) -> Record:
+def record_of(data: "xr.Dataset | Any", compliance: float) -> Record:
     """Return a press curve's record; see `press`.
 
     Raises
@@ -94,7 +88,7 @@ def record_of(data: "xr.Dataset | Any", compliance: float, sign: int | None) -> 
     if np.ptp(compression) == 0.0 or np.ptp(force) == 0.0:
         constant = "compression" if np.ptp(compression) == 0.0 else "force"
         raise InvalidValue(f"{constant} must change in a press curve, got one value throughout")
-    compression, force, turned = _oriented(compression, force, sign)
+    compression, force, turned = _oriented(compression, force)
     notes += turned
     if compliance:
         compression = compression - compliance * force
@@ -124,15 +118,13 @@ def cycles(record: Record) -> list[Cycle]:
     return [_cycle(record, edges[k], int(peak), edges[k + 1]) for k, peak in enumerate(peaks)]
 
 
-def _oriented(compression: Array, force: Array, sign: int | None) -> tuple[Array, Array, list[str]]:
+def _oriented(compression: Array, force: Array) -> tuple[Array, Array, list[str]]:
     """Return both columns with signs by which they increase with the load, and notes on that."""
     from scipy.stats import linregress
 
     notes = []
-    if sign is None:
-        quiet = float(np.median(np.sort(np.abs(force))[: max(1, len(force) // 10)]))
-        sign = 1 if force.max() - quiet >= -force.min() - quiet else -1
-    if sign < 0:
+    quiet = float(np.median(np.sort(np.abs(force))[: max(1, len(force) // 10)]))
+    if force.max() - quiet < -force.min() - quiet:
         force = -force
         notes.append("The sign of the force was reversed, so that compression is positive.")
     line = linregress(compression, force)
@@ -149,51 +141,41 @@ def _oriented(compression: Array, force: Array, sign: int | None) -> tuple[Array
 
 def _cycle(record: Record, start: int, peak: int, end: int) -> Cycle:
     """Return a cycle around a peak, between the valleys (or ends) before and after it."""
-    path = record.compression
-    reach = max(_HELD_WITHIN * float(np.ptp(path)), 4.0 * record.jitter)
-    near = np.flatnonzero(path[start : end + 1] >= path[peak] - reach) + start
+    path = record.compression[start : end + 1]
+    reach = max(_HELD_WITHIN * float(np.ptp(record.compression)), 4.0 * record.jitter)
+    near = np.flatnonzero(path >= record.compression[peak] - reach) + start
     first, last = int(near[0]), int(near[-1])
-    step = float(np.median(np.abs(np.diff(path[start : end + 1]))))
+    step = float(np.median(np.abs(np.diff(path))))
     # points near the peak of a press that never stands still
     ramp = 2.0 * reach / step + 3.0 if step > 0.0 else 3.0
-    still = last - first + 1 > 2.0 * ramp and last - first + 1 >= _LEAST_POINTS
-    if still:
-        held = np.arange(first, last + 1)
-        level, error = float(np.median(path[held])), record.jitter / np.sqrt(len(held))
+    if last - first + 1 > max(2.0 * ramp, _LEAST_POINTS - 1):
+        held = record.compression[first : last + 1]
+        level, error = float(np.median(held)), record.jitter / np.sqrt(len(held))
     else:
-        first, last, held = peak, peak + 1, np.empty(0, np.intp)
-        level, error = _turn(record, start, peak, end)
+        first, last = peak, peak + 1
+        level, error = _turn(path, peak - start, record.jitter)
     loading, unloading = (
         places if len(places) >= _LEAST_POINTS else places[:0]
         for places in (np.arange(start, first + 1), np.arange(last, end + 1))
     )
-    sampled = not still and level == path[peak]
-    return Cycle(loading, unloading, held, level, error, sampled)
+    return Cycle(loading, unloading, level, error)
 
 
-def _turn(record: Record, start: int, peak: int, end: int) -> tuple[float, float]:
-    """Return the compression at the turning point, and its standard error.
+def _turn(path: Array, peak: int, jitter: float) -> tuple[float, float]:
+    """Return the compression at the turning point of a cycle, and its standard error.
 
-    It is the peak point. If the noise exceeds half of the travel per point, it is the intersection
-    of two straight lines, fitted to the loading and the unloading near the peak.
+    It is the peak point. If the noise exceeds half of the travel per point, it is where two
+    straight lines meet, fitted to the points near the peak.
     """
-    path = record.compression
-    sides = [(start, peak), (peak, end)]
-    steps = [abs(path[b] - path[a]) / (b - a) for a, b in sides if b - a >= 2]
-    step = float(max(steps, default=0.0))
-    if step == 0.0 or record.jitter < 0.5 * step:
-        return float(path[peak]), record.jitter
-    reach = int(np.clip(8.0 * record.jitter / step, 4, 400))
-    lines = []
-    for low, high in sides:
-        a, b = max(low, peak - reach), min(high, peak + reach)
-        if b - a >= 3:
-            lines.append(np.polyfit(np.arange(a, b + 1) - peak, path[a : b + 1], 1))
-    error = record.jitter / np.sqrt(max(1.0, reach / 4.0))  # standard error of a line at its end
-    if len(lines) == 2 and lines[0][0] > lines[1][0]:
-        at = (lines[1][1] - lines[0][1]) / (lines[0][0] - lines[1][0])
-        if abs(at) <= reach:
-            return float(lines[0][0] * at + lines[0][1]), float(error / np.sqrt(2.0))
-    if len(lines) == 1:
-        return float(lines[0][1]), float(error)
-    return float(path[max(0, peak - 2) : peak + 3].mean()), record.jitter / 2.0
+    from scipy.ndimage import uniform_filter1d
+
+    step = max(path[peak] - path[0], path[peak] - path[-1]) / max(peak, len(path) - 1 - peak)
+    if jitter < 0.5 * step or step <= 0.0:
+        return float(path[peak]), jitter
+    reach = int(np.clip(8.0 * jitter / step, 4, 400))
+    peak = int(np.argmax(uniform_filter1d(path, reach)))
+    near = path[max(peak - reach, 0) : peak + reach + 1]
+    since = np.arange(len(near)) - min(peak, reach)
+    lines = np.stack([np.ones(len(near)), np.minimum(since, 0), np.maximum(since, 0)], axis=1)
+    weights = np.linalg.pinv(lines)[0]
+    return float(weights @ near), float(jitter * np.linalg.norm(weights))
