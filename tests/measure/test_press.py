@@ -201,16 +201,6 @@ def test_correlated_noise_has_larger_errors():
         (3.0, "data must be"),
         (xr.Dataset({"x": ("point", [1.0])}), "data must be"),
     ],
-    ids=[
-        "two points",
-        "constant force",
-        "constant compression",
-        "nan",
-        "lengths",
-        "noise",
-        "way out",
-        "exp",
-    ],
 )
 def test_what_is_no_press_curve(data, message):
     with pytest.raises((InvalidType, InvalidValue), match=message) as caught:
