@@ -12,7 +12,7 @@ import math
 import re
 import shutil
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 BLOCK = 2**16
 """Drops in a block, at most."""
 
-_AHEAD = 3  # blocks submitted to a cluster for each of its threads
+_TOGETHER = 4  # blocks submitted to a cluster at a time, for each of its threads
 _DIMENSION = re.compile(r"\w[\w.-]*")  # a name that all kinds of file can have
 _Axes: TypeAlias = Mapping[str, tuple[str, NDArray[np.float64]]]  # dimension and values, by path
 _Done: TypeAlias = Iterator[tuple[Block, "xr.Dataset"]]
@@ -166,7 +166,7 @@ def _is_complete(out: Path, form: Form) -> bool:
 
 
 def _begin(out: Path, form: Form) -> Path:
-    """Return the file to go on with: a part of this sweep, or one with lost blocks, or a new one."""
+    """Return the file to go on with: a part of this sweep, one with lost blocks, or a new one."""
     partial = out.with_name(f"{out.name}.partial")
     if partial.exists() and out.exists():
         raise FileError(
@@ -219,34 +219,19 @@ def _solved(
     jobs = ((block, (drop, _part(axes, block), options)) for block in todo)
     if client is None:
         return ((block, solve_block(*job)) for block, job in jobs)
-    return _on_cluster(client, jobs)
+    return _on_cluster(client, list(jobs))
 
 
-def _on_cluster(cluster: Any, jobs: Iterator[tuple[Block, Any]]) -> _Done:
-    import distributed
-
-    ready: Any = distributed.as_completed
-    running = ready()
-    waiting: dict[Any, Block] = {}
+def _on_cluster(cluster: Any, jobs: Sequence[tuple[Block, Any]]) -> _Done:
+    """Yield blocks with their results, some for each thread of the cluster at a time."""
     with _cluster_errors():
-        ahead = _AHEAD * max(1, sum(cluster.nthreads().values()))
-    for block, job in jobs:
+        together = _TOGETHER * max(1, sum(cluster.nthreads().values()))
+    for start in range(0, len(jobs), together):
+        some = jobs[start : start + together]
         with _cluster_errors():
-            future = cluster.submit(solve_block, *job, pure=False)
-            running.add(future)
-        waiting[future] = block
-        if len(waiting) >= ahead:
-            yield _next(running, waiting)
-    while waiting:
-        yield _next(running, waiting)
-
-
-def _next(running: Any, waiting: dict[Any, Block]) -> tuple[Block, "xr.Dataset"]:
-    with _cluster_errors():
-        future = next(running)
-        data = future.result()
-        future.release()
-    return waiting.pop(future), data
+            futures = [cluster.submit(solve_block, *job, pure=False) for _, job in some]
+            found = cluster.gather(futures)
+        yield from zip((block for block, _ in some), found, strict=True)
 
 
 @contextlib.contextmanager
