@@ -5,10 +5,11 @@ with the name, so that the reader of a file can prefix the path (``mass must be 
 ``balls.1.mass must be …``).
 """
 
+import itertools
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Set
 from numbers import Integral, Real
-from typing import TypeVar
+from typing import Any, TypeVar
 
 _Given = TypeVar("_Given")
 
@@ -39,6 +40,25 @@ class FileError(StackbounceError, OSError):
 
 class MissingExtra(StackbounceError, ImportError):
     """A library that an extra of the package brings, and that is not installed."""
+
+
+def listed(name: str, values: Any, most: int) -> tuple[Any, ...]:
+    """Return the values of a list, which may have no end; raise if they are more than ``most``.
+
+    Examples
+    --------
+    >>> listed("gaps", [0.0, 1e-3], 10)
+    (0.0, 0.001)
+    """
+    if isinstance(values, str | bytes | Mapping | Set) or not isinstance(values, Iterable):
+        raise InvalidType(f"{name} must be a list, got {shown(values)}")
+    try:
+        items = tuple(itertools.islice(values, most + 1))
+    except TypeError:  # of an array of one number
+        raise InvalidType(f"{name} must be a list, got {shown(values)}") from None
+    if len(items) > most:
+        raise InvalidValue(f"{name} must hold at most {most} values, got more")
+    return items
 
 
 def finite(name: str, value: object, of: str = "") -> float:

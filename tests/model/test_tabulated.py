@@ -76,17 +76,17 @@ def test_what_is_no_table_is_refused(given, words):
 
 
 def test_what_is_no_sequence_is_refused():
-    with pytest.raises(errors.InvalidType, match="force must be a sequence of numbers, got 'many'"):
+    with pytest.raises(errors.InvalidType, match="force must be a list, got 'many'"):
         sb.Tabulated(X, "many")
-    with pytest.raises(errors.InvalidValue, match=r"of more, stackbounce.measure.press"):
+    with pytest.raises(errors.InvalidValue, match="compression must hold at most 16 values"):
         sb.Tabulated(range(MOST_POINTS + 1), range(MOST_POINTS + 1))
     for value in (np.array(3.0), {0.0, 1e-3}):
-        with pytest.raises(errors.InvalidType, match="compression must be a sequence of numbers"):
+        with pytest.raises(errors.InvalidType, match="compression must be a list"):
             sb.Tabulated(value, Y)
 
 
 def test_a_sequence_may_be_endless():
-    with pytest.raises(errors.InvalidValue, match="from 2 to 16 points, got more"):
+    with pytest.raises(errors.InvalidValue, match="must hold at most 16 values, got more"):
         sb.Tabulated(itertools.count(), Y)
     with pytest.raises(errors.InvalidValue, match="balls must hold at most 100000 values"):
         sb.Drop(itertools.repeat(sb.Ball(1.0)), [sb.Spring(1.0)], impact_speed=1.0)

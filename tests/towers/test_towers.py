@@ -194,7 +194,7 @@ def test_how_many_stacks_there_are():
         ({"gaps": []}, InvalidValue, "gaps must be different ones, at least one"),
         ({"gaps": [0.0, 0.0]}, InvalidValue, "gaps must be different ones"),
         ({"gaps": [-1.0]}, InvalidValue, "gaps.0 must be a number of metres, 0 or above"),
-        ({"gaps": 0.0}, InvalidType, "gaps must be a list of numbers"),
+        ({"gaps": 0.0}, InvalidType, "gaps must be a list"),
         ({"impact_speed": 0.0}, InvalidValue, "impact_speed must be a positive number"),
     ],
 )
@@ -298,7 +298,7 @@ def test_masses_are_best_at_the_first_gap():
         ([1.0, 0.1, 1.0], {}, InvalidValue, "outer masses that differ, unless within is given"),
         ([1.0, 0.1, 0.1], {"within": (2.0, 1.0)}, InvalidValue, "the smaller first, got 2.0 and"),
         ([1.0, 0.1, 0.1], {"within": (-2.0, 1.0)}, InvalidValue, "within must be a positive"),
-        ([1.0, 0.1, 0.1], {"within": 3.0}, InvalidType, "within must be two masses, got 3.0"),
+        ([1.0, 0.1, 0.1], {"within": 3.0}, InvalidType, "within must be a list, got 3.0"),
         ([1.0, 0.1, 0.1], {"contacts": [1]}, InvalidType, "contacts must be a function"),
     ],
 )

@@ -1,13 +1,20 @@
 """A drop: balls, the contacts below them, the gaps between them, and the impact speed."""
 
-import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from typing import Annotated, Any
 
-from stackbounce.errors import InvalidType, InvalidValue, finite, non_negative, positive, shown
+from stackbounce.errors import (
+    InvalidType,
+    InvalidValue,
+    finite,
+    listed,
+    non_negative,
+    positive,
+    shown,
+)
 from stackbounce.model.ball import Ball
 from stackbounce.model.laws import LAWS, ContactLaw
 from stackbounce.units import Unit
@@ -79,10 +86,10 @@ class Drop:
     gravity: Annotated[float, Unit("m/s**2")] = 0.0
 
     def __post_init__(self) -> None:
-        balls = _items("balls", self.balls)
-        contacts = _items("contacts", self.contacts)
+        balls = listed("balls", self.balls, _MOST_ITEMS)
+        contacts = listed("contacts", self.contacts, _MOST_ITEMS)
         given: object = self.gaps
-        gaps = (0.0,) * (len(balls) - 1) if given is None else _items("gaps", given)
+        gaps = (0.0,) * (len(balls) - 1) if given is None else listed("gaps", given, _MOST_ITEMS)
         _check_balls(balls)
         _check_contacts(contacts, len(balls))
         if len(gaps) != len(balls) - 1:
@@ -115,7 +122,7 @@ class Drop:
             return {"impact_speed": positive("impact_speed", self.impact_speed, "m/s")}
         if self.height is not None:
             return {"height": positive("height", self.height, "metres")}
-        velocities = _items("velocities", self.velocities)
+        velocities = listed("velocities", self.velocities, _MOST_ITEMS)
         if len(velocities) != count:
             raise InvalidValue(
                 f"velocities must hold one number per ball ({count}), got {len(velocities)}"
@@ -249,19 +256,6 @@ class Drop:
         from stackbounce.model.toml import write_toml
 
         return write_toml(self.to_mapping())
-
-
-def _items(name: str, values: object) -> tuple[Any, ...]:
-    if isinstance(values, str | bytes | Mapping | set | frozenset):
-        raise InvalidType(f"{name} must be a list, got {shown(values)}")
-    given: Any = values
-    try:
-        items = tuple(itertools.islice(given, _MOST_ITEMS + 1))
-    except TypeError:
-        raise InvalidType(f"{name} must be a list, got {shown(values)}") from None
-    if len(items) > _MOST_ITEMS:
-        raise InvalidValue(f"{name} must hold at most {_MOST_ITEMS} values, got more")
-    return items
 
 
 def _check_balls(balls: tuple[object, ...]) -> None:

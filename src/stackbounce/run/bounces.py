@@ -13,16 +13,8 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Status
 
-BOUNCE = np.dtype(
-    [
-        ("time", "f8"),
-        ("impact_speed", "f8"),
-        ("rebound_speed", "f8"),
-        ("contact_time", "f8"),
-        ("apex_time", "f8"),
-        ("height", "f8"),
-    ]
-)
+_FIELDS = ("time", "impact_speed", "rebound_speed", "contact_time", "apex_time", "height")
+BOUNCE = np.dtype([(name, "f8") for name in _FIELDS])
 _MOST = 1_000_000
 
 

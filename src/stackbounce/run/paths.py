@@ -3,13 +3,14 @@
 import functools
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
-from types import UnionType
-from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
+from dataclasses import dataclass, replace
+from typing import Any, get_type_hints
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.model import Ball, ContactLaw, Drop
-from stackbounce.units import Unit
+from stackbounce.units import unit_of
+
+_SEVERAL = ("balls", "contacts", "gaps", "velocities")  # fields of a drop with many numbers
 
 
 @dataclass(frozen=True)
@@ -158,14 +159,5 @@ def _changed(part: Any, chosen: Mapping[str, float], path: str) -> Any:
 def _units(kind: Any) -> dict[str, str]:
     """Return the SI units of those fields of a class that are single numbers, by field."""
     hints = get_type_hints(kind, include_extras=True)
-    found = {field.name: _unit(hints[field.name]) for field in fields(kind)}
+    found = {name: unit_of(hint) for name, hint in hints.items() if name not in _SEVERAL}
     return {name: unit.symbol for name, unit in found.items() if unit is not None}
-
-
-def _unit(hint: Any) -> Unit | None:
-    """Return the unit in the type hint of a float or an optional float; None for other types."""
-    optional = get_origin(hint) in (Union, UnionType)
-    for choice in get_args(hint) if optional else (hint,):
-        if get_origin(choice) is Annotated and get_args(choice)[0] is float:
-            return next((note for note in choice.__metadata__ if isinstance(note, Unit)), None)
-    return None

@@ -20,17 +20,15 @@ from stackbounce.version import __version__
 if TYPE_CHECKING:
     import xarray
 
-INTERVAL = np.dtype(
-    [
-        ("contact", "i8"),
-        ("start", "f8"),
-        ("end", "f8"),
-        ("peak_force", "f8"),
-        ("peak_compression", "f8"),
-        ("impulse", "f8"),
-        ("peak_time", "f8"),
-    ]
-)
+_COLUMNS = {  # of the log, by the field of an interval
+    "start": codes.START,
+    "end": codes.TIME,
+    "peak_force": codes.PEAK_FORCE,
+    "peak_compression": codes.PEAK_COMPRESSION,
+    "impulse": codes.IMPULSE,
+    "peak_time": codes.PEAK_TIME,
+}
+INTERVAL = np.dtype([("contact", "i8"), *((name, "f8") for name in _COLUMNS)])
 EVENT = np.dtype(
     [
         ("time", "f8"),
@@ -210,12 +208,8 @@ class Result:
         rows = self._rows[np.isin(self._rows[:, codes.KIND], (codes.RELEASE, codes.COLLISION))]
         out = np.empty(len(rows), dtype=INTERVAL)
         out["contact"] = rows[:, codes.CONTACT]
-        out["start"] = rows[:, codes.START]
-        out["end"] = rows[:, codes.TIME]
-        out["peak_force"] = rows[:, codes.PEAK_FORCE]
-        out["peak_compression"] = rows[:, codes.PEAK_COMPRESSION]
-        out["impulse"] = rows[:, codes.IMPULSE]
-        out["peak_time"] = rows[:, codes.PEAK_TIME]
+        for name, column in _COLUMNS.items():
+            out[name] = rows[:, column]
         return _frozen(out[np.lexsort((out["contact"], out["start"]))])
 
     @functools.cached_property

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.model import Drop
-from stackbounce.run.paths import Number, number_at, numbers_of
+from stackbounce.run.paths import number_at
 from stackbounce.units import count_written, quantity
 
 _MOST = 10**9
@@ -71,7 +71,7 @@ def axis(drop: Drop, text: str) -> tuple[str, NDArray[np.float64]]:
     if not equals or not written:
         raise InvalidValue(f"--over must be {_RIGHT}, got {shown(text)}")
     path, written = path.strip(), written.strip()
-    number = _number(drop, path)
+    number = number_at(drop, path)
     parts = written.split(":")
     if len(parts) == 1:
         values = [quantity(text, number.unit, path) for text in written.split(",")]
@@ -92,38 +92,3 @@ def axis(drop: Drop, text: str) -> tuple[str, NDArray[np.float64]]:
             f"got {written}"
         )
     return path, np.geomspace(start, stop, count)
-
-
-def _number(drop: Drop, path: str) -> Number:
-    """Return the parameter at a path; if only other drops have it, raise with the reason."""
-    try:
-        return number_at(drop, path)
-    except InvalidValue as error:
-        reason = _reason(drop, path.split("."))
-        if not reason:
-            raise
-        raise InvalidValue(f"{path} is not a parameter of this drop: {reason}") from error
-
-
-def _reason(drop: Drop, words: list[str]) -> str:
-    known = numbers_of(drop)
-    if len(words) == 1:
-        falls = [name for name in ("height", "impact_speed", "velocities") if name in known]
-        if words[0] in ("height", "impact_speed", "speed") and falls:
-            return f"it is given by its {falls[0]} (--height or --speed choose)"
-        same = [path for path in known if path.endswith(f".{words[0]}")]
-        return f"say which, {' or '.join(same)}" if same else ""
-    part, index, *field = words
-    count = {"balls": len(drop.balls), "contacts": len(drop.contacts), "gaps": len(drop.gaps)}
-    i = count_written(index)
-    if part not in count or i is None:
-        return ""
-    if i >= count[part]:
-        last = count[part] - 1
-        return f"its {part} count from 0, the lowest, to {last}" if last >= 0 else ""
-    if part == "contacts" and len(field) == 1:
-        law = type(drop.contacts[i]).__name__
-        own = [path.rpartition(".")[2] for path in known if path.startswith(f"contacts.{index}.")]
-        if own:
-            return f"contact {index} is a {law}, which has {', '.join(own)} (--contact chooses)"
-    return ""

@@ -1,7 +1,8 @@
 """A sweep larger than memory, written to a file block by block; it can be stopped and resumed.
 
-Until it is complete the file is called ``NAME.partial``. The file ``NAME.progress`` beside it says
-who writes it (`progress`): one process writes at a time. The final bytes do not depend on how often
+Until it is complete the file is called ``NAME.partial``, and ``NAME.begun`` until all but the
+results is there. ``NAME.progress`` beside it says who writes it (`progress`): one process writes at
+a time. The final bytes do not depend on how often
 the sweep was stopped. A file that is complete has all its blocks, and each can be read; those that
 cannot are computed again.
 """
@@ -11,7 +12,7 @@ import math
 import re
 import shutil
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -25,7 +26,7 @@ from stackbounce.run.blocks import Block, sides, size
 from stackbounce.sweeps import files
 from stackbounce.sweeps.dataset import check_along, read_values, sweep
 from stackbounce.sweeps.files import Form
-from stackbounce.sweeps.progress import Progress, only_writer, tidy
+from stackbounce.sweeps.progress import only_writer
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
 BLOCK = 2**16
 """Drops in a block, at most."""
 
-_AHEAD = 3  # blocks submitted to a cluster for each of its threads
+_TOGETHER = 4  # blocks submitted to a cluster at a time, for each of its threads
 _DIMENSION = re.compile(r"\w[\w.-]*")  # a name that all kinds of file can have
 _Axes: TypeAlias = Mapping[str, tuple[str, NDArray[np.float64]]]  # dimension and values, by path
 _Done: TypeAlias = Iterator[tuple[Block, "xr.Dataset"]]
@@ -106,14 +107,13 @@ def write(
     total = math.prod(shape)
     try:
         if _is_complete(out, form):
-            tidy(out)
             report(total, total)
             return out
-        with only_writer(out) as log:
-            partial = _begin(out, form, log)
-            if partial is None:  # it has been completed by now
+        with only_writer(out):
+            if _is_complete(out, form):  # by another process, since then
                 report(total, total)
                 return out
+            partial = _begin(out, form)
             todo, _ = files.lost(partial, form)
             finished = total - sum(map(size, todo))
             report(finished, total)
@@ -123,7 +123,6 @@ def write(
                     finished += size(part)
                     report(finished, total)
             partial.rename(out)
-            log.remove()
     except FileError:
         raise
     except OSError as error:
@@ -166,58 +165,32 @@ def _is_complete(out: Path, form: Form) -> bool:
     return not files.lost(out, form)[0]
 
 
-def _begin(out: Path, form: Form, log: Progress) -> Path | None:
-    """Create the partial file or resume it, as its writer; return None if the sweep is complete."""
+def _begin(out: Path, form: Form) -> Path:
+    """Return the file to go on with: a part of this sweep, one with lost blocks, or a new one."""
     partial = out.with_name(f"{out.name}.partial")
-    if partial.exists() and not log.is_known:
-        log.remove()
-        raise FileError(
-            f"{partial} exists, and no {out.name}.progress says what it is: "
-            "move it away, or choose another name"
-        )
-    log.sign()
-    try:
-        if _is_complete(out, form):
-            log.remove()
-            return None
-        if partial.exists() and log.is_ready:
-            _check_part(out, partial, form)
-            return partial
-        if partial.exists():
-            shutil.rmtree(partial)
-        if out.exists():
-            _warn_of_lost(out, form)
-            out.rename(partial)
-        else:
-            files.create(partial, form)
-        log.begin()
-    except FileError:
-        log.withdraw()
-        raise
-    return partial
-
-
-def _check_part(out: Path, partial: Path, form: Form) -> None:
-    """Refuse to go on with a partial file that is not of this sweep, or not the only one."""
-    if out.exists():
+    if partial.exists() and out.exists():
         raise FileError(
             f"{out} has lost blocks, and {partial} is a second one, not complete: "
             "remove one of the two"
         )
-    if not _is_same(partial, form):
-        raise FileError(
-            f"{partial} is part of another sweep: remove it and {partial.stem}.progress, "
-            "or choose another name"
+    if partial.exists():
+        if not _is_same(partial, form):
+            raise FileError(
+                f"{partial} is part of another sweep: remove it, or choose another name"
+            )
+    elif out.exists():
+        lost, count = files.lost(out, form)
+        warnings.warn(
+            f"{out}: {len(lost)} of {count} blocks are missing or damaged, and computed again",
+            stacklevel=3,
         )
-
-
-def _warn_of_lost(out: Path, form: Form) -> None:
-    """Warn of a whole file that has lost blocks."""
-    lost, count = files.lost(out, form)
-    warnings.warn(
-        f"{out}: {len(lost)} of {count} blocks are missing or damaged, and computed again",
-        stacklevel=4,
-    )
+        out.rename(partial)
+    else:
+        begun = out.with_name(f"{out.name}.begun")
+        shutil.rmtree(begun, ignore_errors=True)  # of a writer that was killed
+        files.create(begun, form)
+        begun.rename(partial)
+    return partial
 
 
 def _is_same(path: Path, form: Form) -> bool:
@@ -246,34 +219,19 @@ def _solved(
     jobs = ((block, (drop, _part(axes, block), options)) for block in todo)
     if client is None:
         return ((block, solve_block(*job)) for block, job in jobs)
-    return _on_cluster(client, jobs)
+    return _on_cluster(client, list(jobs))
 
 
-def _on_cluster(cluster: Any, jobs: Iterator[tuple[Block, Any]]) -> _Done:
-    import distributed
-
-    ready: Any = distributed.as_completed
-    running = ready()
-    waiting: dict[Any, Block] = {}
+def _on_cluster(cluster: Any, jobs: Sequence[tuple[Block, Any]]) -> _Done:
+    """Yield blocks with their results, some for each thread of the cluster at a time."""
     with _cluster_errors():
-        ahead = _AHEAD * max(1, sum(cluster.nthreads().values()))
-    for block, job in jobs:
+        together = _TOGETHER * max(1, sum(cluster.nthreads().values()))
+    for start in range(0, len(jobs), together):
+        some = jobs[start : start + together]
         with _cluster_errors():
-            future = cluster.submit(solve_block, *job, pure=False)
-            running.add(future)
-        waiting[future] = block
-        if len(waiting) >= ahead:
-            yield _next(running, waiting)
-    while waiting:
-        yield _next(running, waiting)
-
-
-def _next(running: Any, waiting: dict[Any, Block]) -> tuple[Block, "xr.Dataset"]:
-    with _cluster_errors():
-        future = next(running)
-        data = future.result()
-        future.release()
-    return waiting.pop(future), data
+            futures = [cluster.submit(solve_block, *job, pure=False) for _, job in some]
+            found = cluster.gather(futures)
+        yield from zip((block for block, _ in some), found, strict=True)
 
 
 @contextlib.contextmanager

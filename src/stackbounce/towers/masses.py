@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, StackbounceError, positive, shown
+from stackbounce.errors import InvalidType, InvalidValue, listed, positive, shown
 from stackbounce.extras import need
 from stackbounce.model import Ball, ContactLaw, Drop
 from stackbounce.run.options import run_options
@@ -147,12 +147,10 @@ def mass_range(drop: Drop, within: object) -> tuple[float, float]:
         low, high = outer
         right = "balls must have outer masses that differ, unless within is given"
     else:
-        try:
-            low, high = (positive("within", mass, "kilograms") for mass in within)  # type: ignore[attr-defined]
-        except (TypeError, ValueError) as error:
-            if isinstance(error, StackbounceError):
-                raise
-            raise InvalidType(f"within must be two masses, got {shown(within)}") from None
+        given = listed("within", within, 2)
+        if len(given) != 2:
+            raise InvalidType(f"within must be two masses, got {shown(within)}")
+        low, high = (positive("within", mass, "kilograms") for mass in given)
         right = "within must be two masses, the smaller first"
     if not low < high:
         raise InvalidValue(f"{right}, got {low!r} and {high!r}")

@@ -12,6 +12,7 @@ from stackbounce.errors import (
     InvalidType,
     InvalidValue,
     StackbounceError,
+    listed,
     non_negative,
     positive,
     shown,
@@ -247,12 +248,8 @@ _pressed = functools.lru_cache(between)
 
 
 def _checked_gaps(gaps: Any) -> list[float]:
-    try:
-        found = [non_negative(f"gaps.{i}", gap, "metres") for i, gap in enumerate(gaps)]
-    except TypeError as error:
-        if isinstance(error, InvalidType):
-            raise
-        raise InvalidType(f"gaps must be a list of numbers, got {shown(gaps)}") from None
+    given = listed("gaps", gaps, _MOST)
+    found = [non_negative(f"gaps.{i}", gap, "metres") for i, gap in enumerate(given)]
     if not found or len(set(found)) < len(found):
         raise InvalidValue(f"gaps must be different ones, at least one, got {shown(gaps)}")
     return found

@@ -111,9 +111,7 @@ restitution 0.75'
 
     def engine_numbers(self, varied: Mapping[str, Any] = {}) -> EngineNumbers:
         """Return the law's numbers: k, the share e**2 of energy returned, c_b and r."""
-        k, e = (varied.get(name, getattr(self, name)) for name in ("stiffness", "restitution"))
-        knee = varied.get("buckling_compression", self.buckling_compression)
-        ratio = varied.get("stiffness_ratio", self.stiffness_ratio)
+        k, knee, ratio, e = self.values(varied)
         return FORMS[self.form], k, e * e, knee, ratio
 
     @property

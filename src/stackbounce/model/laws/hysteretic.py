@@ -141,13 +141,11 @@ class Hysteretic(ContactLaw):
 
     def engine_numbers(self, varied: Mapping[str, Any] = {}) -> EngineNumbers:
         """Return the law's numbers, with n from e where e is what is known of the loss."""
-        k, p = (varied.get(name, getattr(self, name)) for name in ("stiffness", "exponent"))
-        n = varied.get("unloading_exponent", self.unloading_exponent)
+        k, p, e, n = self.values(varied)
         by_restitution = self.derived == "unloading_exponent" and "unloading_exponent" not in varied
         if "restitution" in varied or (by_restitution and "exponent" in varied):
             import numpy as np
 
-            e = varied.get("restitution", self.restitution)
             n = np.maximum(p, (p + 1.0) / e / e - 1.0)
         return FORMS[self.form], k, p, n, 0.0
 

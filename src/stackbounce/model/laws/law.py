@@ -240,6 +240,10 @@ class ContactLaw:
             fourth = varied.get(self.fourth_number, fourth)
         return codes.FORMS[self.form], first, second, third, fourth
 
+    def values(self, varied: Mapping[str, Any]) -> list[Any]:
+        """Return the values of all parameters, of which some vary, see `engine_numbers`."""
+        return [varied.get(name, getattr(self, name)) for name in self.quantities()]
+
     def pieces(self) -> list[float]:
         """Return the pieces of the curves of a law that is a table, see `engine.pieces`."""
         return []

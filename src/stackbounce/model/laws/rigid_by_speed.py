@@ -86,13 +86,8 @@ class RigidBySpeed(Rigid):
 
     def engine_numbers(self, varied: Mapping[str, Any] = {}) -> EngineNumbers:
         """Return the law's numbers, with k of ``e = k v**-p`` in place of a stiffness."""
-        e, v, p, scatter, seed = self._numbers(varied)
+        e, v, p, scatter, seed = self.values(varied)
         return FORMS[self.form], e * powers(v, p), p, scatter, seed
-
-    def _numbers(self, varied: Mapping[str, Any]) -> list[Any]:
-        """Return restitution, speed, exponent, scatter and seed."""
-        names = ("restitution", "speed", "speed_exponent", "scatter", "seed")
-        return [varied.get(name, getattr(self, name)) for name in names]
 
     def _described_fields(self) -> list[str]:
         """Return the fields to describe: scatter and seed only where it scatters."""
@@ -174,7 +169,7 @@ class RigidLossBySpeed(RigidBySpeed):
 
     def engine_numbers(self, varied: Mapping[str, Any] = {}) -> EngineNumbers:
         """Return the law's numbers, with k of ``1 - e = k v**p`` in place of a stiffness."""
-        e, v, p, scatter, seed = self._numbers(varied)
+        e, v, p, scatter, seed = self.values(varied)
         return FORMS[self.form], (1.0 - e) * powers(v, -p), p, scatter, seed
 
     def restitution_at(self, mass: float, speed: float) -> float:

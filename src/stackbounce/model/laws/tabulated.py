@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self
 
 from stackbounce.engine.codes import FORMS
-from stackbounce.errors import InvalidType, InvalidValue, finite, shown
+from stackbounce.errors import InvalidValue, finite, listed
 from stackbounce.model.laws.law import (
     RESTITUTION,
     ContactLaw,
@@ -212,15 +212,10 @@ def _points(
     level: bool = False,
 ) -> tuple[float, ...]:
     """Return the points of a curve from 0 on; raise if they do not rise."""
-    points = tuple(
-        finite(f"{name}.{i}", value, unit) for i, value in enumerate(_first(name, values))
-    )
-    if not 2 <= len(points) <= MOST_POINTS:
-        count = len(points) if len(points) < 2 else "more"
-        raise InvalidValue(
-            f"{name} must have from 2 to {MOST_POINTS} points, got {count}: of more, "
-            "stackbounce.measure.press((compression, force)).table() makes a law"
-        )
+    given = listed(name, values, MOST_POINTS)  # of more, `press(...).table()` makes a law
+    points = tuple(finite(f"{name}.{i}", value, unit) for i, value in enumerate(given))
+    if len(points) < 2:
+        raise InvalidValue(f"{name} must have from 2 to {MOST_POINTS} points, got {len(points)}")
     if like is not None and len(points) != len(like):
         raise InvalidValue(
             f"{name} must have {len(like)} points, as compression, got {len(points)}"
@@ -236,17 +231,6 @@ def _points(
                 f"{name}.{i + 1} must be at least 0.1 % above {name}.{i}, {one!r}, got {two!r}"
             )
     return points
-
-
-def _first(name: str, values: object) -> list[object]:
-    """Return the values, which may have no end, up to one more than a curve has points."""
-    given: Any = values
-    if isinstance(values, str | bytes | Mapping | set | frozenset):
-        given = None
-    try:
-        return list(itertools.islice(given, MOST_POINTS + 1))
-    except TypeError:
-        raise InvalidType(f"{name} must be a sequence of numbers, got {shown(values)}") from None
 
 
 @functools.lru_cache(maxsize=64)
