@@ -11,7 +11,7 @@ from measure_options import row
 
 import stackbounce as sb
 from stackbounce.cli import main
-from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.errors import InvalidType
 from stackbounce.explorer.answers import records
 from stackbounce.measure import analyse
 from stackbounce.measure.kinds import KINDS, TYPED
@@ -103,13 +103,12 @@ def test_a_law_with_an_exponent_is_told_on_every_face(capfd):
     )
     time = found.contacts[0].time.nominal_value
     assert {"contact time": time}.items() <= values(json.loads(page)["found"]).items()
-    for law in (["power-law exponent=1.3"], ["power-law", "--exponent", "1.3"]):
-        assert main(["measure", str(path), "--mass", "57g", "--json", "--law", *law]) == 2
-        assert "needs what was not found: impact speed" in capfd.readouterr().err
-        arguments = ["--mass", "57g", "--speed", "4.4", "--json", "--law", *law]
-        assert main(["measure", str(path), *arguments]) == 0
-        told = json.loads(capfd.readouterr().out)
-        assert values(told["files"][0]["found"])["contact time"] == time
+    arguments = [str(path), "--mass", "57g", "--json", "--law", "power-law", "--exponent", "1.3"]
+    assert main(["measure", *arguments]) == 2
+    assert "needs what was not found: impact speed" in capfd.readouterr().err
+    assert main(["measure", *arguments, "--speed", "4.4"]) == 0
+    told = json.loads(capfd.readouterr().out)
+    assert values(told["files"][0]["found"])["contact time"] == time
 
 
 def test_the_record_of_the_lower_ball_alone_comes_with_the_page_too(capfd):
@@ -137,8 +136,6 @@ def test_an_option_that_is_not_there_or_another_function_s_is_refused():
     data = sb.read(LAB / "basketball-press.csv")
     with pytest.raises(TypeError, match="unexpected keyword argument 'holds'"):
         analyse(data, holds="table")
-    with pytest.raises(InvalidValue, match="exponent is given twice, by law and on its own"):
-        read_options({"exponent": 1.2, "law": "hertz exponent=1.3"}, lambda one: one.name)
     with pytest.raises(InvalidType, match="repeated must be true or false, got 'yes'"):
         read_options({"repeated": "yes"}, lambda one: one.name)
     for alone in ("/etc/hostname", ["a", "b"], {}):  # a request cannot name a file of the server

@@ -210,6 +210,6 @@ def touch_error(out):
 
 def test_the_command_tells_the_law(run):
     _, free, _ = run("--json")
-    code, told, _ = run("--json", "--restitution", "0.75", "--law", "hysteretic exponent=1")
+    code, told, _ = run("--json", "--restitution", "0.75", "--law", "hysteretic", "--exponent", "1")
     assert code == 0
     assert touch_error(told) < 0.7 * touch_error(free)

@@ -120,7 +120,7 @@ _TABLE: dict[str, tuple[Option, ...]] = {
                   says="On the floor, if no file gives it: '0.75 ± 0.02'."),
         Option("law", "Contact law", "none in particular", form="law", choices=lambda: LAWS,
                says="Give the constants of this contact law, and save it: "
-               f"{_listed(map(_typed, LAWS))}; with an exponent as in 'power-law exponent=1.3'. "
+               f"{_listed(map(_typed, LAWS))}. "
                "A force waveform's touches and releases are then those of this law, with smaller "
                "errors."),
         _number("exponent", "Exponent of the law", "1.3", rare=True,

@@ -106,7 +106,7 @@ def even_times(times: Array, rounded: Rounding) -> Array | None:
     odd = np.abs(np.diff(times) - step) > _ODD * step
     if 0 < np.count_nonzero(odd) < _FEW_ODD:
         return None
-    even: Array = np.polyval(np.polyfit(places, times, 1, w=1.0 / half), places)
+    even = np.asarray(np.polyval(np.polyfit(places, times, 1, w=1.0 / half), places), np.float64)
     return even if (np.abs(times - even) <= (1.0 + _SLACK) * half).all() else None
 
 
