@@ -90,8 +90,8 @@ def even_times(times: Array, rounded: Rounding) -> Array | None:
 
     Examples
     --------
-    >>> even_times(np.array([0, 0.03, 0.07, 0.1, 0.13, 0.17]), Rounding(2, 2, False)).round(3)
-    array([0.   , 0.033, 0.067, 0.1  , 0.133, 0.167])
+    >>> even_times(np.round(np.arange(100) / 30.0, 2), Rounding(2, 3, False))[:4].round(3)
+    array([0.   , 0.033, 0.067, 0.1  ])
     """
     count = len(times)
     step = (times[-1] - times[0]) / (count - 1) if count > 2 else 0.0
