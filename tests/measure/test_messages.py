@@ -112,13 +112,10 @@ def test_every_kind_that_is_offered_is_accepted(name, read):
     "names",
     [
         {1: "time", 3: "y"},
-        {"time": 1, "y": 3},
         {"a": "time", "c d": "y"},
-        {"time": "a", "y": "c d"},
-        {"time": "a", 3: "y"},
     ],
 )
-def test_columns_are_named_by_header_or_number_either_way_round(read, names):
+def test_columns_are_named_by_header_or_number(read, names):
     data = read(table("a,b,c d", np.arange(9) / 100, wave(9) + 1, wave(9)), names=names)
     assert data.attrs["holds"] == "track"
     np.testing.assert_allclose(data.y.values.ravel(), wave(9))
@@ -134,11 +131,11 @@ def test_columns_are_named_on_the_command_line_and_in_the_page(tmp_path, capfd):
     force = np.round(np.maximum(0.0, np.sin(np.arange(400) / 20.0)) ** 2, 4)
     path = tmp_path / "a.csv"
     path.write_text(table("a,CH1,CH2", np.arange(400) / 1e4, wave(400), force))
-    options = ["--column", "time=1", "--column", "force=CH2", "--json"]
+    options = ["--column", "1=time", "--column", "CH2=force", "--json"]
     assert main(["measure", str(path), *options]) == 0
     typed = capfd.readouterr().out
     assert '"contact 1: peak force"' in typed
-    found = measure_record("a.csv", path.read_bytes(), {"names": "time=1, force=CH2"})
+    found = measure_record("a.csv", path.read_bytes(), {"names": "1=time, CH2=force"})
     assert '"contact 1: peak force"' in found
 
 

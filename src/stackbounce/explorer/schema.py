@@ -5,33 +5,13 @@ pydantic adds the OpenAPI description and the limits of a request. What an answe
 the functions in `answers/`.
 """
 
-from collections.abc import Callable
-from dataclasses import MISSING, fields
-from typing import Annotated, Any, get_type_hints
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
-from pydantic_core import CoreSchema, core_schema
+from pydantic import BaseModel, ConfigDict, Field, PlainValidator, WithJsonSchema
 
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.explorer.limits import LIMITS
-from stackbounce.model import LAWS, Ball, Drop
-from stackbounce.model.schema import NO_FLOOR
-from stackbounce.units import unit_of
-
-_Json = dict[str, Any]
-
-
-class _Reader:
-    """Makes a pydantic type from a function that reads a value and one that describes it."""
-
-    def __init__(self, read: Callable[[object], Any], describe: Callable[[], _Json]) -> None:
-        self._read, self._describe = read, describe
-
-    def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(self._read)
-
-    def __get_pydantic_json_schema__(self, _: CoreSchema, __: GetJsonSchemaHandler) -> _Json:
-        return self._describe()
+from stackbounce.model import Drop
 
 
 def read_drop(value: object) -> Drop:
@@ -59,48 +39,19 @@ def read_drop(value: object) -> Drop:
     return Drop.from_mapping(value)  # type: ignore[arg-type]
 
 
-def _describe_drop() -> _Json:
-    drop = _describe(Drop)
-    laws = [_describe(law, name) for name, law in LAWS.items()]
-    laws.append(_describe_object({"law": {"const": NO_FLOOR}}, ["law"]))
-    drop["properties"]["balls"] = _describe_list(_describe(Ball), 1)
-    drop["properties"]["contacts"] = _describe_list({"anyOf": laws}, 1)
-    return drop
+_DROP = {
+    "type": "object",
+    "description": "A drop, with the keys and units of a scenario file; see `stackbounce.Drop`.",
+    "examples": [
+        {
+            "balls": [{"mass": "57 g"}],
+            "contacts": [{"law": "Spring", "stiffness": "22.5 kN/m"}],
+            "height": "1 m",
+        }
+    ],
+}
 
-
-def _describe(kind: type, law: str | None = None) -> _Json:
-    """Return the JSON schema of a dataclass; its numbers may be texts with a unit."""
-    properties: _Json = {} if law is None else {"law": {"const": law}}
-    hints = get_type_hints(kind, include_extras=True)
-    given = [entry for entry in fields(kind) if entry.init and not entry.name.startswith("_")]
-    properties |= {entry.name: _describe_field(hints[entry.name]) for entry in given}
-    missing = [entry.name for entry in given if entry.default is MISSING]
-    return _describe_object(properties, ([] if law is None else ["law"]) + missing)
-
-
-def _describe_field(hint: Any) -> _Json:
-    unit = unit_of(hint)
-    if unit is None:
-        return {"type": "string"}
-    meaning = f"in {unit.symbol}, or a text with a unit" if unit.symbol else "a pure number"
-    number: _Json = {"anyOf": [{"type": "number"}, {"type": "string"}], "description": meaning}
-    return _describe_list(number, 0) if "Sequence" in str(hint) else number
-
-
-def _describe_list(items: _Json, least: int) -> _Json:
-    return {"type": "array", "items": items, "minItems": least, "maxItems": LIMITS.balls}
-
-
-def _describe_object(properties: _Json, required: list[str]) -> _Json:
-    return {
-        "type": "object",
-        "properties": properties,
-        "required": required,
-        "additionalProperties": False,
-    }
-
-
-Scenario = Annotated[Drop, _Reader(read_drop, _describe_drop)]
+Scenario = Annotated[Drop, PlainValidator(read_drop), WithJsonSchema(_DROP)]
 """A drop, with the keys and units of a scenario file."""
 
 _Finite = Annotated[float, Field(allow_inf_nan=False)]

@@ -112,7 +112,7 @@ def _columns(value: Any, option: Option, called: str) -> Any:
     """Return a mapping of columns from ``COLUMN=VALUE`` texts, or as it is."""
     if isinstance(value, Mapping):
         return value
-    found: dict[str | int, str | int] = {}
+    found: dict[str | int, str] = {}
     for text in value.split(",") if isinstance(value, str) else value:
         name, _, meaning = (part.strip() for part in text.partition("="))
         if not (name and meaning):
@@ -120,13 +120,9 @@ def _columns(value: Any, option: Option, called: str) -> Any:
             raise InvalidValue(
                 f"{called} must be {option.value_name}, such as {example}, got {shown(text)}"
             )
-        found[_column(name)] = _column(meaning) if option.name == "names" else meaning
+        number = name.isdecimal() and len(name) < 10
+        found[int(name) if number else name] = meaning
     return found
-
-
-def _column(text: str) -> str | int:
-    """Return a column's number or its name."""
-    return int(text) if text.isdecimal() and len(text) < 10 else text
 
 
 _READERS: dict[str, Callable[[Any, Option, str], Any]] = {

@@ -90,8 +90,8 @@ def even_times(times: Array, rounded: Rounding) -> Array | None:
 
     Examples
     --------
-    >>> even_times(np.round(np.arange(100) / 30.0, 2), Rounding(2, 3, False))[:4].round(3)
-    array([0.   , 0.033, 0.067, 0.1  ])
+    >>> even_times(np.round(np.arange(100) / 30.0, 2), Rounding(2, 3, False))[1:5].round(3)
+    array([0.033, 0.067, 0.1  , 0.133])
     """
     count = len(times)
     step = (times[-1] - times[0]) / (count - 1) if count > 2 else 0.0
