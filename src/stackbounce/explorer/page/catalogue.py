@@ -12,10 +12,8 @@ from stackbounce.model import LAWS, ContactLaw, Hysteretic
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS
 from stackbounce.version import __version__
 
-_WORDS: dict[str, dict[str, str]] = tomllib.loads(
-    (files(__package__) / "words.toml").read_text("utf-8")
-)
-"""What numbers of a law are called by a pupil (`words`), and a sentence on each (`explains`)."""
+WORDS: dict[str, Any] = tomllib.loads((files(__package__) / "words.toml").read_text("utf-8"))
+"""What the page calls numbers of laws, what maps show, and the ratios that they vary."""
 
 _LOSSY = Hysteretic  # the paper's own way to lose energy
 
@@ -44,7 +42,7 @@ def _describe_law(kind: type[ContactLaw]) -> dict[str, Any]:
     for name, number in kind.quantities().items():
         given = defaults[name]
         default, low, high = number.slider
-        own = {"words": name.replace("_", " "), "explains": ""} | _WORDS.get(name, {})
+        own = {"words": name.replace("_", " "), "explains": ""} | WORDS["numbers"].get(name, {})
         fields.append(
             {
                 "name": name,
