@@ -73,7 +73,16 @@ def test_numbers_alone_give_a_law_with_errors(run):
 
 def test_an_exponent_with_the_law(run):
     told = run(
-        "--contact-time", "5ms", "--mass", "57g", "--speed", "2", "--law", "power-law exponent=1.3"
+        "--contact-time",
+        "5ms",
+        "--mass",
+        "57g",
+        "--speed",
+        "2",
+        "--law",
+        "power-law",
+        "--exponent",
+        "1.3",
     )
     law = sb.calibrate(sb.PowerLaw, mass=0.057, contact_time=5e-3, impact_speed=2.0, exponent=1.3)
     assert rows(told["law"])["stiffness"][0] == pytest.approx(law.stiffness)

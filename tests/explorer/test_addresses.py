@@ -67,5 +67,5 @@ def test_a_code_has_its_three_corners():
     assert [row[:7] for row in rows[:7]] == corner
     assert [row[-7:] for row in rows[:7]] == corner
     assert [row[:7] for row in rows[-7:]] == corner
-    lines = addresses.code_text(rows).splitlines()
+    lines = addresses.code_text(place.address).splitlines()
     assert len(lines) == (len(rows) + 5) // 2

@@ -52,36 +52,10 @@ def test_a_message_keeps_its_hints_through_all_that_is_done_with_it():
     assert pickle.loads(pickle.dumps(second)) == str(second)
 
 
-GUESSES = {
-    "a track": (
-        table("when,A,B", np.arange(40) / 25, np.arange(40) ** 1.1, wave(40)),
-        "--holds track --column when=time --column A=x --column B=y",
-    ),
-    "heights over time": (
-        table("", np.arange(40) / 25, wave(40)),
-        "--holds track --column 1=time --column 2=y",
-    ),
-    "a waveform": (
-        table("when,A level", np.arange(40) / 1e4, wave(40)),
-        "--holds waveform --column when=time --column 'A level=voltage'",
-    ),
-    "a press": (
-        table("P,D", wave(40), wave(40)[::-1]),
-        "--holds 'press curve' --column P=force --column D=compression",
-    ),
-    "times of knocks": (table("n", np.cumsum(0.8 ** np.arange(9))), "--holds knocks --column"),
-    "heights": (table("value", [100, 60, 40, 20]), "--holds table --column value=y"),
-}
-
-
-@pytest.mark.parametrize(("content", "command"), GUESSES.values(), ids=GUESSES)
-def test_what_is_not_recognised_is_described_and_the_command_is_accepted(
-    refusal, capfd, content, command
-):
-    said = refusal(content)
-    assert "its columns do not tell a kind of measurement: " in said
-    first = next(line for line in content.split("\n") if re.match(r"[\d.]+(,|$)", line))
-    assert f"({float(first.partition(',')[0]):.5g}, " in said
+def test_what_is_not_recognised_is_described_with_a_command_that_is_accepted(refusal, capfd):
+    said = refusal(table("when,level", np.arange(40) / 25, wave(40)))
+    assert "its columns do not tell a kind of measurement: 'when' (0, 0.04, 0.08), 'level'" in said
+    command = "--holds track --column 1=time --column 2=y"
     assert f": stackbounce measure 'a file.csv' {command}" in said
     typed = said.partition("stackbounce measure ")[2].partition("; other kinds")[0]
     assert main(["measure", *shlex.split(typed)]) in (0, 2)
@@ -101,7 +75,7 @@ def test_doubts_are_said_as_the_interface_in_use_says_them(refusal, read):
     with pytest.raises(InvalidValue, match="“Run” must be one of the 1"):
         measure_record("a.csv", content.encode(), {"run": "7"})
     unknown = table("", wave(40), wave(40)[::-1], wave(40)).encode()
-    with pytest.raises(InvalidValue, match="press curve in “Kind of measurement” and 1=force, 2="):
+    with pytest.raises(InvalidValue, match="track in “Kind of measurement” and 1=time, 2="):
         measure_record("a.csv", unknown, {})
 
 
@@ -132,13 +106,10 @@ def test_every_kind_that_is_offered_is_accepted(name, read):
     "names",
     [
         {1: "time", 3: "y"},
-        {"time": 1, "y": 3},
         {"a": "time", "c d": "y"},
-        {"time": "a", "y": "c d"},
-        {"time": "a", 3: "y"},
     ],
 )
-def test_columns_are_named_by_header_or_number_either_way_round(read, names):
+def test_columns_are_named_by_header_or_number(read, names):
     data = read(table("a,b,c d", np.arange(9) / 100, wave(9) + 1, wave(9)), names=names)
     assert data.attrs["holds"] == "track"
     np.testing.assert_allclose(data.y.values.ravel(), wave(9))
@@ -164,8 +135,8 @@ def test_a_named_time_and_a_named_channel_come_before_those_of_the_header(read):
 @pytest.mark.parametrize("head", ["bounce", "Bounce", "impact", "event"])
 def test_a_column_that_counts_bounces_is_no_time_of_them(refusal, read, head):
     counts = range(1, 10)
-    assert f"{head!r} (1, 2, 3; rises evenly" in refusal(table(f"{head},e", counts, wave(9)))
-    assert f"{head!r} (1, 2, 3; rises evenly" in refusal(table(head, counts))
+    assert f"{head!r} (1, 2, 3)" in refusal(table(f"{head},e", counts, wave(9)))
+    assert f"{head!r} (1, 2, 3)" in refusal(table(head, counts))
     heights = read(table(f"{head},height (m)", counts, 0.5 ** np.arange(9)))
     (found,) = sb.measure.analyse(heights)
     assert found.restitutions[0].nominal_value == pytest.approx(0.5**0.5)

@@ -11,7 +11,7 @@ from measure_options import row
 
 import stackbounce as sb
 from stackbounce.cli import main
-from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.errors import InvalidType
 from stackbounce.explorer.answers import records
 from stackbounce.measure import analyse
 from stackbounce.measure.kinds import KINDS, TYPED
@@ -121,15 +121,10 @@ def test_an_option_means_the_same_on_every_face(content, typed, tmp_path, capfd)
         assert "decimal" in capfd.readouterr().err
 
 
-def test_a_law_is_typed_with_its_exponent(capfd):
-    arguments = ["measure", str(LAB / "tennis-force.csv"), "--mass", "57g"]
-    told = []
-    for law in (["power-law exponent=1.3"], ["power-law", "--exponent", "1.3"]):
-        assert main([*arguments, "--law", *law]) == 2
-        assert "needs what was not found: impact speed" in capfd.readouterr().err
-        assert main([*arguments, "--speed", "4.4", "--json", "--law", *law]) == 0
-        told.append(json.loads(capfd.readouterr().out))
-    assert told[0] == told[1]
+def test_a_law_needs_what_it_is_calibrated_with(capfd):
+    arguments = [str(LAB / "tennis-force.csv"), "--mass", "57g", "--law", "power-law"]
+    assert main(["measure", *arguments, "--exponent", "1.3"]) == 2
+    assert "needs what was not found: impact speed" in capfd.readouterr().err
 
 
 def test_the_record_of_the_lower_ball_alone_comes_with_the_page_too(capfd):
@@ -153,8 +148,6 @@ def test_an_option_that_is_not_there_or_another_function_s_is_refused():
     data = sb.read(LAB / "basketball-press.csv")
     with pytest.raises(TypeError, match="unexpected keyword argument 'holds'"):
         analyse(data, holds="table")
-    with pytest.raises(InvalidValue, match="exponent is given twice, by law and on its own"):
-        read_options({"exponent": 1.2, "law": "hertz exponent=1.3"}, lambda one: one.name)
     with pytest.raises(InvalidType, match="repeated must be true or false, got 'yes'"):
         read_options({"repeated": "yes"}, lambda one: one.name)
     for alone in ("/etc/hostname", ["a", "b"], {}):  # a request cannot name a file of the server

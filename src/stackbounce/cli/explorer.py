@@ -109,7 +109,7 @@ def _tell_others(others: "list[Place]") -> None:
         typer.echo("This machine is in no network: others cannot open the page.")
         return
     typer.echo(f"For others on the same network: {' or '.join(place.address for place in others)}")
-    lines = code_text(others[0].code).splitlines()
+    lines = code_text(others[0].address).splitlines()
     try:
         lines[0].encode(sys.stdout.encoding or "ascii")
     except UnicodeEncodeError:  # a terminal that cannot show it

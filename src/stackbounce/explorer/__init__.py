@@ -8,7 +8,7 @@ guard       admission of requests, and the headers of every answer
 framing     which sites may show the page in a frame
 limits      limits of a request, of a client, and of all together
 workers     worker processes, with limits of time and memory for each job
-schema      the schema of requests and answers, in pydantic
+schema      the schema of requests, in pydantic
 examples    what to drop with the balls that a class owns, and what to see
 paper_pages the paper's pages, computed at the first request
 answers/    the functions that compute answers in the worker processes

@@ -1,9 +1,13 @@
 """The addresses at which other machines reach the explorer, with their QR codes."""
 
 import contextlib
+import io
 import ipaddress
 import socket
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    import segno
 
 _ALL = ("0.0.0.0", "::")
 _OUTSIDE = ("192.0.2.1", "2001:db8::1")  # RFC 5737 and 3849; nothing is sent there
@@ -51,34 +55,31 @@ def list_places(host: str, port: int) -> list[Place]:
     """
     hosts = _own_hosts(with_six=host == "::") if host in _ALL else [host]
     others = [host for host in hosts if not _is_loopback(host)]
-    return [Place(address, _code(address)) for address in (url(other, port) for other in others)]
+    return [
+        Place(address, _rows(_code(address))) for address in (url(other, port) for other in others)
+    ]
 
 
-def code_text(code: list[str]) -> str:
-    """Return a QR code for a terminal, two rows in a line; light is drawn and dark left out.
+def code_text(address: str) -> str:
+    """Return the QR code of an address for a terminal, two rows in a line; light is drawn.
 
     Examples
     --------
-    >>> print(code_text(["10", "00"]))
-    ██████
-    ██▄███
-    ██████
+    >>> print(code_text("http://192.168.1.5:8050/")[:30].rstrip())
+    █████████████████████████████
     """
-    width = len(code[0]) + 4
-    rows = ["0" * width] * 2 + [f"00{row}00" for row in code] + ["0" * width] * 2
-    rows += ["1" * width] * (len(rows) % 2)
-    signs = {"00": "█", "01": "▀", "10": "▄", "11": " "}
-    pairs = zip(rows[::2], rows[1::2], strict=True)
-    return "\n".join(
-        "".join(signs[a + b] for a, b in zip(above, below, strict=True)).rstrip()
-        for above, below in pairs
-    )
+    text = io.StringIO()
+    _code(address).terminal(text, border=2, compact=True)
+    return text.getvalue()
 
 
-def _code(address: str) -> list[str]:
+def _code(address: str) -> "segno.QRCode":
     import segno
 
-    code = segno.make_qr(address, error="m", boost_error=False)
+    return segno.make_qr(address, error="m", boost_error=False)
+
+
+def _rows(code: "segno.QRCode") -> list[str]:
     return ["".join(str(bit) for bit in row) for row in code.matrix]
 
 

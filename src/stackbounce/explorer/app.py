@@ -84,12 +84,12 @@ def create_app(limits: Limits, others: Sequence[Place] = (), framed_by: Sequence
     _add_errors(app)
     _add_jobs(app, workers, limits.job_seconds)
 
-    @app.get("/api/places", response_model=schema.Places)
+    @app.get("/api/places")
     async def list_places() -> dict[str, Any]:
         """List the addresses that other machines can type, with their QR codes."""
         return {"places": [place._asdict() for place in others]}
 
-    @app.get("/api/measure/options", response_model=schema.MeasureOptions)
+    @app.get("/api/measure/options")
     async def list_options() -> Response:
         """List the kinds of measurement and the options of the page's form."""
         return _json(records.list_options())
@@ -116,19 +116,19 @@ def _add_jobs(app: FastAPI, workers: Workers, seconds: float) -> None:
     async def compute(answer: Callable[..., str], *arguments: Any) -> Response:
         return _json(await workers.run(answer, *arguments, seconds=seconds))
 
-    @app.post("/api/simulate", response_model=schema.Simulation)
+    @app.post("/api/simulate")
     async def play_drop(request: Request, asked: schema.Play) -> Response:
         """Drop a stack of balls; return its motion at each moment."""
         async with turn(request):
             return await compute(play.play_drop, asked.drop, asked.until, asked.frames)
 
-    @app.post("/api/predict", response_model=schema.Predicted)
+    @app.post("/api/predict")
     async def predict_drop(request: Request, asked: schema.Uncertain) -> Response:
         """Carry the errors of a drop's numbers forward; return numbers and curves with errors."""
         async with turn(request):
             return await compute(predictions.predict_drop, asked.drop, asked.errors, asked.until)
 
-    @app.post("/api/measure", response_model=schema.Measured)
+    @app.post("/api/measure")
     async def measure_record(
         request: Request,
         file: UploadFile,
@@ -140,7 +140,7 @@ def _add_jobs(app: FastAPI, workers: Workers, seconds: float) -> None:
             other = None if alone is None else await _read(alone)
             return await compute(records.measure_record, *await _read(file), options or {}, other)
 
-    @app.post("/api/fit", response_model=schema.Fitted)
+    @app.post("/api/fit")
     async def fit_record(
         request: Request,
         drop: Annotated[Json[schema.Scenario], Form()],

@@ -1,36 +1,17 @@
-"""The schema of requests and answers: pydantic models around the package's own dataclasses.
+"""The schema of requests: pydantic models around the package's own dataclasses.
 
 `Drop.from_mapping` reads a drop, as it does from TOML, so units and messages are the same.
-pydantic adds the OpenAPI description and the limits of a request.
+pydantic adds the OpenAPI description and the limits of a request. What an answer has is said by
+the functions in `answers/`.
 """
 
-from collections.abc import Callable
-from dataclasses import MISSING, fields
-from typing import Annotated, Any, get_type_hints
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
-from pydantic_core import CoreSchema, core_schema
+from pydantic import BaseModel, ConfigDict, Field, PlainValidator, WithJsonSchema
 
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.explorer.limits import LIMITS
-from stackbounce.model import LAWS, Ball, Drop
-from stackbounce.model.schema import NO_FLOOR
-from stackbounce.units import unit_of
-
-_Json = dict[str, Any]
-
-
-class _Reader:
-    """Makes a pydantic type from a function that reads a value and one that describes it."""
-
-    def __init__(self, read: Callable[[object], Any], describe: Callable[[], _Json]) -> None:
-        self._read, self._describe = read, describe
-
-    def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(self._read)
-
-    def __get_pydantic_json_schema__(self, _: CoreSchema, __: GetJsonSchemaHandler) -> _Json:
-        return self._describe()
+from stackbounce.model import Drop
 
 
 def read_drop(value: object) -> Drop:
@@ -58,48 +39,19 @@ def read_drop(value: object) -> Drop:
     return Drop.from_mapping(value)  # type: ignore[arg-type]
 
 
-def _describe_drop() -> _Json:
-    drop = _describe(Drop)
-    laws = [_describe(law, name) for name, law in LAWS.items()]
-    laws.append(_describe_object({"law": {"const": NO_FLOOR}}, ["law"]))
-    drop["properties"]["balls"] = _describe_list(_describe(Ball), 1)
-    drop["properties"]["contacts"] = _describe_list({"anyOf": laws}, 1)
-    return drop
+_DROP = {
+    "type": "object",
+    "description": "A drop, with the keys and units of a scenario file; see `stackbounce.Drop`.",
+    "examples": [
+        {
+            "balls": [{"mass": "57 g"}],
+            "contacts": [{"law": "Spring", "stiffness": "22.5 kN/m"}],
+            "height": "1 m",
+        }
+    ],
+}
 
-
-def _describe(kind: type, law: str | None = None) -> _Json:
-    """Return the JSON schema of a dataclass; its numbers may be texts with a unit."""
-    properties: _Json = {} if law is None else {"law": {"const": law}}
-    hints = get_type_hints(kind, include_extras=True)
-    given = [entry for entry in fields(kind) if entry.init and not entry.name.startswith("_")]
-    properties |= {entry.name: _describe_field(hints[entry.name]) for entry in given}
-    missing = [entry.name for entry in given if entry.default is MISSING]
-    return _describe_object(properties, ([] if law is None else ["law"]) + missing)
-
-
-def _describe_field(hint: Any) -> _Json:
-    unit = unit_of(hint)
-    if unit is None:
-        return {"type": "string"}
-    meaning = f"in {unit.symbol}, or a text with a unit" if unit.symbol else "a pure number"
-    number: _Json = {"anyOf": [{"type": "number"}, {"type": "string"}], "description": meaning}
-    return _describe_list(number, 0) if "Sequence" in str(hint) else number
-
-
-def _describe_list(items: _Json, least: int) -> _Json:
-    return {"type": "array", "items": items, "minItems": least, "maxItems": LIMITS.balls}
-
-
-def _describe_object(properties: _Json, required: list[str]) -> _Json:
-    return {
-        "type": "object",
-        "properties": properties,
-        "required": required,
-        "additionalProperties": False,
-    }
-
-
-Scenario = Annotated[Drop, _Reader(read_drop, _describe_drop)]
+Scenario = Annotated[Drop, PlainValidator(read_drop), WithJsonSchema(_DROP)]
 """A drop, with the keys and units of a scenario file."""
 
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -160,119 +112,3 @@ class Problem(BaseModel):
     """What was wrong, in one line."""
 
     detail: str
-
-
-class Simulation(BaseModel):
-    """The motion of a drop at each moment; numbers in SI units, null if not finite."""
-
-    stackbounce: str
-    drop: _Json
-    reference_speed: float
-    status: str
-    advice: str
-    rebound_speeds: list[float | None]
-    rebound_ratios: list[float | None]
-    rebound_heights: list[float | None]
-    collisions: list[int]
-    first_touch: list[float | None]
-    last_release: list[float | None]
-    energy_retained: float | None
-    end_time: float
-    intervals: list[_Json]
-    impact: list[float]
-    frames: _Json
-    separate: _Json | None
-
-
-class Predicted(BaseModel):
-    """Numbers of a drop with errors, how these were found, and bands of one standard deviation."""
-
-    stackbounce: str
-    method: str
-    how: str
-    advice: str
-    notes: list[str]
-    numbers: dict[str, _Json]
-    values: dict[str, _Json]
-    band: _Json
-
-
-class Curve(BaseModel):
-    """A record over time, in SI units."""
-
-    label: str
-    what: str
-    index: int
-    unit: str
-    time: list[float]
-    values: list[float]
-
-
-class Bounce(BaseModel):
-    """What was found of one ball's bounce, in SI units; of a press curve the contact."""
-
-    restitution: float | None
-    contact_time: float | None
-    impact_speed: float | None
-    contact: _Json | None
-
-
-class Branch(BaseModel):
-    """A way in or out of a press curve, in m and N."""
-
-    label: str
-    compression: list[float]
-    force: list[float]
-    fit: list[float]
-
-
-class Place(BaseModel):
-    """An address of the page, and its QR code: rows of 1, which is dark, and 0."""
-
-    address: str
-    code: list[str]
-
-
-class Places(BaseModel):
-    """The addresses of the page that other machines can type; none if it is for this one alone."""
-
-    places: list[Place]
-
-
-class MeasureOptions(BaseModel):
-    """Kinds of measurement, and options of a file, in the order of the form."""
-
-    kinds: list[_Json]
-    options: list[_Json]
-
-
-class Measured(BaseModel):
-    """The format of a file, and the results of its analysis."""
-
-    stackbounce: str
-    file: str
-    format: str
-    why: str
-    doubt: str
-    holds: str
-    found: list[_Json]
-    notes: list[str]
-    series: list[Curve]
-    zero: float | None
-    measured: dict[str, str]
-    bounce: Bounce | None
-    branches: list[Branch]
-
-
-class Fitted(BaseModel):
-    """A drop fitted to what was measured."""
-
-    stackbounce: str
-    drop: _Json
-    values: list[_Json]
-    chi_squared: float
-    degrees_of_freedom: int
-    probability: float | None
-    notes: list[str]
-    residuals: list[_Json]
-    series: list[Curve]

@@ -27,43 +27,25 @@ from typing import TYPE_CHECKING, Any
 from stackbounce.extras import need
 
 if TYPE_CHECKING:
-    from stackbounce.measure.analysis import analyse
-    from stackbounce.measure.assembly import one_ball, one_law
-    from stackbounce.measure.constants import dynamic_stiffness, law_constants
-    from stackbounce.measure.drag import Drag
-    from stackbounce.measure.kinds.acceleration.analysis import accelerometer
-    from stackbounce.measure.kinds.bounces.analysis import bounces
-    from stackbounce.measure.kinds.heights.analysis import heights
-    from stackbounce.measure.kinds.press.analysis import press
-    from stackbounce.measure.kinds.press.series import series_stiffness, split_series
-    from stackbounce.measure.kinds.sound.analysis import knocks
-    from stackbounce.measure.kinds.track.analysis import track
-    from stackbounce.measure.kinds.waveform.analysis import waveform
-    from stackbounce.measure.kinds.waveform.gap.delay import gap_from_delay, sensor_gap
-    from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
-    from stackbounce.measure.reading import read
-
-__all__ = [
-    "Drag",
-    "accelerometer",
-    "analyse",
-    "bounces",
-    "dynamic_stiffness",
-    "floor_gap",
-    "gap_from_delay",
-    "heights",
-    "knocks",
-    "law_constants",
-    "one_ball",
-    "one_law",
-    "press",
-    "read",
-    "sensor_gap",
-    "series_stiffness",
-    "split_series",
-    "track",
-    "waveform",
-]
+    from stackbounce.measure.analysis import analyse as analyse
+    from stackbounce.measure.assembly import one_ball as one_ball
+    from stackbounce.measure.assembly import one_law as one_law
+    from stackbounce.measure.constants import dynamic_stiffness as dynamic_stiffness
+    from stackbounce.measure.constants import law_constants as law_constants
+    from stackbounce.measure.drag import Drag as Drag
+    from stackbounce.measure.kinds.acceleration.analysis import accelerometer as accelerometer
+    from stackbounce.measure.kinds.bounces.analysis import bounces as bounces
+    from stackbounce.measure.kinds.heights.analysis import heights as heights
+    from stackbounce.measure.kinds.press.analysis import press as press
+    from stackbounce.measure.kinds.press.series import series_stiffness as series_stiffness
+    from stackbounce.measure.kinds.press.series import split_series as split_series
+    from stackbounce.measure.kinds.sound.analysis import knocks as knocks
+    from stackbounce.measure.kinds.track.analysis import track as track
+    from stackbounce.measure.kinds.waveform.analysis import waveform as waveform
+    from stackbounce.measure.kinds.waveform.gap.delay import gap_from_delay as gap_from_delay
+    from stackbounce.measure.kinds.waveform.gap.delay import sensor_gap as sensor_gap
+    from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap as floor_gap
+    from stackbounce.measure.reading import read as read
 
 # Each name is imported when it is first used: the command line's help needs only the options.
 _HOMES = {
@@ -87,6 +69,7 @@ _HOMES = {
     "track": "kinds.track.analysis",
     "waveform": "kinds.waveform.analysis",
 }
+__all__ = list(_HOMES)
 
 
 def __getattr__(name: str) -> Any:

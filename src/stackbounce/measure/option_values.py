@@ -8,7 +8,7 @@ from typing import Any
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.measure.options import Option, options_for
 from stackbounce.measure.quantities import nominal, quantity_with_error, unit_of_both
-from stackbounce.model.laws import law_named
+from stackbounce.model.laws import ContactLaw, law_named
 from stackbounce.units import quantity
 
 
@@ -36,10 +36,10 @@ def read_options(
 
     Examples
     --------
-    >>> given = {"height": "1 m", "law": "power-law exponent=1.3"}
+    >>> given = {"height": "1 m", "law": "power-law"}
     >>> found = read_options(given, lambda option: option.name)
-    >>> found["height"], found["law"].__name__, found["exponent"]
-    (1.0, 'PowerLaw', 1.3)
+    >>> found["height"], found["law"].__name__
+    (1.0, 'PowerLaw')
     """
     known = options_for(*to)
     found: dict[str, Any] = {}
@@ -49,12 +49,7 @@ def read_options(
         if value is None or (isinstance(value, str) and not value):
             continue
         option = known[name]
-        taken = _READERS.get(option.form, _checked)(value, option, face(option))
-        values = taken if option.form == "law" else {name: taken}  # a law may bring its exponent
-        twice = [key for key in values if key in found]
-        if twice:
-            raise InvalidValue(f"{twice[0]} is given twice, by {face(option)} and on its own")
-        found |= values
+        found[name] = _READERS.get(option.form, _checked)(value, option, face(option))
     return found
 
 
@@ -106,26 +101,18 @@ def _points(value: Any, _: Option, called: str) -> tuple[str, ...]:
     return places(words * 2 if len(words) == 1 else words)
 
 
-def _law(value: Any, _: Option, called: str) -> dict[str, Any]:
-    """Return the law's class and, if the text has it, the exponent."""
-    name, *rest = (value.split() or [""]) if isinstance(value, str) else (value,)
-    found: dict[str, Any] = {}
-    for word in rest:
-        key, __, number = word.partition("=")
-        if key != "exponent" or not number or found:
-            raise InvalidValue(
-                f"{called} must be a law, or 'LAW exponent=NUMBER', got {shown(value)}; "
-                "restitution and contact time have options of their own"
-            )
-        found[key] = quantity(number, "", f"{called}: exponent")
-    return {"law": law_named(name), **found}
+def _law(value: Any, _: Option, called: str) -> type[ContactLaw]:
+    """Return the law's class."""
+    if isinstance(value, str) and "=" in value:
+        raise InvalidValue(f"{called} must be a law, whose numbers have options of their own")
+    return law_named(value)
 
 
 def _columns(value: Any, option: Option, called: str) -> Any:
     """Return a mapping of columns from ``COLUMN=VALUE`` texts, or as it is."""
     if isinstance(value, Mapping):
         return value
-    found: dict[str | int, str | int] = {}
+    found: dict[str | int, str] = {}
     for text in value.split(",") if isinstance(value, str) else value:
         name, _, meaning = (part.strip() for part in text.partition("="))
         if not (name and meaning):
@@ -133,13 +120,9 @@ def _columns(value: Any, option: Option, called: str) -> Any:
             raise InvalidValue(
                 f"{called} must be {option.value_name}, such as {example}, got {shown(text)}"
             )
-        found[_column(name)] = _column(meaning) if option.name == "names" else meaning
+        number = name.isdecimal() and len(name) < 10
+        found[int(name) if number else name] = meaning
     return found
-
-
-def _column(text: str) -> str | int:
-    """Return a column's number or its name."""
-    return int(text) if text.isdecimal() and len(text) < 10 else text
 
 
 _READERS: dict[str, Callable[[Any, Option, str], Any]] = {

@@ -1,13 +1,14 @@
 """The options of a measurement, defined once for all user interfaces.
 
-`OPTIONS` feeds the command line, the page's form, and the table in `docs/measure.md`. An option is
-in effect for the kinds that name it in their `options`.
+They are listed in ``options.toml``. `OPTIONS` feeds the command line, the page's form, and the
+table in `docs/measure.md`. An option is in effect for the kinds that name it in their `options`.
 """
 
 import re
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
-from functools import partial
+import tomllib
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 from stackbounce.errors import finite, fraction, non_negative, positive
@@ -19,8 +20,13 @@ Form: TypeAlias = Literal[
     "number", "measured", "lengths", "flag", "points", "law", "file", "columns", "text"
 ]
 _FORM_NAMES = {"lengths": "LENGTHS", "points": "POINT"}
-_BALL, _DROP = "What is known of the ball", "What is known of the drop"
-_FILE = "What the file does not state"
+_PANELS = {
+    "ball": "What is known of the ball",
+    "start": "",
+    "drop": "What is known of the drop",
+    "file": "What the file does not state",
+}
+_CHECKS = {check.__name__: check for check in (finite, fraction, non_negative, positive)}
 
 
 @dataclass(frozen=True)
@@ -54,8 +60,8 @@ class Option:
         On the command line, where it is not the name.
     rare : bool
         Whether the page offers it below the others.
-    choices : callable, optional
-        Gives what there is to choose from.
+    choices : iterable of str, optional
+        What there is to choose from.
     check : callable
         Refuses a number that is out of range, whether an analysis takes it or not.
     """
@@ -72,7 +78,7 @@ class Option:
     to: Literal["read", "analyse", "numbers"] = "analyse"
     flag: str = ""
     rare: bool = False
-    choices: Callable[[], Iterable[str]] | None = None
+    choices: Iterable[str] | None = None
     check: Callable[..., float] = positive
 
     @property
@@ -89,7 +95,7 @@ class Option:
 
     def to_mapping(self) -> dict[str, Any]:
         """Return what the page needs to offer it."""
-        choices = None if self.choices is None else list(self.choices())
+        choices = None if self.choices is None else list(self.choices)
         names = ("name", "form", "label", "example", "says", "rare")
         return {name: getattr(self, name) for name in names} | {"choices": choices}
 
@@ -104,94 +110,20 @@ def _typed(law: str) -> str:
     return re.sub(r"(?<=[a-z])(?=[A-Z])", "-", law).lower()
 
 
-_number, _measured = partial(Option, form="number"), partial(Option, form="measured")
-_read = partial(Option, to="read")
+def _read_options() -> Iterator[Option]:
+    """Yield the options, those of each panel together."""
+    groups = tomllib.loads(Path(__file__).with_name("options.toml").read_text("utf-8"))
+    laws, kinds = _listed(map(_typed, LAWS)), _listed(KINDS)
+    for group, options in groups.items():
+        for name, option in options.items():
+            option["says"] = option["says"].format(laws=laws, kinds=kinds)
+            choices = option.pop("choices", None)
+            option["choices"] = {"{laws}": LAWS, "{kinds}": KINDS}.get(str(choices), choices)
+            check = _CHECKS[option.pop("check", "positive")]
+            yield Option(name, **option, panel=_PANELS[group], check=check)
 
-# fmt: off
-_TABLE: dict[str, tuple[Option, ...]] = {
-    _BALL: (
-        _measured("mass", "Ball's mass", "57 ± 0.5 g", unit="kg", says="Such as 57g, or with its "
-                  "error '57.0 ± 0.5 g', as all numbers of ball and drop."),
-        _measured("diameter", "Diameter", "66 mm", unit="m", says="Such as 66mm."),
-        _measured("contact_time", "Contact time", "5.0 ± 0.1 ms", unit="s", rare=True,
-                  check=non_negative,
-                  says="On the floor, if no file gives it: '5.0 ± 0.1 ms'."),
-        _measured("restitution", "Restitution", "0.75 ± 0.02", rare=True, check=fraction,
-                  says="On the floor, if no file gives it: '0.75 ± 0.02'."),
-        Option("law", "Contact law", "none in particular", form="law", choices=lambda: LAWS,
-               says="Give the constants of this contact law, and save it: "
-               f"{_listed(map(_typed, LAWS))}; with an exponent as in 'power-law exponent=1.3'. "
-               "A force waveform's touches and releases are then those of this law, with smaller "
-               "errors."),
-        _number("exponent", "Exponent of the law", "1.3", rare=True,
-                says="Of the law's loading curve, if the law does not fix it: 1.3."),
-    ),
-    "": (
-        _measured("height", "Drop height", "1.00 ± 0.01 m", unit="m",
-                  says="Height fallen from rest, such as 0.63m."),
-        _measured("speed", "Impact speed", "3.5 m/s", unit="m/s",
-                  says="Impact speed, such as 3.53m/s."),
-    ),
-    _DROP: (
-        Option("heights", "Heights", "1.00, 0.62, 0.39 m", form="lengths", unit="m", to="numbers",
-               says="Instead of a file: the drop's and those of the bounces, "
-               "'1.00, 0.62, 0.39 m'."),
-        _number("height_error", "Error of each height", "5 mm", unit="m", rare=True,
-                says="Of each height that is typed or in a table, such as 5mm."),
-        Option("repeated", "Heights of the same bounce, repeated", "", form="flag",
-               default=False, rare=True,
-               says="The heights after the first are all of the first bounce, of several drops."),
-        Option("measured_to", "Heights refer to the ball's", "bottom", form="points",
-               default="bottom",
-               choices=lambda: ("bottom", "centre", "top", "bottom,top", "top,bottom"),
-               says="Point of the ball that heights are those of, or that a track follows: bottom, "
-               "centre or top; bottom,top if the drop's and the bounces' differ."),
-        _number("floor", "Level of the floor", "0 m", unit="m", rare=True, check=finite,
-                says="Level of the floor in a track, such as 0m: for balls that stay on it for "
-                "long."),
-        Option("alone", "Force under the lower ball alone", "", form="file", rare=True,
-               says="Force record of the lower ball alone from the same height: it gives the gap "
-               "of the stack in the other record."),
-        Option("tabulated", "Press curve as a table", "", form="flag", default=False, rare=True,
-               says="Save a press curve as the table of its points, in place of a fitted law."),
-        _number("time_constant", "Sensor's time constant", "0.1 s", unit="s", rare=True,
-                says="Time constant of a piezo sensor, such as 0.1s: its droop is corrected."),
-        _number("gravity", "Gravity", "9.81 m/s^2", unit="m/s**2", rare=True,
-                says="At the place of the measurement, such as 9.81m/s^2."),
-        _measured("drag_coefficient", "Drag coefficient", "0.45 ± 0.05", rare=True,
-                  check=non_negative,
-                  says="Takes the drag of the air into account, with the ball's mass and diameter: "
-                  "'0.45 ± 0.05' for a smooth sphere. Without it there is no air."),
-        _measured("air_density", "Density of the air", "1.20 kg/m^3", unit="kg/m**3", rare=True,
-                  says="With a drag coefficient, such as 1.1kg/m^3; by default that at 20 °C and "
-                  "sea level, 1.204kg/m^3."),
-    ),
-    _FILE: (
-        _read("holds", "Kind of measurement", "as recognised", metavar="KIND",
-              choices=lambda: KINDS,
-              says=f"Kind of measurement in the file, if not recognised: {_listed(KINDS)}."),
-        _read("names", "Columns", "1=time, 2=force", form="columns", metavar="COLUMN=MEANING",
-              flag="--column",
-              says="What a column is, by its name or its number from 1: 2=force or force=2; once "
-              "per column."),
-        _read("units", "Units of columns", "x=cm, y=cm", form="columns", metavar="COLUMN=UNIT",
-              flag="--unit", says="Unit of a column: x=cm; once per column."),
-        _read("table", "Table", "Energy", metavar="NAME", rare=True,
-              says="Which table of a zip file, or sheet of a spreadsheet."),
-        _read("run", "Run", "2", rare=True, says="Which of several runs in the file."),
-        _read("decimal", "Decimal mark", "as recognised", rare=True, choices=lambda: (".", ","),
-              says="Decimal mark, . or , where 1,234 could be either."),
-        _number("frame_rate", "Frame rate", "240", to="read",
-                says="Frames per second of a video, where a table counts frames: 240."),
-        _number("scale", "Scale", "0.5 mm", unit="m", to="read",
-                says="Length of a pixel, where a table has pixels, such as 0.5mm."),
-    ),
-}
-# fmt: on
 
-OPTIONS: tuple[Option, ...] = tuple(
-    replace(option, panel=panel) for panel, group in _TABLE.items() for option in group
-)
+OPTIONS: tuple[Option, ...] = tuple(_read_options())
 """All options; the command line lists them in this order."""
 
 

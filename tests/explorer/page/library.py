@@ -5,11 +5,13 @@ import numpy as np
 import stackbounce as sb
 from stackbounce.errors import InvalidValue
 from stackbounce.explorer.answers.play import run_drop
-from stackbounce.explorer.page.data import MAP_RTOL, OUTCOMES, RATIOS
+from stackbounce.explorer.page.catalogue import WORDS
+from stackbounce.explorer.page.data import MAP_RTOL
 from stackbounce.model import law_named
 from stackbounce.plots.impact_window import choose_window, sample_with_approach
 from stackbounce.run.paths import drop_at, number_at, numbers_of
 
+RATIOS, OUTCOMES = WORDS["ratios"], WORDS["outcomes"]
 FLOOR = sb.Rigid(0.8)  # in place of none
 CONTACT_TIME = 5e-3  # s, in place of a rigid contact's
 EXPONENT = 1.5  # in place of that of a law without one

@@ -1,6 +1,5 @@
 """The numbers that a check lets through, found by asking it."""
 
-import struct
 import sys
 from collections.abc import Callable
 from typing import Any
@@ -45,19 +44,12 @@ def _last(holds: Callable[[float], bool], inside: float, outside: float) -> floa
     """Return the last number from `inside` towards `outside` for which something holds."""
     if holds(outside):
         return outside
-    near, far = _rank(inside), _rank(outside)
-    while abs(far - near) > 1:
-        middle = (near + far) // 2
-        near, far = (middle, far) if holds(_ranked(middle)) else (near, middle)
-    return _ranked(near)
-
-
-def _rank(value: float) -> int:
-    """Return the place of a number among all floats."""
-    (bits,) = struct.unpack("<q", struct.pack("<d", abs(value)))
-    return int(bits) if value >= 0.0 else -int(bits)
-
-
-def _ranked(rank: int) -> float:
-    (size,) = struct.unpack("<d", struct.pack("<q", abs(rank)))
-    return float(size) if rank >= 0 else -float(size)
+    near, far = inside, outside
+    middle = 0.5 * (near + far)
+    while middle not in (near, far):
+        if holds(middle):
+            near = middle
+        else:
+            far = middle
+        middle = 0.5 * (near + far)
+    return near

@@ -8,7 +8,7 @@ from typing import Any
 from stackbounce.cross2007.lines import list_lines
 from stackbounce.explorer.answers import play
 from stackbounce.explorer.page.bounds import limits_of
-from stackbounce.explorer.page.catalogue import list_choices
+from stackbounce.explorer.page.catalogue import WORDS, list_choices
 from stackbounce.explorer.page.lessons import list_lessons
 from stackbounce.explorer.page.units import list_units
 from stackbounce.json_values import as_json
@@ -19,27 +19,6 @@ from stackbounce.units import examples
 
 MAP_RTOL = 1e-8
 """The tolerance of nonlinear contacts in maps and lines, far finer than their colours."""
-
-RATIOS = {
-    "mass_ratio": {
-        "sets": "balls.0.mass",
-        "refers": "balls.1.mass",
-        "label": "mass ratio m₁/m₂, lower over upper",
-    },
-    "stiffness_ratio": {
-        "sets": "contacts.0.stiffness",
-        "refers": "contacts.1.stiffness",
-        "label": "stiffness ratio k₁/k₂, floor over ball-ball",
-    },
-}
-"""Ratios of the lowest two that a map can vary: the number that is set, and its reference."""
-
-OUTCOMES = {
-    "rebound_ratio": ("rebound speed of {ball} over v₀", ""),
-    "rebound_height": ("rebound height of {ball}", "m"),
-    "collisions": ("collisions of {contact}", ""),
-}
-"""Labels and units of what a map can show of a ball or a contact, by name."""
 
 _ENERGY = ("kinetic energy retained", "")
 _USUAL = {"contact_time": 5e-3, "exponent": 1.5, "restitution": 0.8}
@@ -69,8 +48,8 @@ def model_json() -> str:
             "lines": _list_lines(),
             "map_rtol": MAP_RTOL,
             "models": _list_models(),
-            "outcomes": OUTCOMES,
-            "ratios": RATIOS,
+            "outcomes": WORDS["outcomes"],
+            "ratios": WORDS["ratios"],
             "rtol": play.RTOL,
             "stacks": _list_stacks(),
             "steepest": STEEPEST,

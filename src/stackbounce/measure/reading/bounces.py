@@ -1,6 +1,5 @@
 """The one row of phyphox's (in)elastic collision: knocks, heights and energies."""
 
-import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -38,22 +37,21 @@ def bounces(columns: Sequence[Column], values: Array) -> "xr.Dataset":
     """
     import xarray as xr
 
-    found: dict[tuple[str, int], float] = {}
     numbers = np.nan_to_num(values)
-    first = [k for k, one in enumerate(columns) if one.heading.name.casefold() == "bounce 0"]
-    heard = np.flatnonzero(numbers[:, first[0]] > 0.0) if first else np.array([])
+    names = [column.heading.name.casefold() for column in columns]
+    first = [name == "bounce 0" for name in names]
+    heard = np.flatnonzero((numbers[:, first] > 0.0).any(axis=1))
     if not heard.size:
         raise FileError("phyphox heard no knock in it")
-    for column, number in zip(columns, numbers[heard[-1]], strict=True):
-        name = re.fullmatch(r"(bounce|height|energy) ([0-9]{1,3})", column.heading.name.casefold())
-        if name:
-            found[name[1], int(name[2])] = float(number)
-    times = [found["bounce", 0]]
-    while found.get(("bounce", len(times)), 0.0) > times[-1]:
-        times.append(found["bounce", len(times)])
+    found = dict(zip(names, numbers[heard[-1]].tolist(), strict=True))
+    times = [found["bounce 0"]]
+    while found.get(f"bounce {len(times)}", 0.0) > times[-1]:
+        times.append(found[f"bounce {len(times)}"])
     count = len(times)
-    heights = [found.get(("height", k), 0.0) for k in range(count)]
-    energies = [found.get(("energy", k), 0.0) for k in range(count)]
+    heights, energies = (
+        np.array([found.get(f"{name} {k}", 0.0) for k in range(count)])
+        for name in ("height", "energy")
+    )
     if count < 3:  # phyphox compares the first two flights to infer the drop
         heights[0] = 0.0
     energies[0] = 0.0
@@ -64,11 +62,7 @@ def bounces(columns: Sequence[Column], values: Array) -> "xr.Dataset":
         "energy": (energies, "1", "Energy, of that after knock 0"),
     }
     data = {
-        name: (
-            "bounce",
-            np.where(np.array(row) > 0.0, row, np.nan),
-            {"units": unit, "long_name": text},
-        )
+        name: ("bounce", np.where(row > 0.0, row, np.nan), {"units": unit, "long_name": text})
         for name, (row, unit, text) in kept.items()
     }
     said = {"units": "s", "long_name": "Bounce: time of a knock"}

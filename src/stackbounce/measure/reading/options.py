@@ -8,7 +8,7 @@ from stackbounce.errors import InvalidType, InvalidValue, nearest, positive, sho
 from stackbounce.measure.kinds import KINDS, kind_named
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.reading.headings import slug
-from stackbounce.measure.reading.roles import ROLES, Column
+from stackbounce.measure.reading.roles import Column
 from stackbounce.units import in_si
 
 _Key = str | int
@@ -26,7 +26,7 @@ class ReadOptions:
     holds: str | None = None
     table: str | None = None
     run: str | int | None = None
-    names: Mapping[_Key, Any] | None = None
+    names: Mapping[_Key, str] | None = None
     units: Mapping[_Key, str] | None = None
     decimal: str | None = None
     frame_rate: float | None = None
@@ -47,48 +47,34 @@ class ReadOptions:
         for option, unit in (("frame_rate", "frames per second"), ("scale", "metres per pixel")):
             if getattr(self, option) is not None:
                 positive(option, getattr(self, option), unit)
-        for key, name in _checked("names", self.names, (str, int)).items():
-            if key not in ROLES and not str(name).isidentifier():
-                wrong = f": {shown(name)} is no name, such as 'force'"
+        for name in _checked("names", self.names).values():
+            if not name.isidentifier():
+                wrong = f": {shown(name)} is no name, such as 'force', of a column before it"
                 raise InvalidValue(about_option("names", wrong))
-        for unit in _checked("units", self.units, (str,)).values():
+        for unit in _checked("units", self.units).values():
             if unit != "S" and in_si(unit) is None:
                 wrong = f": {shown(unit)} is no unit that is known, such as 'mm'"
                 raise InvalidValue(about_option("units", wrong))
 
 
-def _checked(option: str, given: object, kinds: tuple[type, ...]) -> Mapping[_Key, Any]:
-    """Return an option that maps columns to texts, or to columns."""
+def _checked(option: str, given: object) -> Mapping[_Key, str]:
+    """Return an option that maps columns to texts."""
     if given is None:
         return {}
     if not isinstance(given, Mapping):
         wrong = f" must be a mapping of columns, got {shown(given)}"
         raise InvalidType(about_option(option, wrong))
     for key, value in given.items():
-        meant = isinstance(value, str) or (key in ROLES and isinstance(value, kinds))
-        if not isinstance(key, str | int) or not meant:
+        if not isinstance(key, str | int) or not isinstance(value, str):
             wrong = f" must map columns to text, got {shown({key: value})}"
             raise InvalidType(about_option(option, wrong))
     return given
 
 
-def _by_column(names: Mapping[_Key, Any], columns: Sequence[Column]) -> dict[_Key, str]:
-    """Return meanings by columns; those given the other way round, ``{"time": 1}``, are turned."""
-    turned = {}
-    for key, value in names.items():
-        known = isinstance(value, int) or any(_is(column, value) for column in columns)
-        if key in ROLES and value not in ROLES and known:
-            turned[value] = key
-        else:
-            turned[key] = value
-    return turned
-
-
 def apply_options(columns: Sequence[Column], options: ReadOptions) -> list[Column]:
     """Return columns with the names and units that options give them."""
     found = list(columns)
-    named = _by_column(options.names or {}, columns)
-    for option, mapping in (("units", options.units or {}), ("names", named)):
+    for option, mapping in (("units", options.units or {}), ("names", options.names or {})):
         for key, value in mapping.items():
             places = [k for k, column in enumerate(found) if _is(column, key)]
             if not places:

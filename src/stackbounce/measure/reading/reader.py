@@ -37,7 +37,7 @@ def read(
     holds: str | None = None,
     table: str | None = None,
     run: str | int | None = None,
-    names: Mapping[str | int, str | int] | None = None,
+    names: Mapping[str | int, str] | None = None,
     units: Mapping[str | int, str] | None = None,
     decimal: str | None = None,
     frame_rate: float | None = None,
@@ -66,7 +66,6 @@ def read(
         What columns are, by their names in the file or counted from 1, such as
         ``{1: "time", 2: "force"}``: ``"time"``, ``"force"``, ``"voltage"``, ``"compression"``,
         ``"x"``, ``"y"``, ``"sound"``, ``"knock_time"``, ``"acceleration_x"`` … or any other name.
-        What can be measured may also stand first: ``{"time": 1, "y": "height"}``.
     units : mapping, optional
         Units of columns, by their names or counted from 1, such as ``{"x": "cm", "y": "cm"}``.
     decimal : str, optional

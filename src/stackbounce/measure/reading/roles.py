@@ -1,7 +1,9 @@
 """Names and units -> what a column is: a time, a force, a position."""
 
 import re
+import tomllib
 from dataclasses import dataclass, replace
+from importlib.resources import files
 
 from stackbounce.measure.reading.headings import Heading, slug
 from stackbounce.units import in_si
@@ -12,41 +14,21 @@ FRAME, PIXEL = "frame", "px"
 POINT = "point "
 """Begins the name of a track whose points are in no order, those of any ball in each frame."""
 
-_WORDS = {  # role: the whole name, folded, in the languages that files are often in
-    "knock_time": r"(event|knock|bounce|impact)s?[ _]?(times?)?|ereigniszeit",
-    "frame": r"frames?([ #]*(no|nr|number|index|n°)?\.?)?|slices?( n°)?|bild(nummer)?",
-    "track_id": r"track[ ]?(id|no|nr|number|n°)\.?",
-    "time": r"((elapsed|test|total) )?time|t|zeit|temps|tiempo|tempo|tijd|tid|czas|x value"
-    r"|time elapsed|seconds?( elapsed)?|secs?|s|elapsed( seconds)?|position t",
-    "compression": r"(crosshead |compressive |standard)?(compress\w*|extension|deflection|stroke"
-    r"|displacement|deformation|travel|indentation|weg|verformung|traverse|stauchung|dehnung"
-    r"|verlängerung|extensión|extensão|alargamento|estensione|allongement|déplacement"
-    r"|desplazamiento|deslocamento|compresión|compressão|standardweg)|c",
-    "force": r"((standard|normal|impact|contact) ?)?(force|kraft|load|last|fuerza|forza|força"
-    r"|carga|carico|charge|kracht|belastning)"
-    r"( ?[a-z0-9])?|f([_ ]?[xyzn0-9])?",
-    "voltage": r"(voltage|volts?|spannung|tension|potential|signal|sensor|piezo|u)([ _]?[a-z0-9])?"
-    r"|ch(annel|an)?[ _]?[a-z0-9]v?|math[ _]?\d?",
-    "sound": r"(recording|audio|sound|sound pressure|microphone|mic|amplitude|aufnahme)",
-    "x": r"x|(x[ _-]?position|position[ _-]?x)",
-    "y": r"y|(y[ _-]?position|position[ _-]?y)|position|distance|height|höhe|abstand|ort",
-}
-_ROLES = {role: re.compile(words) for role, words in _WORDS.items()}
+_KNOWN: dict[str, dict[str, list[str]]] = tomllib.loads(
+    (files(__package__) / "roles.toml").read_text("utf-8")
+)
+_ROLES = {role: re.compile("|".join(known["words"])) for role, known in _KNOWN.items()}
 _ACCELERATION = re.compile(
     r"(?P<before>.*\b)?(acceleration|accelerometer|beschleunigung|accélération|aceleración"
     r"|aceleração|accelerazione|acc\b)(?P<rest>.*)|a(?P<axis>[_ ]?[xyz])?"
 )
-_WANTED = {  # the SI units that a column in a role can have
-    "knock_time": "s", "time": "s", "compression": "m", "force": "N kg", "voltage": "V A",
-    "sound": "V Pa 1", "x": "m px", "y": "m px", "frame": "1", "track_id": "1",
-}  # fmt: skip
 _BY_UNIT = {"s": "time", "N": "force", "V": "voltage", "m/s^2": "acceleration"}
 _PIXELS = re.compile(r"px|pix|pixels?", re.IGNORECASE)
 _BETWEEN = re.compile(r"interval|duration|period|delay|dauer|δt|^dt")  # durations, no moments
 _ARBITRARY = ("a.u.", "a. u.", "arb. units", "arbitrary")
 _FAR = 1e3  # m: positions in such a unit are no heights of a ball
 ACCELERATIONS = tuple("acceleration" + axis for axis in ("_x", "_y", "_z", "_absolute", ""))
-ROLES = (*_WORDS, *ACCELERATIONS)
+ROLES = (*_KNOWN, *ACCELERATIONS)
 """What a column can be."""
 G = 9.80665
 
@@ -133,7 +115,7 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
     if not told and unit.casefold() in ("frame", "frames"):
         return "frame", 1.0, "", ""
     role = told or next((known for known, words in _ROLES.items() if words.fullmatch(word)), "")
-    if symbol and role and symbol not in _WANTED.get(role, symbol).split():
+    if symbol and role in _KNOWN and symbol not in _KNOWN[role]["units"]:
         role = ""
     if role == "time" and not unit and "sec" in word:
         symbol = "s"

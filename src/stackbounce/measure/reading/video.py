@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import islice
 
 import numpy as np
 
@@ -174,41 +175,36 @@ def _linked(
 
 
 def _together(times: Array, points: Array) -> list[dict[int, Array]]:
-    """Return moving tracks as points by row, the longest first, of points (rows, any, x and y)."""
+    """Return moving tracks as points by row, the longest first, of points (rows, any, x and y).
+
+    In each row the longest track is the first to take the point next to its path.
+    """
     known = np.asarray(np.isfinite(points).all(axis=2))
     reach = _REACH * float(np.ptp(points[known], axis=0).max()) if known.any() else 0.0
+    tracks: list[dict[int, Array]] = []
     live: list[dict[int, Array]] = []
-    done: list[dict[int, Array]] = []
     for row, now in enumerate(times.tolist()):
-        done += [
-            track for track in live if now - times[max(track)] > _LOST and len(track) >= _LEAST
-        ]
-        live = [track for track in live if now - times[max(track)] <= _LOST]
         left = list(points[row][known[row]])
-        paths = [_expected(track, times, now) for track in live]
-        far = {
-            (k, j): float(np.hypot(*(path - place)))
-            for k, path in enumerate(paths)
-            for j, place in enumerate(left)
-        }
-        taken: set[int] = set()
-        for (k, j), distance in sorted(far.items(), key=lambda item: item[1]):
-            if distance <= reach and row not in live[k] and j not in taken:
-                live[k][row] = left[j]
-                taken.add(j)
-        live += [{row: place} for j, place in enumerate(left) if j not in taken]
-    done += [track for track in live if len(track) >= _LEAST]
-    ranges = [float(np.ptp(list(track.values()), axis=0).max()) for track in done]
+        live = [track for track in live if now - times[next(reversed(track))] <= _LOST]
+        for track in sorted(live, key=len, reverse=True):
+            off = [float(np.hypot(*(place - _expected(track, times, now)))) for place in left]
+            if off and min(off) <= reach:
+                track[row] = left.pop(off.index(min(off)))
+        new = [{row: place} for place in left]
+        tracks += new
+        live += new
+    found = [track for track in tracks if len(track) >= _LEAST]
+    ranges = [float(np.ptp(list(track.values()), axis=0).max()) for track in found]
     moving = [
-        track for track, wide in zip(done, ranges, strict=True) if wide > _STILL * max(ranges)
+        track for track, wide in zip(found, ranges, strict=True) if wide > _STILL * max(ranges)
     ]
     return sorted(moving, key=len, reverse=True)[:_TRACKS]
 
 
 def _expected(track: dict[int, Array], times: Array, now: float) -> Array:
     """Return where a track would go on to, by its last two points."""
-    *_, last = track
-    before = next((row for row in list(track)[-2:-1]), last)
+    rows = list(islice(reversed(track), 2))
+    last, before = rows[0], rows[-1]
     since = float(times[last] - times[before])
     if not since > 0.0:
         return track[last]

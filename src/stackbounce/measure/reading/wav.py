@@ -117,11 +117,8 @@ def _decoded(form: bytearray, samples: memoryview, order: str, frames: int) -> N
 
 def _folded(samples: NDArray[Any]) -> Array:
     """Return the mean of the channels, (frames, channels), of full scale 1."""
-    sound = np.zeros(len(samples))
     with np.errstate(all="ignore"):
-        for channel in samples.T:
-            sound += channel
-        sound /= samples.shape[1]
+        sound: Array = np.mean(samples, axis=1, dtype=np.float64)
     if samples.dtype.kind == "f":
         return sound
     full = 2.0 ** (8 * samples.dtype.itemsize - 1)  # scipy widens 24 bits to the upper ones of 32
