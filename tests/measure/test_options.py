@@ -86,7 +86,7 @@ def test_an_example_is_understood_on_the_command_line_and_by_the_page(option):
 FACES = {
     "decimal mark": (GERMAN, {"decimal": ","}),
     "law": (FORCE, {"law": "PowerLaw", "exponent": "1.3", "mass": "57 g", "speed": "4.4 m/s"}),
-    "columns": ("a,b\n0,1\n0.5,0.7\n0.9,0.6\n1.22,0.5\n", {"names": "knock_time=1"}),
+    "columns": ("a,b\n0,1\n0.5,0.7\n0.9,0.6\n1.22,0.5\n", {"names": "1=knock_time"}),
     "air": (
         "t\n0\n0.5\n0.9\n1.22\n",
         {
