@@ -20,22 +20,17 @@ def small():
     return race.sets(quiet, most=40, changes=3)
 
 
-def test_random_drops_are_what_they_say():
+def test_random_drops_are_what_they_say_and_the_same_for_the_same_seed():
     drops = random_drops.random(1000, seed=3)
     mass, stiffness, gap = drops.ratios.T
-    for ratio, limits in [
-        (mass, random_drops.MASS_RATIOS),
-        (stiffness, random_drops.STIFFNESS_RATIOS),
-    ]:
-        assert limits[0] <= ratio.min() < 2 * limits[0]
-        assert limits[1] / 2 < ratio.max() <= limits[1]
-        assert abs(np.median(np.log(ratio)) - np.log(limits).mean()) < 0.5
+    limits = (random_drops.MASS_RATIOS, random_drops.STIFFNESS_RATIOS)
+    for ratio, (low, high) in zip((mass, stiffness), limits, strict=True):
+        assert low <= ratio.min() < 2 * low
+        assert high / 2 < ratio.max() <= high
+        assert abs(np.median(np.log(ratio)) - np.log([low, high]).mean()) < 0.5
     assert np.count_nonzero(gap == 0.0) == 500
     assert 1.9 < gap.max() <= 2.0
     assert np.array_equal(drops.masses[:, 0] / drops.masses[:, 1], 1.0 / (1.0 / mass))
-
-
-def test_same_seed_same_drops():
     one, other = (random_drops.random(50, seed=seed).ratios for seed in (4, 5))
     assert np.array_equal(one, random_drops.random(50, seed=4).ratios)
     assert not np.array_equal(one, other)
@@ -103,31 +98,15 @@ def test_starts_are_told_next_to_numpy():
     assert len(figures.startup(starts).axes[0].patches) == 2 * len(starts)
 
 
-def test_a_start_is_the_median_of_its_rounds_and_of_their_ratios(monkeypatch):
-    monkeypatch.setattr(startup, "STARTS", {startup.BASE: "1", "ours": "2"})
-    first, rounds = [(9.0, 9.0)] * 2, [(1, 2), (3, 4), (2, 2), (4, 3), (1, 1), (8, 9)]
-    spent = iter([*first, *rounds])
-    monkeypatch.setattr(startup, "_spent", lambda _: next(spent))
-    base, ours = startup.measure(quiet, rounds=3)
-    assert base == startup.Start(startup.BASE, 1.0, 2.0, 1.0, 1.0)
-    assert ours == startup.Start("ours", 4.0, 4.0, 3.0, 2.0)
-
-
 @pytest.mark.slow
-def test_other_laws_are_told_next_to_scipy_at_equal_error(monkeypatch):
-    monkeypatch.setattr(laws, "THEIRS", (1e-6,))
-    monkeypatch.setattr(laws, "ROUNDS", 1)
+def test_other_laws_are_told_next_to_scipy_and_rigid_ones_next_to_a_division(monkeypatch):
+    for name, value in {"THEIRS": (1e-6,), "ROUNDS": 1, "RIGID": 100, "DIVISIONS": 10**4}.items():
+        monkeypatch.setattr(laws, name, value)
     entries = laws.nonlinear(quiet, drops=4)
-    assert [one.law for one in entries] == list(laws.LAWS)
-    for one in entries:
-        assert 0.0 < one.our_error <= one.error < 1e-3
-        assert min(one.seconds, one.our_seconds) > 0.0
+    assert [entry.law for entry in entries] == list(laws.LAWS)
+    for entry in entries:
+        assert 0.0 < entry.our_error <= entry.error < 1e-3
+        assert min(entry.seconds, entry.our_seconds) > 0.0
     assert len(report.law_times(entries)) == len(figures.laws(entries).axes[0].lines) == 4
-
-
-def test_rigid_collisions_are_told_next_to_a_division(monkeypatch):
-    monkeypatch.setattr(laws, "RIGID", 100)
-    monkeypatch.setattr(laws, "DIVISIONS", 10**4)
     found = laws.rigid(quiet)
     assert min(found.division, found.collision) > 0.0
-    assert laws.divisions(2) == 1.5

@@ -32,8 +32,6 @@ def names(folder="."):
 
 
 HEIGHTS = ["measure", "--heights", "1, 0.6 m", "--mass", "57g"]
-
-
 FILES = pytest.mark.parametrize(
     ("command", "name"),
     [
@@ -78,12 +76,9 @@ def test_a_file_is_replaced_if_it_is_as_it_was_written_here(command, name, capsy
 
 
 def test_a_marked_file_is_whole():
-    pytest.importorskip("matplotlib")
-    from matplotlib.image import imread
-
-    assert main(["simulate", "B1", "--plot", "a.png"]) == 0
-    assert main(["simulate", "B1", "--plot", "a.svg"]) == 0
-    assert imread("a.png").ndim == 3
+    for name in ("a.png", "a.svg"):
+        assert main(["simulate", "B1", "--plot", name]) == 0
+    assert pytest.importorskip("matplotlib.image").imread("a.png").ndim == 3
     assert ET.parse("a.svg").getroot().tag.endswith("svg")
     content = Path("a.png").read_bytes()
     chunk = content[content.index(b"tEXtComment") : -16]
@@ -204,14 +199,11 @@ def test_no_more_is_read_than_allowed():
         content_of("large", 2**20)
 
 
-def test_no_temporary_file_stays_where_a_file_of_a_folder_cannot_be_replaced(tmp_path):
+def test_only_files_as_they_were_written_are_replaced_and_no_temporary_file_stays(tmp_path):
     (tmp_path / "audit.csv").mkdir()
     with pytest.raises(FileError):
         write_folder(tmp_path, {"audit.csv": b"new", "index.html": b"new"})
     assert [path.name for path in tmp_path.iterdir()] == ["audit.csv"]
-
-
-def test_only_files_as_they_were_written_are_replaced(tmp_path):
     write_folder(tmp_path, {"index.html": b"1", "study.html": b"1"})
     write_folder(tmp_path, {"index.html": b"2"})
     assert (tmp_path / "index.html").read_bytes() == b"2"

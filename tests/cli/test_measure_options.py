@@ -71,15 +71,11 @@ def test_numbers_alone_give_a_law_with_errors(run):
     assert rows(told["files"][0]["found"])["dynamic stiffness"][0] == pytest.approx(22503, rel=1e-4)
 
 
-def test_an_exponent_with_the_law(run):
-    told = run(
-        "--contact-time", "5ms", "--mass", "57g", "--speed", "2", "--law", "power-law exponent=1.3"
-    )
+def test_an_exponent_with_the_law_and_what_is_known_before_what_was_found(run):
+    given = ("--contact-time", "5ms", "--mass", "57g", "--speed", "2")
+    told = run(*given, "--law", "power-law exponent=1.3")
     law = sb.calibrate(sb.PowerLaw, mass=0.057, contact_time=5e-3, impact_speed=2.0, exponent=1.3)
     assert rows(told["law"])["stiffness"][0] == pytest.approx(law.stiffness)
-
-
-def test_what_is_known_counts_before_what_was_found(run):
     told = run("tennis.wav", "--restitution", "0.5", "--law", "rigid")
     assert rows(told["law"])["restitution"] == (0.5, 0.0)
 
@@ -93,12 +89,9 @@ def test_a_track_tells_restitution_and_speed(law):
         assert found.given["impact_speed"].nominal_value == pytest.approx(SPEED, abs=5e-3)
 
 
-def test_heights_without_errors_give_a_law_all_the_same():
+def test_heights_without_errors_give_a_law_and_nothing_known_none():
     found = one_law("rigid", [heights(1.0, 0.64)])
     assert found.law == sb.Rigid(0.8)
-
-
-def test_nothing_known_is_no_contact():
     assert of_numbers(Setup(contact_time=5e-3)).parts() == {}
 
 
@@ -121,13 +114,10 @@ def test_heights_in_a_table(run):
     assert rows(table["found"])["restitution of bounce 0"][0] == pytest.approx(0.575**0.5)
 
 
-def test_one_bounce_again_and_again(run):
+def test_heights_of_one_bounce_again_and_again_and_heights_that_are_drawn_and_saved(run):
     found = rows(run("--heights", "1, 0.63, 0.65, 0.64 m", "--repeated")["files"][0]["found"])
     assert found["restitution"][0] == pytest.approx(0.8)
     assert "restitution 2" in found
-
-
-def test_heights_are_drawn_and_saved(run):
     options = ["--height-error", "5mm", "--plot", "h.svg", "--save", "b.toml", "--mass", "57g"]
     run("--heights", HEIGHTS, *options)
     assert Path("h.svg").read_bytes().startswith(b"<?xml")
@@ -163,7 +153,6 @@ def test_the_floor_of_a_soft_balls_track():
         ("100 cm +/- 5 mm", 1.0, 0.005),
         ("(1e2±1)cm", 1.0, 0.01),
         ("70 cm ± 2", 0.7, 0.02),
-        ("70 cm +/- 2", 0.7, 0.02),
         ("70 cm ± 2 mm", 0.7, 0.002),
         ("(70 ± 2) cm", 0.7, 0.02),
         ("(70 cm ± 2)", 0.7, 0.02),
@@ -171,7 +160,6 @@ def test_the_floor_of_a_soft_balls_track():
         ("70.0(25) cm", 0.7, 0.025),
         ("70.0(0.5) cm", 0.7, 0.005),
         ("7.0(2)e1 cm", 0.7, 0.02),
-        ("-0.70(2)", -0.7, 0.02),
         ("0.7 ± 0.02", 0.7, 0.02),
     ],
 )
@@ -192,13 +180,7 @@ def test_a_unit_of_the_value_is_that_of_its_error():
 
 @pytest.mark.parametrize(
     ("name", "text"),
-    [
-        ("mass", "-57 g"),
-        ("mass", "-57 ± 1 g"),
-        ("restitution", "1.2"),
-        ("gravity", "0"),
-        ("scale", "-1 mm"),
-    ],
+    [("mass", "-57 ± 1 g"), ("restitution", "1.2"), ("gravity", "0"), ("scale", "-1 mm")],
 )
 def test_numbers_out_of_range_are_refused_even_if_no_analysis_needs_them(name, text):
     with pytest.raises(InvalidValue, match=f"^--{name} must be a .*number"):
@@ -215,22 +197,10 @@ def test_a_height_that_is_no_number_is_named_as_it_was_typed(text):
 @pytest.mark.parametrize(
     "text",
     [
-        "70(2) cm ± 2",
-        "70(2",
-        "70(-2) cm",
-        "70(2)(2) cm",
-        "1 ± m",
-        "± 1 m",
-        "1 ± 2 s",
-        "1 ± -1 m",
-        "1 ± 1 ± 1 m",
-        "1 ± 0.1) m",
-        "(1 ± 0.1 m",
-        "1) ± (0.1 m",
-        "((1 ± 0.1)) m",
-        "(1 ± 0.1) (m)",
+        *("70(2) cm ± 2", "70(2", "70(-2) cm", "70(2)(2) cm", "1 ± m", "± 1 m", "1 ± 2 s"),
+        *("1 ± -1 m", "1 ± 1 ± 1 m", "1 ± 0.1) m", "(1 ± 0.1 m", "1) ± (0.1 m", "((1 ± 0.1)) m"),
     ],
 )
 def test_numbers_with_wrong_errors(text):
-    with pytest.raises((InvalidValue, sb.StackbounceError), match="height"):
+    with pytest.raises(sb.StackbounceError, match="height"):
         quantity_with_error(text, "m", "height")

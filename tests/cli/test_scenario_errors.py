@@ -31,7 +31,7 @@ def _files():
     Path("drop.toml").write_text(text, encoding="utf-8")
 
 
-def test_a_file_has_the_drop_and_its_errors():
+def test_a_file_has_the_drop_and_its_errors_and_a_drop_has_none():
     drop, errors = read_scenario("drop.toml")
     assert drop == DROP
     assert errors == {
@@ -41,6 +41,8 @@ def test_a_file_has_the_drop_and_its_errors():
         "contacts.0.stiffness": "200000 ± 10000",
     }
     assert read_scenario("plain.toml") == (DROP, {})
+    with pytest.raises(sb.errors.ScenarioError, match="height must be a length without an error"):
+        sb.Drop.from_mapping(DROP.to_mapping() | {"height": "63 ± 1 cm"})
 
 
 def test_simulate_carries_the_errors_of_a_file(run):
@@ -77,8 +79,3 @@ def test_where_errors_mean_nothing_they_are_refused(refused, command, message):
     err = refused(*command)
     assert message in err
     assert "without an error here" in err or "--error" in command
-
-
-def test_a_drop_has_no_errors():
-    with pytest.raises(sb.errors.ScenarioError, match="height must be a length without an error"):
-        sb.Drop.from_mapping(DROP.to_mapping() | {"height": "63 ± 1 cm"})

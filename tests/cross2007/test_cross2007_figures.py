@@ -25,8 +25,6 @@ from stackbounce.cross2007.stacks import (
     late_pair,
     late_twins,
     reversed_pair,
-    stiffen,
-    twin_pair,
 )
 from stackbounce.cross2007.style import GREY, render, use_style
 from stackbounce.cross2007.tables import make_table_one, make_table_two
@@ -68,23 +66,15 @@ def curves(ax):
 
 
 @pytest.mark.parametrize("name", CONTENT)
-def test_axes_and_curves(drawn, name):
+def test_axes_curves_and_guesses(drawn, name):
     below, beside, counts = CONTENT[name]
-    axes = drawn[name].figure.axes
+    picture = drawn[name]
+    axes = picture.figure.axes
     assert axes[-1].get_xlabel() == below
     assert [ax.get_ylabel() for ax in axes] == beside
     assert [len(curves(ax)) for ax in axes] == counts
     assert all(np.isfinite(line.get_ydata()).all() for ax in axes for line in curves(ax))
-
-
-@pytest.mark.parametrize("name", CONTENT)
-def test_every_guess_is_told(drawn, name):
-    assert drawn[name].guesses
-    assert drawn[name].title
-    assert drawn[name].caption
-
-
-def test_all_figures_with_numbers_are_there(drawn):
+    assert all((picture.guesses, picture.title, picture.caption))
     assert list(drawn) == list(FIGURES) == list(CONTENT)
 
 
@@ -98,54 +88,34 @@ def test_files_are_images_of_a_fair_size(drawn, name):
     assert height >= 900
 
 
-def test_the_same_figure_gives_the_same_bytes(drawn):
+def test_the_same_figure_gives_the_same_bytes_and_follows_the_data(drawn):
     with use_style():
         again = FIGURES["9"](Bench(PAPER))
-    assert render(again.figure) == render(drawn["9"].figure)
-
-
-def test_figure_six_is_dashed_and_solid_as_the_caption_says(drawn):
-    styles = [line.get_linestyle() for line in curves(drawn["6"].figure.axes[0])]
-    assert styles == ["--", "-"] * 3
-
-
-def test_figures_follow_the_data():
-    with use_style():
         lighter = FIGURES["9"](Bench(changed(PAPER, "tennis.mass", 0.99)))
-        same = FIGURES["9"](Bench(PAPER))
-    assert lighter.features != same.features
+    assert render(again.figure) == render(drawn["9"].figure)
+    assert lighter.features != again.features
 
 
 @pytest.mark.parametrize("e", [1.0, 0.8])
-def test_first_collision_follows_equations_1_and_2(bench, e):
+def test_collisions_follow_equations_1_to_4(bench, e):
     m = np.array([0.1, 1.0, 3.0, 10.0])
     lower = (e * m - (1.0 + e + e * e)) / (m + 1.0)  # eq. 1
     upper = (e * (2.0 + e) * m - 1.0) / (m + 1.0)  # eq. 2
     np.testing.assert_allclose(after_collision(bench, m, e, 1), [lower, upper], atol=1e-13)
-
-
-@pytest.mark.parametrize("e", [1.0, 0.8])
-def test_second_collision_follows_equations_3_and_4(bench, e):
     m = np.array([0.1, 0.3, 0.9])
     v1, v2 = after_collision(bench, m, e, 1)
     v3 = ((1.0 + e) * v2 + e * (e - m) * v1) / (m + 1.0)  # eq. 3
     v4 = ((1.0 - e * m) * v2 - e * (1.0 + e) * m * v1) / (m + 1.0)  # eq. 4
     np.testing.assert_allclose(after_collision(bench, m, e, 2), [v3, v4], atol=1e-12)
+    assert np.isnan(after_collision(bench, np.array([2.0]), 1.0, 2)).all()  # heavy: one collision
 
 
-def test_heavy_lower_balls_collide_once(bench):
-    assert np.isnan(after_collision(bench, np.array([2.0]), 1.0, 2)).all()
-
-
-def test_energy_is_kept_on_springs(bench):
+def test_energy_is_kept_on_springs_and_a_stiff_one_comes_near_to_separate_collisions(bench):
     m = np.array([0.05, 0.5, 2.63, 10.0])
     lower, upper = rebound_by_mass(bench, m, 20.0)
     np.testing.assert_allclose(m * lower**2 + upper**2, m + 1.0, rtol=1e-12)
     lower, upper = rebound_by_stiffness(bench, 4.23, np.array([0.1, 1.0, 100.0]))
     np.testing.assert_allclose(4.23 * lower**2 + upper**2, 5.23, rtol=1e-12)
-
-
-def test_a_stiff_lower_spring_comes_near_to_separate_collisions(bench):
     lower, upper = rebound_by_stiffness(bench, 10.0, np.array([1e6]))
     separate = after_collision(bench, np.array([10.0]), 1.0, 1)
     np.testing.assert_allclose([lower, upper], separate, atol=1e-2)
@@ -160,10 +130,15 @@ def test_forces_start_at_zero_and_end_with_the_contacts(bench):
     assert 0.0 < rise < fall < result.last_release[0]
 
 
-def test_gap_for_a_delay_gives_the_delay(bench):
-    drop = reversed_pair(bench, 0.0)
-    gap = gap_for_delay(bench, drop, 2e-3)
-    assert bench.simulate(reversed_pair(bench, gap)).first_touch[1] == pytest.approx(2e-3, rel=1e-9)
+def test_measured_delays_and_durations_set_the_gaps(bench):
+    gap = gap_for_delay(bench, reversed_pair(bench, 0.0), 2e-3)
+    for drop, delay in (
+        (reversed_pair(bench, gap), 2e-3),
+        (late_pair(bench), 7e-3),
+        (early_twins(bench), 1e-3),
+    ):
+        assert bench.simulate(drop).first_touch[1] == pytest.approx(delay, rel=1e-9)
+    assert bench.simulate(late_twins(bench)).last_release[0] == pytest.approx(12e-3, rel=1e-9)
 
 
 def test_the_hollow_ball_is_set_to_two_measurements_and_misses_the_others(bench):
@@ -179,15 +154,11 @@ def test_the_hollow_ball_is_set_to_two_measurements_and_misses_the_others(bench)
     assert alone.rebound_ratios[0] ** 2 == pytest.approx(bounce, rel=1e-9)
 
 
-def test_newton_tells_that_there_is_no_zero():
+def test_newton_tells_that_there_is_no_zero_and_bisection_meets_a_jump_and_a_root():
     with pytest.raises(ArithmeticError, match="no zero near"):
         newton(lambda x: [x[0] ** 2 + 1.0, x[1]], np.array([1.0, 1.0]))
-
-
-def test_measured_delays_and_durations_set_the_gaps(bench):
-    assert bench.simulate(late_pair(bench)).first_touch[1] == pytest.approx(7e-3, rel=1e-9)
-    assert bench.simulate(late_twins(bench)).last_release[0] == pytest.approx(12e-3, rel=1e-9)
-    assert bench.simulate(early_twins(bench)).first_touch[1] == pytest.approx(1e-3, rel=1e-9)
+    assert bisect(lambda x: 1.0 if x > 0.3 else -1.0, 0.0, 1.0) == pytest.approx(0.3, abs=1e-15)
+    assert bisect(lambda x: 2.0 - x * x, 0.0, 2.0) == pytest.approx(2.0**0.5, abs=1e-15)
 
 
 def test_the_floor_force_shows_the_peaks_that_the_text_counts(bench):
@@ -197,29 +168,12 @@ def test_the_floor_force_shows_the_peaks_that_the_text_counts(bench):
     assert list(bench.simulate(late_twins(bench)).collisions) == [2, 1]
 
 
-def test_stiffening_keeps_the_contact_times(bench):
-    drop = twin_pair(bench, 0.0)
-    law = stiffen(bench, drop).contacts[0]
-    assert law.exponent == 1.5
-    assert law.restitution == 1.0
-
-
-def test_solved_meets_a_jump_and_a_root():
-    assert bisect(lambda x: 1.0 if x > 0.3 else -1.0, 0.0, 1.0) == pytest.approx(0.3, abs=1e-15)
-    assert bisect(lambda x: 2.0 - x * x, 0.0, 2.0) == pytest.approx(2.0**0.5, abs=1e-15)
-
-
-def test_table_one_carries_the_errors(bench):
+def test_tables_have_printed_and_computed_values_with_errors(bench):
     table = make_table_one(bench)
-    printed, computed = (table.head.index(f"dynamic k {what}") for what in PRINTED_AND_COMPUTED)
+    columns = ("printed (1e4 N/m)", "= m (π/time)²")
+    printed, computed = (table.head.index(f"dynamic k {column}") for column in columns)
     assert [row[printed] for row in table.rows] == ["5.4", "3.6", "2.3"]
     assert [row[computed] for row in table.rows] == ["5.39±0.25", "3.62±0.28", "2.32±0.24"]
-
-
-PRINTED_AND_COMPUTED = ("printed (1e4 N/m)", "= m (π/time)²")
-
-
-def test_table_two_has_printed_and_computed_values(bench):
     table = make_table_two(bench)
     assert all(len(row) == len(table.head) for row in table.rows)
     first = dict(zip(table.head, table.rows[0], strict=True))

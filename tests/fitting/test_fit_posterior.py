@@ -128,16 +128,13 @@ def test_what_cannot_be_drawn(options, kind, message):
         linear().sample(**options)
 
 
-def test_short_chains_are_noted_and_a_name_that_was_not_varied_is_refused():
+def test_short_chains_and_other_minima_are_told_and_a_name_that_was_not_varied_is_refused():
     found = linear()
     draws = found.sample(640)
     assert draws.notes[0].startswith("the chains are only ")
     for values in (draws, found):
         with pytest.raises(InvalidValue, match=r"^'contacts' was not varied"):
             values["contacts"]
-
-
-def test_other_minima_are_told():
     stack = sb.Drop(
         [sb.Ball(0.150), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(3000.0)], impact_speed=3.5
     )

@@ -1,6 +1,6 @@
 """`FitProblem`: what a fit needs, checked when it is made; a model until it has data."""
 
-from dataclasses import FrozenInstanceError, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,13 +14,15 @@ DROP = sb.Drop([sb.Ball(0.0567)], [sb.Spring(1e4)], height=0.3)
 DATA = {"durations.0": "5.0 ± 0.1 ms"}
 
 
-def test_a_problem_is_fitted_as_its_parts_are():
+def test_a_problem_is_fitted_as_its_parts_are_each_time():
     problem = FitProblem(DROP, DATA, [STIFFNESS])
     same = sb.fit(DROP, DATA, [STIFFNESS])
     assert problem.fit().as_dict() == same.as_dict()
     same = sb.fit(DROP, DATA, [STIFFNESS], starts=16, seed=3)
     assert problem.fit(starts=16, seed=3).best == same.best
     assert problem.fit(rtol=1e-6).objective.rtol == 1e-6
+    problem.objective.unsolved["EVENT_LIMIT"] += 7
+    assert problem.fit(starts=4).unsolved == {}
 
 
 def test_a_problem_has_the_residuals_of_many_trials():
@@ -32,26 +34,15 @@ def test_a_problem_has_the_residuals_of_many_trials():
 
 
 @pytest.mark.parametrize(
-    ("change", "error", "expected"),
-    [
-        ({"drops": 3}, InvalidType, "drop must be a Drop or map names to Drops"),
-        ({"data": 3}, InvalidType, "data must map names to what was measured"),
-        ({"vary": 3}, InvalidType, "vary must name what may change"),
-        ({"tie": {"balls.0.mass": "k"}}, InvalidValue, "has k, which is neither varied nor"),
-        ({"rtol": 1.0}, InvalidValue, "rtol must be"),
-    ],
+    ("change", "expected"),
+    [({"drops": 3}, "drop must be"), ({"data": 3}, "data must"), ({"rtol": 1.0}, "rtol must be")],
 )
-def test_a_problem_is_checked_when_it_is_made(change, error, expected):
-    with pytest.raises(error, match=expected):
+def test_a_problem_is_checked_when_it_is_made(change, expected):
+    with pytest.raises((InvalidType, InvalidValue), match=expected):
         FitProblem(**{"drops": DROP, "data": DATA, "vary": [STIFFNESS], **change})
 
 
-def test_a_problem_does_not_change():
-    with pytest.raises(FrozenInstanceError):
-        FitProblem(DROP, DATA, [STIFFNESS]).rtol = 1e-6
-
-
-def test_a_model_is_a_problem_without_data():
+def test_a_model_is_a_problem_without_data_and_several_drops_stay_several():
     model = sb.Model(DROP, [STIFFNESS])
     assert isinstance(model, FitProblem)
     assert (model.drop, model.data, model.vary, model.tie) == (DROP, {}, [STIFFNESS], None)
@@ -60,16 +51,6 @@ def test_a_model_is_a_problem_without_data():
     assert replace(model, data=DATA).fit().best == sb.fit(DROP, DATA, [STIFFNESS]).best
     compared = sb.compare({"spring": model}, DATA)
     assert compared["spring"].best == sb.fit(DROP, DATA, [STIFFNESS]).best
-
-
-def test_runs_without_an_end_are_counted_for_each_fit():
-    """A second fit of the same problem begins to count anew."""
-    problem = FitProblem(DROP, DATA, [STIFFNESS])
-    problem.objective.unsolved["EVENT_LIMIT"] += 7
-    assert problem.fit(starts=4).unsolved == {}
-
-
-def test_several_drops_stay_several():
     drops = {"low": DROP, "high": replace(DROP, height=1.0)}
     data = dict.fromkeys(drops, DATA)
     problem = FitProblem(drops, data, [STIFFNESS])

@@ -41,58 +41,12 @@ def test_a_formula_computes(text, expected):
 @pytest.mark.parametrize(
     "text",
     [
-        "().__class__",
-        "k.__class__",
-        "k.real",
-        "(1,2)*1000000000",
-        "((1,),)*99999999",
-        "k, k",
-        "[k]*9",
-        "{k}",
-        "'k'*9",
-        "f'{k}'",
-        "k if k else k",
-        "k or k",
-        "lambda: k",
-        "(x := k)",
-        "k = 1",
-        "k; k",
-        "k == k",
-        "k // 2",
-        "k % 2",
-        "k << 9",
-        "k @ k",
-        "~k",
-        "k\nk",
-        "k[0]",
-        "k(k)",
-        "sqrt",
-        "sqrt(k, k)",
-        "sqrt()",
-        "sqrt(x=k)",
-        "maximum(*k)",
-        "maximum(k, 1, k)",
-        "open(k)",
-        "__import__(k)",
-        "print(k)",
-        "eval(k)",
-        "import os",
-        "await k",
-        "1j * k",
-        "0x10 * k",
-        "1_000 * k",
-        "True * k",
-        "None",
-        "...",
-        "*",
-        "1 2",
-        "k\0",
+        *("().__class__", "k.__class__", "(1,2)*1000000000", "[k]*9", "'k'*9", "k if k else k"),
+        *("lambda: k", "k = 1", "k == k", "k // 2", "k @ k", "~k", "k\nk", "k[0]", "k(k)"),
+        *("sqrt", "sqrt(k, k)", "sqrt(x=k)", "maximum(*k)", "open(k)", "__import__(k)"),
+        *("import os", "1j * k", "0x10 * k", "1_000 * k", "True * k", "*", "k\0", "k\u00b2"),
         "\u212a",  # the sign of the kelvin, which Python reads as K
-        "k\u00b2",
-        "(" * 240 + "k" + ")" * 240,
-        "-" * 100_000 + "k",
-        "k" + "+k" * 100_000,
-        "k" * 100_000,
+        *("(" * 240 + "k" + ")" * 240, "-" * 100_000 + "k", "k" * 100_000),
     ],
 )
 def test_what_is_no_formula_is_refused(text):
@@ -122,7 +76,7 @@ def test_a_formula_is_a_text_or_a_function(formula):
         fitted({UPPER: formula})
 
 
-def test_ties_may_use_each_other_in_any_order():
+def test_ties_may_use_each_other_in_any_order_and_be_functions():
     ties = {UPPER: "2 * contacts.0.stiffness / 5", "contacts.0.stiffness": "k"}
     one = fitted(ties)
     other = fitted(dict(reversed(ties.items())))
@@ -131,6 +85,9 @@ def test_ties_may_use_each_other_in_any_order():
     assert one.best["k"] == pytest.approx(alone.best["k"], rel=1e-9)
     law, above = one.drop.contacts
     assert above.stiffness == pytest.approx(0.4 * law.stiffness, rel=1e-12)
+    vary = {"contacts.0.stiffness": (500.0, 5000.0)}
+    found = fitted({UPPER: lambda values: 0.4 * values["contacts.0.stiffness"]}, vary)
+    assert found.best == fitted({UPPER: "0.4 * contacts.0.stiffness"}, vary).best
 
 
 @pytest.mark.parametrize(
@@ -143,13 +100,6 @@ def test_ties_may_use_each_other_in_any_order():
 def test_ties_that_go_round_are_refused(ties):
     with pytest.raises(InvalidValue, match=r"^tie: these depend on each other in a circle: "):
         fitted(ties)
-
-
-def test_a_function_of_python_is_a_tie():
-    found = fitted({UPPER: lambda values: 0.4 * values["contacts.0.stiffness"]},
-                   {"contacts.0.stiffness": (500.0, 5000.0)})  # fmt: skip
-    text = fitted({UPPER: "0.4 * contacts.0.stiffness"}, {"contacts.0.stiffness": (500.0, 5000.0)})
-    assert found.best == text.best
 
 
 @pytest.mark.parametrize(
@@ -171,7 +121,6 @@ def test_a_function_that_fails_is_told(function, message):
     ("tie", "vary", "message"),
     [
         ({"contacts.9.stiffness": "k"}, None, "is not a parameter of the drop"),
-        ({3: "k"}, None, "is not a parameter of the drop"),
         ({UPPER: "k"}, {"k": (1.0, 2.0), UPPER: (1.0, 2.0)}, "both varied and tied"),
         ({UPPER: "2.0 * m"}, None, "has m, which is neither varied nor a number of the drop"),
         ({UPPER: "2.0 * pi"}, None, "k is neither a number of the drop nor used by a tie"),
@@ -181,7 +130,6 @@ def test_a_function_that_fails_is_told(function, message):
         ({UPPER: "k"}, {"k": None}, "k needs bounds"),
         ({UPPER: f"k * {'9' * 400}"}, None, "cannot be read: it may have numbers up to 1e308"),
         ({UPPER: f"-{'9' * 400} + k"}, None, "cannot be read: it may have numbers up to 1e308"),
-        ({UPPER: "k * 1e400"}, None, "cannot be read: it may have numbers up to 1e308"),
         ({UPPER: "k"}, {"k": ("1 kN/m", "2 kN/m")}, "^k must be a pure number"),
     ],
 )
@@ -197,7 +145,7 @@ def test_a_diameter_that_is_varied_can_be_used():
     )
 
 
-def test_shared_and_own_numbers_of_several_drops():
+def test_several_drops_have_shared_and_own_numbers_each_varied_or_tied_once():
     other = sb.Drop([sb.Ball(0.3), sb.Ball(0.057)], STACK.contacts, impact_speed=3.5)
     drops = {"one": STACK, "contacts": other}  # a name that paths begin with
     truth = {key: sb.simulate(drop).rebound_ratios for key, drop in drops.items()}
@@ -206,9 +154,6 @@ def test_shared_and_own_numbers_of_several_drops():
     assert found.best[UPPER] == pytest.approx(1000.0, rel=1e-3)
     assert found.drops["one"].gaps == (0.0,)
     assert found.best["contacts.gaps.0"] == found.drops["contacts"].gaps[0]
-
-
-def test_a_number_is_varied_or_tied_once():
     drops = {"one": STACK, "two": STACK}
     data = {"one": DATA, "two": DATA}
     with pytest.raises(InvalidValue, match="is varied twice: only once for each drop"):

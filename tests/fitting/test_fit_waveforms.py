@@ -60,7 +60,7 @@ def test_the_clock_of_a_record_is_its_own(shift):
     assert found.best["touch"] - shift == pytest.approx(plain.best["touch"], abs=1e-8)
 
 
-def test_volts_have_a_scale_that_is_free():
+def test_volts_have_a_scale_that_is_free_and_the_sign_of_newtons_does_not_count():
     volts = (RECORD * 0.01).assign_attrs(units="V")
     found = fitted(volts)
     assert found.degrees_of_freedom == len(TIMES) - 4
@@ -68,9 +68,6 @@ def test_volts_have_a_scale_that_is_free():
     assert found["contacts.0.stiffness"].std_dev > fitted(RECORD)["contacts.0.stiffness"].std_dev
     turned = fitted(-volts)
     assert turned.best == pytest.approx(found.best, rel=1e-9)
-
-
-def test_a_record_of_the_other_sign_in_newtons():
     assert fitted((TIMES, -FORCE)).best == pytest.approx(fitted((TIMES, FORCE)).best, rel=1e-9)
 
 
@@ -83,7 +80,7 @@ def test_samples_that_are_no_numbers_are_left_out(bad):
     assert within(found, "contacts.0.stiffness", 2500.0)
 
 
-def test_two_records_of_one_drop_with_other_sampling():
+def test_two_records_of_one_drop_have_one_clock():
     record = waveform(STACK, rate=1e4, noise=0.5, seed=2, before=0.01, contacts=[0, 1])
     vary = {**VARY, "contacts.1.stiffness": (700.0, 1500.0)}
     data = {"force.0": record.force, "force.1": record.force_2[1::3]}
@@ -92,10 +89,6 @@ def test_two_records_of_one_drop_with_other_sampling():
     assert within(found, "contacts.1.stiffness", 1000.0)
     assert found.names[-1] == "touch"
     assert found.probability > 0.01
-
-
-def test_records_whose_clocks_differ_do_not_fit():
-    record = waveform(STACK, rate=1e4, noise=0.5, seed=2, before=0.01, contacts=[0, 1])
     later = (record.time.values + 5.0, record.force_2.values)
     found = sb.fit(STACK, {"force.0": record.force, "force.1": later}, VARY, starts=4)
     assert found.notes[0].startswith("the model does not describe the data")
@@ -125,14 +118,10 @@ QUIET = np.random.default_rng(1).normal(0.0, 0.5, len(TIMES))
         ((TIMES, FORCE * np.nan), InvalidValue, "must"),
         ((TIMES[1:], FORCE), InvalidValue, "must hold time and force of one length"),
         (([], []), InvalidValue, "must hold at least 8 samples"),
-        (([1.0], [1.0]), InvalidValue, "must hold at least 8 samples"),
         (None, InvalidType, "must be a DataArray over time, or times, forces and their error"),
-        ("a table", InvalidType, "must be a DataArray over time"),
         (5.0, InvalidType, "must be a DataArray over time"),
-        ((TIMES,), InvalidType, "must be a DataArray over time"),
         ((TIMES, FORCE, 0.5, 1.0), InvalidType, "must be a DataArray over time"),
         ((TIMES, FORCE, 0.0), InvalidValue, "'s error must be a positive number, got 0"),
-        ((TIMES, FORCE, -1.0), InvalidValue, "'s error must be a positive number, got -1"),
         ((TIMES, FORCE, np.nan), InvalidValue, "'s error must be a positive number, got nan"),
         (xr.DataArray(np.ones((3, 3)), dims=("time", "x")), InvalidValue, "dimension time alone"),
     ],
@@ -143,11 +132,13 @@ def test_records_that_cannot_be_used(value, kind, message):
     assert "\n" not in str(caught.value)
 
 
-def test_a_contact_that_is_not_there():
-    with pytest.raises(InvalidValue, match=r"^force\.1 must end in the number of a contact"):
-        sb.fit(ONE, {"force.1": RECORD}, VARY)
-    with pytest.raises(InvalidValue, match=r"did you mean force\.0\?|force\.0$"):
-        sb.fit(ONE, {"force": RECORD}, VARY)
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [("force.1", r"^force\.1 must end in the number of a contact"), ("force", r"force\.0(\?|$)")],
+)
+def test_a_contact_that_is_not_there(name, message):
+    with pytest.raises(InvalidValue, match=message):
+        sb.fit(ONE, {name: RECORD}, VARY)
 
 
 def test_a_clock_is_no_name_for_something_else():

@@ -37,13 +37,10 @@ def test_the_drag_is_corrected_where_mass_and_diameter_are_known():
             assert (plain.values < 0.77).all()
 
 
-def test_the_knocks_of_the_superball_are_two_restitutions():
+def test_superball_and_basketball_have_the_published_restitutions():
     series = make_series(datasets.load("superball-knocks"))
     assert series.values == pytest.approx([0.9356, 0.9364], abs=1e-4)
     assert series.speeds == pytest.approx([3.705, 3.467], abs=1e-3)
-
-
-def test_the_basketball_loses_as_a_power_of_its_speed_if_the_air_is_left_out():
     series = make_series(datasets.load("leather-basketball"), air=False)
     assert series.values == pytest.approx([0.81, 0.85])
     loss, speed = np.log(1.0 - series.values), np.log(series.speeds)

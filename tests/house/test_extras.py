@@ -42,11 +42,7 @@ def brought(extra):
 def test_an_extra_brings_what_it_says(extra):
     assert brought(extra) == set(EXTRAS[extra])
     assert brought(extra) <= brought("all") <= brought("dev")
-
-
-def test_everything_is_in_all():
-    others = set(PROJECT["optional-dependencies"]) - {"all", "dev", "bench"}
-    assert others == set(EXTRAS)
+    assert set(PROJECT["optional-dependencies"]) == {*EXTRAS, "all", "dev", "bench"}
 
 
 def test_a_missing_extra_is_named(monkeypatch):
@@ -109,13 +105,12 @@ def test_a_command_names_the_extra_it_needs(arguments, extra, what, tmp_path):
     assert (run.returncode, run.stdout, list(tmp_path.iterdir())) == (2, "", [])
 
 
-@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("code", "extra"),
     [
         ("import stackbounce as sb; sb.read('sound.wav')", "measure"),
-        ("from stackbounce.plots import bounce", "plots"),
-        ("from stackbounce.explorer.serve import serve", "web"),
+        pytest.param("from stackbounce.plots import bounce", "plots", marks=pytest.mark.slow),
+        pytest.param("import stackbounce.explorer.serve", "web", marks=pytest.mark.slow),
     ],
 )
 def test_a_function_names_the_extra_it_needs(code, extra):

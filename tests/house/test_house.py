@@ -32,48 +32,33 @@ def tracked():
     return {name: path.read_text("utf-8", errors="ignore") for name, path in paths.items()}
 
 
-def test_one_version():
+def test_one_version_the_paper_constraints_and_commands_are_as_the_files_say():
     newest = re.search(r"^## \[(\d[^\]]*)\]", read("CHANGELOG.md"), re.MULTILINE)
     assert newest is not None
     assert newest[1] == stackbounce.__version__
-    assert yaml.safe_load(read("CITATION.cff"))["version"] == stackbounce.__version__
-
-
-def test_the_paper_is_cited():
-    (paper,) = yaml.safe_load(read("CITATION.cff"))["references"]
-    assert (paper["doi"], paper["volume"], paper["start"]) == ("10.1119/1.2772286", 75, 1009)
-
-
-def test_no_path_of_one_machine_in_any_file():
-    private = re.compile(r"(?<![\w.-])/(?:work|home|root|Users)/\w|[Cc]:\\Users")
-    assert not _found(private)
-
-
-def test_no_package_is_fetched_from_a_place_of_its_own():
-    """Packages come by name, from wherever pip is set up to take them."""
-    fetched = re.compile(
-        r"--(?:extra-index-url|index-url|find-links)\b|\bindex[-_]url\s*="
-        r"|\bhttps?://[^\s'\"<>)]+(?:\.whl|\.tar\.gz|/simple/?)(?![\w-])"
-    )
-    assert not _found(fetched)
-
-
-def _found(pattern):
-    """Return the names of tracked files that a pattern is found in."""
-    return {name for name, text in tracked().items() if pattern.search(text)}
-
-
-def test_constraints_are_versions_and_nothing_else():
+    citation = yaml.safe_load(read("CITATION.cff"))
+    assert citation["version"] == stackbounce.__version__
+    assert [paper["doi"] for paper in citation["references"]] == ["10.1119/1.2772286"]
     lines = [line for line in read("constraints.txt").splitlines() if not line.startswith("#")]
     assert lines
     assert not [line for line in lines if not re.fullmatch(r"[\w.-]+==[\w.]+", line)]
-
-
-def test_readme_begins_with_the_two_commands_and_make_knows_them():
     commands = re.findall(r"^\$? *make (\w+)", read("README.md"), re.MULTILINE)
     assert commands[:2] == ["paper", "test"]
     makefile = read("Makefile")
     assert all(re.search(rf"^{target}:", makefile, re.MULTILINE) for target in commands)
+
+
+@pytest.mark.parametrize(
+    "pattern",
+    [
+        r"(?<![\w.-])/(?:work|home|root|Users)/\w|[Cc]:\\Users",
+        r"--(?:extra-index-url|index-url|find-links)\b|\bindex[-_]url\s*=",
+        r"\bhttps?://[^\s'\"<>)]+(?:\.whl|\.tar\.gz|/simple/?)(?![\w-])",
+    ],
+    ids=["path of one machine", "index of packages", "address of a package"],
+)
+def test_no_tracked_file_has_what_holds_on_one_machine_only(pattern):
+    assert not {name for name, text in tracked().items() if re.search(pattern, text)}
 
 
 def test_every_public_name_is_documented():
@@ -133,6 +118,5 @@ def test_lines_of_a_formula_are_aligned():
 
     lines = r"a &= b \\ c &= d"
     assert mathml(lines, display=True).count("<mtr>") == 2
-    assert mathml(lines, display=True) == mathml(
-        rf"\begin{{aligned}} {lines} \end{{aligned}}", display=True
-    )
+    aligned = rf"\begin{{aligned}} {lines} \end{{aligned}}"
+    assert mathml(lines, display=True) == mathml(aligned, display=True)

@@ -52,14 +52,11 @@ def test_a_pair_loses_what_both_lose_by_their_shares_of_the_work(lower, upper):
     assert law.restitution == pytest.approx(between(a.contact, b.contact).restitution, rel=1e-12)
 
 
-def test_a_pair_is_the_same_either_way_round():
+def test_a_pair_is_the_same_either_way_round_and_the_papers_keep_their_springs():
     one, other = stack(["football", "golf ball"]), stack(["golf ball", "football"])
     assert one.contacts[1].stiffness == pytest.approx(other.contacts[1].stiffness, rel=1e-14)
     assert one.contacts[1].restitution == pytest.approx(other.contacts[1].restitution, rel=1e-14)
     assert one.contact_sources[1] == "football and golf ball in series"
-
-
-def test_the_papers_balls_keep_their_springs_beside_a_classs():
     chosen = stack(["basketball", "tennis", "superball"])
     assert chosen.contacts[:2] == (sb.Spring(2500.0), sb.Spring(1000.0))
     assert chosen.contacts[2].restitution < 1.0

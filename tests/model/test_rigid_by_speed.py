@@ -29,7 +29,7 @@ def test_numbers_out_of_range_are_refused(kind, field):
         kind(**{"restitution": 0.8, "speed": 1.0} | {field: "1"})
 
 
-def test_published_restitutions():
+def test_restitutions_are_those_of_their_formulas():
     """Ice (Bridges et al. 1984), and spheres that yield above 0.2 m/s."""
     ice = sb.RigidBySpeed(0.32, speed=0.01, speed_exponent=0.234)
     for speed in (0.002, 0.015, 0.05):
@@ -40,9 +40,6 @@ def test_published_restitutions():
     steel = sb.RigidBySpeed(1.0, speed=0.2)
     assert [sb.restitution(steel, impact_speed=v) for v in (0.1, 0.2)] == [1.0, 1.0]
     assert sb.restitution(steel, impact_speed=3.2) == pytest.approx(0.5, rel=1e-14)
-
-
-def test_a_loss_that_grows_with_the_speed():
     law = sb.RigidLossBySpeed(0.8, speed=3.0, speed_exponent=0.43)
     for speed in (0.1, 3.0, 10.0):
         kept = 1.0 - 0.2 * (speed / 3.0) ** 0.43
@@ -63,11 +60,17 @@ def test_calibration_takes_the_usual_exponent(kind):
         sb.restitution(law, mass=0.1)
 
 
-def test_scatter_is_described_where_there_is_some():
+def test_scatter_is_described_and_rigid_laws_stand_together_only():
     law = sb.RigidBySpeed(0.8, 3.0)
     assert law.described() == "RigidBySpeed, restitution 0.8, speed 3 m/s, speed exponent 0.25"
     told = sb.RigidBySpeed(0.8, 3.0, scatter=0.05, seed=2).described()
     assert told.endswith("exponent 0.25, scatter 0.05, seed 2")
+    balls = [sb.Ball(1.0)] * 2
+    law = sb.RigidBySpeed(0.8, 1.0)
+    assert sb.Drop(balls, [sb.Rigid(0.5), law], impact_speed=1.0).rigid
+    with pytest.raises(errors.InvalidValue, match=r"contacts.0 is RigidBySpeed and contacts.1 is"):
+        sb.Drop(balls, [law, sb.Spring(1.0)], impact_speed=1.0)
+    assert usual_laws()[:2] == ["Rigid", "Spring"]
 
 
 def test_a_file_with_units(tmp_path):
@@ -106,15 +109,6 @@ def test_separate_collisions_take_the_restitution_at_the_first_speed():
     floor, between = sb.separate(sb.Drop(balls, [law, law], impact_speed=2.0)).contacts
     assert floor == sb.Rigid(0.8)
     assert between.restitution == pytest.approx(1.0 - 0.1 * (2.0 + 0.8 * 2.0), rel=1e-14)
-
-
-def test_rigid_laws_stand_together_and_not_with_others():
-    balls = [sb.Ball(1.0)] * 2
-    law = sb.RigidBySpeed(0.8, 1.0)
-    assert sb.Drop(balls, [sb.Rigid(0.5), law], impact_speed=1.0).rigid
-    with pytest.raises(errors.InvalidValue, match=r"contacts.0 is RigidBySpeed and contacts.1 is"):
-        sb.Drop(balls, [law, sb.Spring(1.0)], impact_speed=1.0)
-    assert usual_laws()[:2] == ["Rigid", "Spring"]
 
 
 @pytest.mark.parametrize("exponent", [0.2, 4.0])

@@ -35,14 +35,11 @@ def test_a_spline_goes_through_its_points_and_rises(seed):
     assert slopes.min() > -1e-9 * slopes.max()
 
 
-def test_a_spline_has_no_corner_but_at_the_last_point_of_a_level():
+def test_a_spline_has_no_corner_and_converges_to_a_smooth_curve():
     spline = monotone_spline(X, Y)
     for before, after in itertools.pairwise(spline):
         one, two = before[2] + 2.0 * (after[0] - before[0]) * before[3], after[2]
         assert one == pytest.approx(two, rel=1e-9)
-
-
-def test_a_spline_converges_to_a_smooth_curve():
     misses = []
     for count in (5, 9, 17):
         x = np.linspace(0.0, 1.0, count)
@@ -58,7 +55,6 @@ def test_a_spline_converges_to_a_smooth_curve():
         ({"force": [0.0, 1.0]}, "force must have 4 points, as compression, got 2"),
         ({"force": [1.0, 2.0, 3.0, 4.0]}, "force.0 must be 0, where the ball is just touched"),
         ({"force": [0.0, 2.0, 2.0, 4.0]}, "force.2 must be above force.1, 2.0, got 2.0"),
-        ({"compression": [0.0, 2.0, 1.0, 4.0]}, "compression.2 must be above compression.1"),
         ({"compression": [0.0, 1.0, 1.0005, 4.0]}, "compression.2 must be at least 0.1 % above"),
         ({"compression": [0.0]}, "compression must have from 2 to 16 points, got 1"),
         ({"unloading": [0.0, 1.0, 2.0, 3.0]}, "unloading must end with the last force, 60.0"),
@@ -75,7 +71,7 @@ def test_what_is_no_table_is_refused(given, words):
     assert words in str(caught.value)
 
 
-def test_what_is_no_sequence_is_refused():
+def test_what_is_no_sequence_or_endless_is_refused_and_tables_in_series_too():
     with pytest.raises(errors.InvalidType, match="force must be a sequence of numbers, got 'many'"):
         sb.Tabulated(X, "many")
     with pytest.raises(errors.InvalidValue, match=r"of more, stackbounce.measure.press"):
@@ -83,13 +79,13 @@ def test_what_is_no_sequence_is_refused():
     for value in (np.array(3.0), {0.0, 1e-3}):
         with pytest.raises(errors.InvalidType, match="compression must be a sequence of numbers"):
             sb.Tabulated(value, Y)
-
-
-def test_a_sequence_may_be_endless():
     with pytest.raises(errors.InvalidValue, match="from 2 to 16 points, got more"):
         sb.Tabulated(itertools.count(), Y)
     with pytest.raises(errors.InvalidValue, match="balls must hold at most 100000 values"):
         sb.Drop(itertools.repeat(sb.Ball(1.0)), [sb.Spring(1.0)], impact_speed=1.0)
+    law = sb.Tabulated(X, Y)
+    with pytest.raises(errors.InvalidValue, match="give the table of both together"):
+        sb.series(law, law)
 
 
 @pytest.mark.parametrize("own", [{}, {"unloading": BACK}, {"restitution": 0.7}])
@@ -121,12 +117,6 @@ def test_a_drop_beyond_the_table_says_so(tmp_path, capfd):
         told = " ".join(capfd.readouterr().out.split())
         assert ("but its table ends at 4.000 mm" in told) == beyond
         assert ("but its table begins at 1.000 mm: how the force rises" in told) == before
-
-
-def test_tables_are_not_pressed_in_series():
-    law = sb.Tabulated(X, Y)
-    with pytest.raises(errors.InvalidValue, match="give the table of both together"):
-        sb.series(law, law)
 
 
 @pytest.mark.parametrize(("exponent", "e"), [(1.0, 0.77), (1.5, 0.9), (1.3, 0.6)])

@@ -46,27 +46,12 @@ def test_correlated_numbers_keep_their_covariance():
     assert np.isnan(found.sensitivity.total).all()
     assert float(found.sensitivity["first"].sel(quantity="durations.0").sum()) == pytest.approx(1.0)
     assert "correlated" in found.advice("durations.0")
-
-
-def test_the_same_variable_twice_cancels():
     off = ufloat(1.0, 0.01)
     found = sb.predict(ONE, {"balls.0.mass": 0.06 * off, "contacts.0.stiffness": 2e4 * off})
     assert found["durations.0"].std_dev < 1e-6 * found["durations.0"].nominal_value
 
 
-def test_texts_pairs_and_ufloats_are_the_same():
-    ways = ("63 ± 1 cm", (0.63, 0.01), ("63 cm", "10 mm"), ufloat(0.63, 0.01))
-    found = {str(sb.predict(ONE, {"height": way})["rebound_speeds.0"]) for way in ways}
-    assert found == {"3.515+/-0.028"}
-
-
-def test_the_value_replaces_the_drops_own():
-    found = sb.predict(ONE, {"height": (1.0, 0.01)})
-    assert found.drop.height == 1.0
-    assert found.result.rebound_speeds[0] == pytest.approx(found.rebound_speeds[0].nominal_value)
-
-
-def test_changing_counts_are_drawn():
+def test_changing_counts_are_drawn_bit_for_bit_the_same_by_seed():
     found = sb.predict(LOSSY, CHANGING)
     assert found.method == "draws"
     assert found.how == "errors by 10000 draws: contact 0 collides 1 or 2 times"
@@ -75,9 +60,6 @@ def test_changing_counts_are_drawn():
     assert sum(shares.values()) == pytest.approx(1.0)
     low, middle, high = found.quantiles("rebound_speeds.1")
     assert low < middle < high
-
-
-def test_draws_repeat_bit_for_bit_and_follow_the_seed():
     first, second, other = (
         sb.predict(LOSSY, CHANGING, draws=500, seed=seed).draws for seed in (0, 0, 1)
     )
@@ -91,17 +73,13 @@ def test_long_runs_are_drawn_less_often():
     events = len(found.result.events)
     assert events > 120
     assert found.draws.sizes["draw"] == 1_000_000 // events
-    assert (
-        sb.predict(tower, {"height": (1.0, 0.01)}, until=6.0, draws=200).draws.sizes["draw"] == 200
-    )
+    short = sb.predict(tower, {"height": (1.0, 0.01)}, until=6.0, draws=200)
+    assert short.draws.sizes["draw"] == 200
 
 
-def test_an_error_that_comes_from_few_draws_is_said_to_be_rough():
+def test_an_error_of_few_draws_is_said_to_be_rough_and_draws_are_drops():
     (note,) = sb.predict(LOSSY, CHANGING, draws=200).notes
     assert note.startswith("the error of rebound_ratios.0, rebound_ratios.1, rebound_speeds.0 and")
-
-
-def test_draws_are_drops_of_their_own():
     draws = sb.predict(LOSSY, CHANGING, draws=300).draws
     paths = list(CHANGING)
     ds = sb.sweep(LOSSY, {path: draws[path].drop_vars(paths) for path in paths})
@@ -192,34 +170,39 @@ def test_a_prediction_as_a_table_and_as_values():
     assert pickle.loads(pickle.dumps(found))["rebound_speeds.0"].std_dev == pytest.approx(0.024)
 
 
-def test_an_error_of_zero_is_no_error():
+def test_numbers_in_many_forms_replace_the_drops_own_and_an_error_of_zero_is_none():
     found = sb.predict(RIGID, {"impact_speed": (3.0, 0.03), "contacts.0.restitution": (0.8, 0.0)})
     assert found["rebound_speeds.0"].std_dev == pytest.approx(0.024)
     assert list(found.sensitivity.number) == ["impact_speed", "contacts.0.restitution"]
+    for form in ("1.00 m ± 1 cm", (1.0, 0.01), ("100 cm", "10 mm"), ufloat(1.0, 0.01)):
+        found = sb.predict(ONE, {"height": form})
+        assert str(found["rebound_speeds.0"]) == "4.429+/-0.022"
+        assert found.drop.height == 1.0
+        assert found.result.rebound_speeds[0] == pytest.approx(found.rebound_speeds[0].n)
+    errors = {"height": (0.2, 0.001)}
+    assert sb.predict(LOSSY, errors, event_limit=1).notes == (
+        "10000 of 10000 drops did not finish and were left out",
+    )
+
+
+UNEQUAL = {"impact_speed": np.ones(500), "contacts.0.restitution": np.ones(400)}
 
 
 @pytest.mark.parametrize(
     ("errors", "message"),
     [
-        ({}, "errors must map paths to numbers with errors"),
         ([1], "errors must map paths to numbers with errors"),
         ({"mass": (1.0, 0.1)}, "mass is not a parameter of this drop"),
         ({"impact_speed": 3.0}, "impact_speed must be a number with an error"),
-        ({"impact_speed": "3 m/s"}, "impact_speed must be a number with an error"),
         ({"impact_speed": "3 ± 1 kg"}, "impact_speed must be a speed"),
         ({"impact_speed": (3.0, -0.1)}, "impact_speed's error must be 0 or above, got -0.1"),
         ({"impact_speed": (3.0, 1e308)}, "impact_speed's error must be at most 1e+100, got 1e+308"),
-        ({"impact_speed": ufloat(3.0, 1e200)}, "impact_speed's error must be at most 1e+100"),
         ({"impact_speed": np.linspace(1.0, 1e308, 200)}, "impact_speed's error must be at most"),
-        ({"impact_speed": (3.0, math.nan)}, "impact_speed must be a finite number"),
         ({"impact_speed": (3.0, 0.0)}, "errors must have a number with an error above 0"),
         ({"impact_speed": (-3.0, 0.1)}, "impact_speed must be a positive number"),
         ({"impact_speed": np.ones(5)}, "an array of 100 draws or more"),
         ({"impact_speed": np.full(500, math.nan)}, "impact_speed must have finite draws"),
-        (
-            {"impact_speed": np.ones(500), "contacts.0.restitution": np.ones(400)},
-            "errors must have as many draws of each number, got 400 and 500",
-        ),
+        (UNEQUAL, "errors must have as many draws of each number, got 400 and 500"),
     ],
 )
 def test_bad_input_is_one_clear_error(errors, message):
@@ -238,19 +221,9 @@ def test_round_off_has_no_error():
     assert math.isnan(found["first_touch.0"].nominal_value)
 
 
-def test_drops_that_do_not_finish_are_counted():
-    errors = {"height": (0.2, 0.001)}
-    assert sb.predict(LOSSY, errors, event_limit=1).notes == (
-        "10000 of 10000 drops did not finish and were left out",
-    )
-
-
-def test_a_curve_that_there_is_not_is_refused():
+def test_names_of_curves_and_numbers_that_there_are_not_are_refused():
     with pytest.raises(InvalidValue, match="'speed' is not a curve; known: position, velocity"):
         sb.predict(ONE, {"height": (0.6, 0.01)}).band([0.0], "speed")
-
-
-def test_names_that_are_not_predicted_are_refused():
     found = sb.predict(RIGID, {"impact_speed": (3.0, 0.03)})
     for ask in (found.__getitem__, found.quantiles, found.advice):
         with pytest.raises(InvalidValue, match=r"is not predicted; did you mean rebound_speeds\.0"):
@@ -264,10 +237,6 @@ def test_paired_values_are_not_a_product():
     assert ds.rebound_ratio.dims == ("draw", "ball")
     pairs = {"height": ("draw", x.values), "gaps.0": ("draw", list(y.values))}
     assert sb.sweep(LOSSY, pairs).identical(ds)
-    with pytest.raises(
-        InvalidValue, match=r"gaps\.0 must have as many values along draw as height"
-    ):
-        sb.sweep(LOSSY, {"height": x, "gaps.0": ("draw", [0.0, 1e-3])})
     for k in range(4):
         drop = sb.Drop(LOSSY.balls, LOSSY.contacts, gaps=[float(y[k])], height=float(x[k]))
         assert np.array_equal(sb.simulate(drop).rebound_ratios, ds.rebound_ratio[k])

@@ -68,10 +68,8 @@ def harmed(text):
     ("name", "harm"),
     [
         (".zmetadata", Path.unlink),
-        (".zmetadata", harmed("{")),
         ("status/.zarray", Path.unlink),
         ("status/.zarray", harmed('{"zarr_format": 2}')),
-        ("balls.0.mass/.zattrs", harmed("{")),
         ("balls.0.mass/.zattrs", harmed('{"zarr_format": 2}')),
         ("status", shutil.rmtree),
     ],
@@ -100,14 +98,11 @@ def test_a_writer_that_has_just_begun_is_named(out):
             write(out, DROP, VALUES, block=64)
 
 
-def test_killed_when_all_was_done_it_leaves_nothing(whole, out):
+def test_no_log_is_left_behind_by_a_kill_at_the_end_or_another_sweep(whole, out):
     shutil.copytree(whole, out)
     log_of(out).write_text("# process 1 on x since then\nready\n")
     write(out, DROP, VALUES, block=64)
     assert list(out.parent.iterdir()) == [out]
-
-
-def test_another_sweep_leaves_no_log_behind(whole, out):
     shutil.copytree(whole, out)
     with pytest.raises(sb.StackbounceError, match="is not this sweep"):
         write(out, DROP, grid(DROP, OVER[:1]), block=64)
@@ -121,13 +116,11 @@ def test_a_log_that_is_no_file_is_refused(tmp_path):
         write(out, DROP, VALUES, block=64)
 
 
-@pytest.mark.parametrize(
-    "junk", [b"junk\n", b"my own notes", b"3 2\n", b"# w\nready\n7\n", b"\0\xff\n", 2**40]
-)
+@pytest.mark.parametrize("junk", [b"my own notes", b"3 2\n", b"# w\nready\n7\n", b"\0\xff\n", None])
 def test_a_damaged_log_is_named_and_kept(out, junk):
-    log_of(out).write_bytes(b"" if isinstance(junk, int) else junk)
-    if isinstance(junk, int):  # a file without an end
-        os.truncate(log_of(out), junk)
+    log_of(out).write_bytes(junk or b"")
+    if junk is None:  # a file without an end
+        os.truncate(log_of(out), 2**40)
     before = log_of(out).stat()
     with pytest.raises(FileError, match=r"map\.zarr\.progress is damaged"):
         write(out, DROP, VALUES, block=64)

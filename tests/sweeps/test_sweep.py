@@ -93,12 +93,9 @@ def test_velocities_of_a_cradle():
     drop = sb.Drop([sb.Ball(0.03)] * 3, row, velocities=[1.0, 0.0, 0.0])
     ds = sb.sweep(drop, {"velocities.1": np.linspace(-1.0, 1.0, 5)})
     for k, velocity in enumerate(np.linspace(-1.0, 1.0, 5)):
-        assert_same(
-            ds[{"velocities.1": k}], sb.Drop(drop.balls, row, velocities=[1.0, velocity, 0.0])
-        )
-    with pytest.raises(
-        sb.StackbounceError, match=r"must not all be 0.*velocities.0 1: velocities.0"
-    ):
+        one = sb.Drop(drop.balls, row, velocities=[1.0, velocity, 0.0])
+        assert_same(ds[{"velocities.1": k}], one)
+    with pytest.raises(sb.StackbounceError, match=r"must not all be 0.*velocities.0 1: velociti"):
         sb.sweep(drop, {"velocities.0": [1.0, 0.0]})
 
 
@@ -118,13 +115,10 @@ def test_arrays_broadcast_by_dimension_name():
     assert_same(ds.sel(soft="b").isel(run=1), one)
 
 
-def test_nothing_varies():
+def test_provenance_and_units_also_where_nothing_varies():
     drop = sb.Drop(TWO, LAWS["springs"], impact_speed=3.53)
     assert_same(sb.sweep(drop, {}), drop)
     assert_same(sb.sweep(drop, {"balls.0.mass": 0.15}), drop)
-
-
-def test_provenance_and_units():
     drop = sb.Drop(TWO, LAWS["losses"], impact_speed=3.53)
     ds = sb.sweep(drop, {"balls.0.mass": [0.1]}, rtol=1e-6)
     assert ds.attrs["stackbounce"] == sb.__version__
@@ -150,15 +144,9 @@ def test_an_unfinished_drop_is_marked_and_the_others_are_not():
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        (
-            {"balls.0.mas": [1.0]},
-            r"balls.0.mas is not a parameter of this drop; did you mean balls.0.mass\?",
-        ),
+        ({"balls.0.mas": [1.0]}, r"balls.0.mas is not a parameter .*; did you mean balls.0.mass\?"),
         ({"contacts.0.restitution": [1.0]}, "contacts.0.restitution is not a parameter of this"),
-        (
-            {"balls.0.mass": [1.0, -1.0]},
-            r"balls.0.mass must be a positive .*, got -1.0 \(at balls.0.mass 1: ",
-        ),
+        ({"balls.0.mass": [1, -1]}, r"balls.0.mass must be a .*, got -1.0 \(at balls.0.mass 1: "),
         ({"gaps.0": [0.0, np.nan]}, r"gaps.0 must be .*, got nan \(at gaps.0 1: gaps.0 = nan\)"),
         ({"balls.0.mass": ["a"]}, "balls.0.mass must be numbers"),
         ({"balls.0.mass": [[1.0], [2.0]]}, "or a DataArray with named dimensions, got 2"),
@@ -226,13 +214,12 @@ def test_a_grid_is_cut_into_blocks_that_fit_together(shape):
         assert np.array_equal(ds[name].values.reshape(rows[name].shape), rows[name]), name
 
 
-def test_tall_stacks_keep_the_energy_that_simulate_says():
+def test_tall_stacks_are_as_simulated():
     balls = [sb.Ball(0.01 * (1 + k % 7)) for k in range(12)]
     drop = sb.Drop(balls, [sb.Rigid(0.9)] * 12, impact_speed=3.53)
     ds = sb.sweep(drop, {"balls.3.mass": np.linspace(0.01, 0.5, 30)})
     for k in (0, 17, 29):
-        mass = float(ds["balls.3.mass"][k])
-        one = sb.Drop([*balls[:3], sb.Ball(mass), *balls[4:]], drop.contacts, impact_speed=3.53)
+        one = drop_at(drop, {number_at(drop, "balls.3.mass"): float(ds["balls.3.mass"][k])})
         assert_same(ds[{"balls.3.mass": k}], one)
 
 

@@ -75,18 +75,13 @@ def test_numbers_that_vary_together_are_resumed_to_the_same_bytes(tmp_path):
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        (
-            {"gaps.0": ("draw", [0.0]), "impact_speed": ("draw", [1.0, 2.0])},
-            "as many values along draw",
-        ),
+        ({"gaps.0": ("x", [0.0]), "impact_speed": ("x", [1.0, 2.0])}, "as many values along x"),
         ({"gaps.0": ("a/b", [0.0])}, "must have one dimension in a file, with a name of letters"),
         ({"gaps.0": 0.0}, "gaps.0 must have one dimension in a file"),
         ({"gaps.0": ("draw", [0.0, -1.0]), "impact_speed": ("draw", [1.0, 2.0])}, r"\(at draw 1\)"),
         ({"gaps.0": ("status", [0.0])}, "a dimension named status, as results are"),
-        (
-            {"gaps.0": ("impact_speed", [0.0]), "impact_speed": ("x", [1.0])},
-            "impact_speed must do so too, got x",
-        ),
+        ({"gaps.0": ("gravity", [0.0]), "gravity": ("x", [1.0])}, "gravity must do so too, got x"),
+        ({"balls.0.mass": np.array([0.0, 1.0])}, r"balls.0.mass must be .* \(at balls.0.mass 0\)"),
     ],
 )
 def test_values_that_cannot_be_in_a_file(tmp_path, values, message):
@@ -98,12 +93,8 @@ def test_values_that_cannot_be_in_a_file(tmp_path, values, message):
 @pytest.mark.slow
 def test_two_workers_and_the_loss_of_one(whole, tmp_path):
     distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
-    options = {
-        "n_workers": 2,
-        "threads_per_worker": 1,
-        "processes": True,
-        "dashboard_address": "127.0.0.1:0",  # any free port: None would ask for 8787
-    }
+    options = {"n_workers": 2, "threads_per_worker": 1, "processes": True}
+    options["dashboard_address"] = "127.0.0.1:0"  # any free port: None would ask for 8787
     killed = []
     with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
 
@@ -133,7 +124,9 @@ def test_chunks_of_dask_make_it_lazy():
         bad.compute()
 
 
-def test_a_complete_store_is_left_alone_and_another_is_refused(whole):
+def test_a_complete_store_is_left_alone_and_neither_it_nor_a_part_is_lost_to_another(
+    whole, tmp_path
+):
     calls = []
     write(whole[0], DROP, VALUES, block=64, progress=lambda *done: calls.append(done))
     assert calls == [(600, 600)]
@@ -141,9 +134,6 @@ def test_a_complete_store_is_left_alone_and_another_is_refused(whole):
         with pytest.raises(sb.StackbounceError, match="exists, and is not this sweep"):
             write(whole[0], DROP, values, **options)
     assert digest(whole[0]) == whole[1]
-
-
-def test_part_of_another_sweep_is_not_lost(whole, tmp_path):
     out = tmp_path / whole[0].name
     write_some(out)
     kept = digest(tmp_path)
@@ -215,9 +205,8 @@ def test_chunks_of_one_value_are_there(tmp_path):
     out, calls = tmp_path / "map.zarr", []
     for _ in range(2):
         calls.clear()
-        write(
-            out, drop, {"gaps.0": [0.5, 1.0]}, until=0.01, progress=lambda *now: calls.append(now)
-        )
+        values = {"gaps.0": [0.5, 1.0]}
+        write(out, drop, values, until=0.01, progress=lambda *now: calls.append(now))
     assert calls == [(2, 2)]
 
 
@@ -251,17 +240,11 @@ def test_a_cluster_that_is_lost_says_so_and_nothing_is_lost(whole, tmp_path):
         worker += ["--scheduler-file", str(tmp_path / "at"), "--nthreads", "1", "--no-nanny"]
         with subprocess.Popen([*worker, "--local-directory", str(tmp_path)], **quiet) as second:
             try:
+                kill = {"progress": lambda done, _: scheduler.kill() if done else None}
                 client = distributed.Client(scheduler_file=str(tmp_path / "at"), timeout="30s")
                 client.wait_for_workers(1, timeout=30)
                 with pytest.raises(sb.StackbounceError, match="cluster failed; the blocks done"):
-                    write(
-                        out,
-                        DROP,
-                        VALUES,
-                        client=client,
-                        block=32,
-                        progress=lambda done, _: scheduler.kill() if done else None,
-                    )
+                    write(out, DROP, VALUES, client=client, block=32, **kill)
                 client.close(timeout=1)
             finally:
                 scheduler.kill()
@@ -269,12 +252,6 @@ def test_a_cluster_that_is_lost_says_so_and_nothing_is_lost(whole, tmp_path):
     begun = []
     write(out, DROP, VALUES, progress=lambda done, _: begun.append(done))
     assert begun[0] > 0
-
-
-def test_a_wrong_value_is_told_before_anything_is_written(tmp_path):
-    with pytest.raises(sb.StackbounceError, match=r"balls.0.mass must be .* \(at balls.0.mass 0\)"):
-        write(tmp_path / "map.zarr", DROP, {"balls.0.mass": np.array([0.0, 1.0])})
-    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize(
@@ -295,13 +272,10 @@ def test_over_is_read(text, values):
     ("texts", "message"),
     [
         (["balls.0.mass"], "--over must be PATH="),
-        (["balls.0.mass=1:2"], "--over must be PATH="),
         (["balls.0.mass=1:2:x"], "--over must be PATH="),
-        (["balls.0.mass=1:2:3:cubic"], "--over must be PATH="),
         (["balls.0.mass=1:2:0"], "must have from 1 to"),
         (["gaps.0=0:1:3:log"], "numbers of one sign for :log"),
         (["balls.0.mass=1m:2m:3"], "balls.0.mass must be a mass"),
-        (["balls.9.mass=1:2:3"], "is not a parameter of this drop"),
         (["gaps.0=0:1:3", "gaps.0=1"], "gaps.0 twice"),
     ],
 )

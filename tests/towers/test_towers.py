@@ -38,9 +38,6 @@ SLOW = {  # a restitution that does
 }
 
 
-# from touching to separate
-
-
 @pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("drop", (FAST | SLOW).values(), ids=FAST | SLOW)
 def test_nothing_changes_from_there_on_and_something_just_before(drop):
@@ -60,24 +57,20 @@ def test_nothing_changes_from_there_on_and_something_just_before(drop):
         assert ratios == pytest.approx(textbook.rebound_ratios, abs=1e-9)
 
 
-def test_equal_balls_on_equal_springs_are_separate_after_half_a_period():
+def test_limits_of_separation_are_the_closed_forms():
     assert sb.separation_limit(pair(1.0, 1.0, SPRINGS)) == pytest.approx(math.pi, rel=1e-12)
     drop = pair(4.0, 1.0, [sb.Spring(9.0)] * 2, impact_speed=2.0)  # m2 < m1
     half = math.pi * math.sqrt(4.0 / 9.0)
     assert sb.separation_limit(drop) == pytest.approx(2.0 * half, rel=1e-12)
-
-
-def test_a_dashpot_is_waited_for_until_its_compression_is_gone():
-    """When the floor's force ends the compression goes on at a constant rate for b/k."""
     law = sb.Dashpot(1.0, 0.2)
     time = sb.contact_time(law, mass=5.0) + law.damping / law.stiffness
     limit = sb.separation_limit(pair(5.0, 1.0, [law, sb.Spring(0.01)]))
     assert limit == pytest.approx(time, rel=1e-9)  # the upper ball came down at 1 m/s
-
-
-def test_collisions_without_end_are_never_separate():
     laws = [sb.Hysteretic(1.0, restitution=0.5)] * 2
     assert sb.separation_limit(pair(1.0, 10.0, laws)) == math.inf
+    balls = [sb.Ball(m) for m in (0.3, 0.1, 0.05)]
+    drop = sb.Drop(balls, [sb.Hertz(1e9)] * 3, impact_speed=1.0)
+    assert 0.0 < sb.separation_limit(drop) < 1e-2
 
 
 def test_one_gap_varies_and_the_others_stay():
@@ -90,13 +83,6 @@ def test_one_gap_varies_and_the_others_stay():
     ]
     assert ratios[1] == pytest.approx(ratios[2], abs=1e-9)
     assert ratios[0] != pytest.approx(ratios[2], abs=1e-9)
-
-
-def test_touches_of_round_off_do_not_count():
-    """The cannon's lower balls come to rest but for round-off: they touch again, much later."""
-    balls = [sb.Ball(m) for m in (0.3, 0.1, 0.05)]
-    drop = sb.Drop(balls, [sb.Hertz(1e9)] * 3, impact_speed=1.0)
-    assert 0.0 < sb.separation_limit(drop) < 1e-2
 
 
 @pytest.mark.parametrize(
@@ -113,9 +99,6 @@ def test_touches_of_round_off_do_not_count():
 def test_what_has_no_limit_is_refused(drop, options, message):
     with pytest.raises((InvalidValue, InvalidType), match=message):
         sb.separation_limit(drop, **options)
-
-
-# stacks in order
 
 
 def test_stacks_are_as_simulated_and_in_order():
@@ -184,17 +167,13 @@ def test_how_many_stacks_there_are():
         ({"balls": ["B1", "B2"], "count": 3}, InvalidValue, "whole number from 2 to 2, got 3"),
         ({"balls": ["B1"]}, InvalidValue, "balls must be two or more, or repeat be True, got 1"),
         ({"count": 1}, InvalidValue, "count must be a whole number from 2 to 5, got 1"),
-        ({"balls": ["B1", "B9"]}, InvalidValue, "one of the catalogue, got 'B9'"),
-        ({"balls": "B1"}, InvalidType, "balls must be a list, got 'B1'"),
         ({"balls": ["B1", 3]}, InvalidType, "balls.1 must be a name of the catalogue or a Drop"),
         ({"balls": [FAST["springs"]]}, InvalidValue, "balls.0 must be a drop of one ball"),
         ({"law": sb.Rigid}, InvalidValue, "law must be one with a stiffness"),
         ({"law": sb.HuntCrossley}, InvalidValue, "basketball and tennis: .*dissipation"),
         ({"count": 8, "repeat": True}, InvalidValue, "at most 100000 drops, got 390625 of 5 balls"),
-        ({"gaps": []}, InvalidValue, "gaps must be different ones, at least one"),
         ({"gaps": [0.0, 0.0]}, InvalidValue, "gaps must be different ones"),
         ({"gaps": [-1.0]}, InvalidValue, "gaps.0 must be a number of metres, 0 or above"),
-        ({"gaps": 0.0}, InvalidType, "gaps must be a list of numbers"),
         ({"impact_speed": 0.0}, InvalidValue, "impact_speed must be a positive number"),
     ],
 )
@@ -211,12 +190,8 @@ def test_many_drops_of_several_kinds_keep_their_order():
         pair(1.0, 0.5, [sb.Hysteretic(1.0, unloading_exponent=3.0), sb.Spring(1.0)]),
         pair(1.0, 0.5, [sb.Hysteretic(1.0, restitution=0.5), sb.Spring(1.0)]),
     ]
-    ratios = solve_drops(drops).rebound_ratio.values
-    for row, drop in zip(ratios, drops, strict=True):
+    for row, drop in zip(solve_drops(drops).rebound_ratio.values, drops, strict=True):
         assert row == pytest.approx(sb.simulate(drop).rebound_ratios, abs=1e-12)
-
-
-# the masses in between
 
 
 @pytest.mark.fast_cases(2)
@@ -309,19 +284,13 @@ def test_masses_that_make_no_search_are_refused(masses, options, error, message)
         sb.best_masses(drop, **options)
 
 
-# pictures
-
-
-def test_the_picture_of_stacks_shows_the_best_above():
+def test_the_picture_of_stacks_shows_the_best_above_and_nothing_else():
     ds = sb.highest(["B1", "B2", "B3"], 2)
     (axes,) = plots.highest(ds).axes
     names = [text.get_text() for text in axes.get_yticklabels()]
     assert names == [" + ".join(stack) for stack in ds.balls.values] == ds["stack"].values.tolist()
     assert axes.get_ylim()[0] > axes.get_ylim()[1]
     assert np.array_equal(axes.get_lines()[0].get_xdata(), ds.height_ratio.isel(gap=0))
-
-
-def test_pictures_of_something_else_are_refused():
     with pytest.raises(InvalidType, match="data must be a Dataset from"):
         plots.highest(sb.sweep(pair(1.0, 1.0, SPRINGS), {"balls.0.mass": [1.0, 2.0]}))
     many = sb.highest(["B1", "B2"], 2, gaps=list(np.linspace(0.0, 0.01, 9)))
