@@ -62,7 +62,7 @@ def test_what_is_not_finite_is_refused(value):
         (partial(errors.between, low=1.0, high=2.0), 0.5, "a number from 1 to 2, got 0.5"),
         (partial(errors.between, low=1.0, high=math.inf), 0.5, "a number, 1 or above, got 0.5"),
         (partial(errors.whole, low=1), 0, "a whole number, 1 or above, got 0"),
-        (partial(errors.whole, low=1, high=9), 10**5000, "a whole number from 1 to 9, got"),
+        (partial(errors.whole, low=1, high=9), 2**64, "a whole number from 1 to 9, got 18446744"),
     ],
 )
 def test_message_says_what_was_wrong_what_was_got_and_what_would_be_right(check, value, message):
@@ -84,9 +84,8 @@ def test_what_is_no_whole_number_is_refused(value):
 
 
 def test_nearest_names_and_long_values_in_one_line():
-    assert (
-        errors.nearest("sprng", ["Rigid", "Spring"]) == "did you mean Spring? Known: Rigid, Spring"
-    )
+    near = errors.nearest("sprng", ["Rigid", "Spring"])
+    assert near == "did you mean Spring? Known: Rigid, Spring"
     assert errors.nearest("xyz", ["Rigid", "Spring"]) == "known: Rigid, Spring"
     assert errors.shown("a\nb") == "'a\\nb'"
     assert len(errors.shown("x" * 1000)) == 60

@@ -162,7 +162,7 @@ def test_a_write_protected_file_is_not_replaced():
 
 
 @posix
-def test_the_target_of_a_link_is_replaced():
+def test_the_target_of_a_link_is_replaced_and_a_pipe_is_written_to():
     Path("below").mkdir()
     for target in ("below/there", "below/new"):
         link = Path(f"to-{Path(target).name}")
@@ -171,10 +171,6 @@ def test_the_target_of_a_link_is_replaced():
         assert link.is_symlink()
         assert Path(target).read_bytes() == b"1"
     assert names("below") == ["new", "there"]
-
-
-@posix
-def test_a_pipe_is_written_to():
     out, into = os.pipe()
     try:
         write_file(Path(f"/dev/fd/{into}"), b"picture")

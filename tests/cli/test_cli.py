@@ -68,10 +68,8 @@ def test_help_does_not_wait_for_heavy_libraries(arguments):
         (["simulat"], "No such command 'simulat'", "stackbounce"),
         (["balls", "--jsn"], "No such option", "stackbounce balls"),
         (["simulate"], "Missing argument", "stackbounce simulate"),
-        (["paper"], "Missing option '--out'", "stackbounce paper"),
         (["simulate", "B1", "--height"], "'--height' requires an argument", "stackbounce simulate"),
         (["balls", "B1"], "unexpected extra argument", "stackbounce balls"),
-        (["measure", "--hight", "1m"], "No such option", "stackbounce measure"),
     ],
 )
 def test_wrong_usage_is_one_line(refused, arguments, expected, command):
@@ -114,9 +112,7 @@ def test_a_table_for_people(run):
     code, out, err = run(*PAIR)
     assert (code, err) == (0, "")
     assert "basketball + tennis from 0.63 m, at 3.515 m/s" in out
-    assert (
-        "contact 1, basketball – tennis: Spring, stiffness 1000 N/m  [Cross 2007, Figure 9]" in out
-    )
+    assert "contact 1, basketball – tennis: Spring, stiffness 1000 N/m  [Cross 2007, Fig" in out
     assert "gap 0, basketball – tennis: 2 mm  [--gap]" in out
     assert "Energy retained: 100.0 %" in out
     result = sb.simulate(read(PAIR[1:3], height="0.63m", gap=["2mm"]).drop)
@@ -151,9 +147,14 @@ def test_piped_output_is_plain_and_no_wider_than_a_page(arguments):
     assert max(len(line) for line in done.stdout.splitlines()) <= 100
 
 
-def test_a_terminal_without_unicode_is_no_reason_to_fail():
+def test_a_terminal_without_unicode_and_a_reader_that_goes_away_are_no_errors():
     done = process(*PAIR, env=os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"})
     assert (done.returncode, done.stderr) == (0, "")
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = process("balls", capture_output=False, stdout=writer, stderr=subprocess.PIPE)
+    os.close(writer)
+    assert done.stderr == ""
 
 
 def test_json_for_machines(run):
@@ -185,7 +186,7 @@ def test_a_rigid_drop_has_no_textbook_beside_it_and_null_where_a_number_is_not_f
     assert rows(out, "B1")[0][3:6] == ["1.000", "0.5000", "0.2500"]
 
 
-def test_a_scenario_file_and_changes_to_it(run):
+def test_a_scenario_file_changes_to_it_and_names_that_cannot_write_on_the_terminal(run):
     laws = [sb.Spring(1e4), sb.Hysteretic(5e3, restitution=0.8)]
     drop = sb.Drop([sb.Ball(0.1, name="lower"), sb.Ball(0.05)], laws, height=0.5)
     Path("drop.toml").write_text(drop.to_toml())
@@ -200,9 +201,14 @@ def test_a_scenario_file_and_changes_to_it(run):
     assert sb.Drop.from_mapping(json.loads(out)["drop"]) == sb.Drop(
         drop.balls, [sb.Spring(2e4), sb.Spring(1e3)], gaps=[0.001], impact_speed=2.0, gravity=9.81
     )
+    drop = sb.Drop([sb.Ball(1.0, name="a\x1b[31mb\nc[red]")], [sb.Spring(1.0)], impact_speed=1.0)
+    Path("drop.toml").write_text(drop.to_toml())
+    _, out, _ = run("simulate", "drop.toml")
+    assert "\x1b" not in out
+    assert "a?[31mb?c[red] at 1.000 m/s" in out
 
 
-def test_highest_points_are_shown(run):
+def test_highest_points_are_shown_and_an_unfinished_run_says_what_to_do(run):
     contact = "Rigid restitution=0.5"
     given = ("--height", "1m", "--gravity", "9.81m/s^2", "--until", "60s", "--contact", contact)
     code, out, _ = run("simulate", "B1", *given)
@@ -211,9 +217,6 @@ def test_highest_points_are_shown(run):
     assert re.search(r"B1 +\d+ +0\.2258 +0\.2500 +0\.5644 +0\.06250", out)
     assert "Status: SETTLED" in out
     assert "Highest points" not in run("simulate", "B1")[1]
-
-
-def test_a_run_that_did_not_finish_says_what_to_do(run):
     code, out, _ = run("simulate", "B1", "B2", "--until", "3ms")
     assert code == 0
     assert "not yet" in out
@@ -222,14 +225,6 @@ def test_a_run_that_did_not_finish_says_what_to_do(run):
     _, out, _ = run("simulate", "B3", "B1", *rigid)
     assert "Status: COLLAPSED: " in out
     assert rows(out, "floor – B3")[0][1] == "∞"
-
-
-def test_names_cannot_write_on_the_terminal(run):
-    drop = sb.Drop([sb.Ball(1.0, name="a\x1b[31mb\nc[red]")], [sb.Spring(1.0)], impact_speed=1.0)
-    Path("drop.toml").write_text(drop.to_toml())
-    _, out, _ = run("simulate", "drop.toml")
-    assert "\x1b" not in out
-    assert "a?[31mb?c[red] at 1.000 m/s" in out
 
 
 def one_ball(name, law, mass=0.1, **how):
@@ -287,7 +282,6 @@ def test_the_same_picture_is_the_same_file(run, suffix):
         (["B1", "--until", "-1s"], "until must be"),
         (["B1", "--contact", ""], "--contact 0 must be 'LAW key=value …', such as 'Spring stiff"),
         (["B1", "--contact", "Spring stiffness="], "--contact 0 must be 'LAW key=value …'"),
-        (["B1", "--contact", "'"], "--contact 0 must be 'LAW key=value …'"),
         (["B1", "--contact", "Sprung stiffness=1"], "--contact 0.law must be a contact law, got"),
         (["B1", "--contact", "Spring stifness=1"], "--contact 0.stifness is not a known key; did"),
         (["B1", "--contact", "Spring stiffness=-1"], "--contact 0.stiffness must be a positive"),
@@ -343,7 +337,7 @@ def test_a_number_of_many_digits_is_refused(refused):
         assert "unexpected" not in refused("sweep", "B1", "--over", over, "--out", "a.zarr")
 
 
-def test_an_interruption_while_modules_are_imported_is_one_line():
+def test_an_interruption_while_modules_are_imported_is_one_line_and_none_is_lost():
     code = (
         "import os, signal, sys\n"
         "class Interrupt:\n"
@@ -355,6 +349,8 @@ def test_an_interruption_while_modules_are_imported_is_one_line():
     )
     done = process(code=code)
     assert (done.returncode, done.stderr) == (130, "stackbounce: interrupted\n")
+    done = process(code=LOST)
+    assert (done.returncode, done.stderr) == (130, "")
 
 
 LOST = """
@@ -376,11 +372,6 @@ def run():
 stackbounce.cli.main = run
 sys.exit(main())
 """
-
-
-def test_an_interruption_that_python_drops_comes_again():
-    done = process(code=LOST)
-    assert (done.returncode, done.stderr) == (130, "")
 
 
 @pytest.mark.slow
@@ -436,14 +427,6 @@ def test_a_standard_output_that_cannot_be_written_to(arguments, streams, line):
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode in (1, 2)
     assert done.stderr == ("" if line is None else f"stackbounce: error: {line}\n")
-
-
-def test_a_reader_that_goes_away_is_no_error():
-    reader, writer = os.pipe()
-    os.close(reader)
-    done = process("balls", capture_output=False, stdout=writer, stderr=subprocess.PIPE)
-    os.close(writer)
-    assert done.stderr == ""
 
 
 def test_the_catalogue_as_a_table_and_as_json(run):

@@ -56,9 +56,8 @@ def cells(out, start):
 
 def test_what_is_found_is_what_the_library_finds(told):
     found = told(*ONE)
-    same = sb.fit(
-        DROP, {"rebound_ratios.1": "1.64 ± 0.02"}, {"contacts.1.stiffness": (700.0, 2500.0)}
-    )
+    vary = {"contacts.1.stiffness": (700.0, 2500.0)}
+    same = sb.fit(DROP, {"rebound_ratios.1": "1.64 ± 0.02"}, vary)
     (value,) = found["values"].values()
     assert value["value"] == pytest.approx(same["contacts.1.stiffness"].nominal_value, rel=1e-6)
     assert value["error"] == pytest.approx(same["contacts.1.stiffness"].std_dev, rel=1e-3)
@@ -85,7 +84,7 @@ def test_a_table_for_people_has_the_same_digits_for_a_value_and_its_limits(fit):
     assert (shown_low, shown_high) == (f"{low:.0f}", f"{high:.0f}")
 
 
-def test_notes_and_handy_units(fit):
+def test_notes_handy_units_and_strong_correlations_are_told(fit, told):
     code, out, _ = fit(
         *PAIR,
         *("--measured", "rebound_ratios.1=1.90 ± 0.01", "--measured", "rebound_ratios.0=.1 ± .01"),
@@ -99,9 +98,6 @@ def test_notes_and_handy_units(fit):
     text = " ".join(out.split())
     assert "Note: the model does not describe the data: chi squared is" in text
     assert "Note: collisions.1: 3 seen, 1 in the fit." in text
-
-
-def test_strong_correlations_are_told(fit, told):
     asked = (*ONE, "--vary", "gaps.0=1.3 ± 0.9 mm")
     _, out, _ = fit(*asked)
     (_, correlation), _ = told(*asked)["correlations"]
@@ -110,7 +106,7 @@ def test_strong_correlations_are_told(fit, told):
     assert words in " ".join(out.split())
 
 
-def test_a_drop_that_is_saved_does_what_was_measured(fit, tmp_path):
+def test_a_drop_that_is_saved_does_what_was_measured_and_is_drawn(fit, tmp_path):
     code, out, err = fit(*ONE, "--save", "fitted.toml")
     assert (code, err) == (0, "")
     assert "Fitted: fitted.toml; now: stackbounce simulate fitted.toml" in out
@@ -120,9 +116,13 @@ def test_a_drop_that_is_saved_does_what_was_measured(fit, tmp_path):
     again = fit("fitted.toml", *ONE[4:])
     assert cells(again[1], "contacts.1.stiffness") == cells(out, "contacts.1.stiffness")
     assert [path.name for path in tmp_path.iterdir()] == ["fitted.toml"]
+    code, out, _ = fit(*ONE, "--plot", "fit.svg")
+    assert code == 0
+    assert "Picture: fit.svg" in out
+    assert (tmp_path / "fit.svg").stat().st_size > 10_000
 
 
-def test_several_drops_are_saved_into_a_folder(fit, told, tmp_path):
+def test_several_drops_are_saved_into_a_folder_and_the_probability_is_told(fit, told, tmp_path):
     (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
     asked = (*PAIR, "--data", "drops.csv", "--vary", "contacts.1.stiffness")
     found = told(*asked, "--save", "fitted")
@@ -139,6 +139,10 @@ def test_several_drops_are_saved_into_a_folder(fit, told, tmp_path):
     code, out, _ = fit(*asked)
     assert code == 0
     assert len(cells(out, "low.rebound_ratios.1")) == len(cells(out, "high.rebound_ratios.1")) == 1
+    (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
+    _, out, _ = fit(*PAIR, "--data", "drops.csv", "--vary", "contacts.1.stiffness=1kN/m:1.3kN/m")
+    assert "for 1 degree of freedom; were the model right, it would be larger in" in out
+    assert "% of" in out
 
 
 def test_a_file_asks_and_options_change_it(told, tmp_path):
@@ -167,13 +171,6 @@ def test_draws_their_picture_and_their_table(told, tmp_path, fit):
     assert re.search(r"Draws: \d+ kept; \d\d% of the steps were accepted, and the autocorr", out)
 
 
-def test_a_picture(fit, tmp_path):
-    code, out, _ = fit(*ONE, "--plot", "fit.svg")
-    assert code == 0
-    assert "Picture: fit.svg" in out
-    assert (tmp_path / "fit.svg").stat().st_size > 10_000
-
-
 @pytest.mark.skipif(os.name != "posix", reason="a terminal of its own")
 @pytest.mark.slow
 def test_a_terminal_sees_how_far_the_draws_are(tmp_path):
@@ -200,9 +197,8 @@ def test_an_interruption_leaves_nothing_behind(fit, tmp_path, monkeypatch):
     asked = (*ONE, "--sample", "3200", "--save", "fitted.toml", "--plot", "fit.png")
     code, out, err = fit(*asked)
     assert (code, err) == (130, "stackbounce: interrupted\n")
-    assert re.fullmatch(
-        r"Interrupted: the best of \d+ trials, .*: contacts.1.stiffness = 1477.* N/m\n", out
-    )
+    best = r"Interrupted: the best of \d+ trials, .*: contacts.1.stiffness = 1477.* N/m\n"
+    assert re.fullmatch(best, out)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -247,10 +243,3 @@ def test_what_is_wrong_with_several_drops(refused, tmp_path, arguments, expected
     (tmp_path / "fit.toml").write_text(ONE_BALL, encoding="utf-8")
     err = refused("fit", "fit.toml", "--data", "drops.csv")
     assert "--data has drops and what was measured of them" in err
-
-
-def test_the_probability_is_told_in_words(fit, tmp_path):
-    (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
-    _, out, _ = fit(*PAIR, "--data", "drops.csv", "--vary", "contacts.1.stiffness=1kN/m:1.3kN/m")
-    assert "for 1 degree of freedom; were the model right, it would be larger in" in out
-    assert "% of" in out

@@ -67,9 +67,8 @@ def test_a_picture(measure, name, tmp_path):
 
 def test_a_ball_is_saved_and_dropped(measure, capfd):
     known = ["--mass", "57g", "--diameter", "66 mm", "--height", "1m", "--name", "tennis"]
-    code, out, _ = measure(
-        "tennis.wav", "tennis-force.csv", *known, "--save", "ball.toml", "--json"
-    )
+    found = ("tennis.wav", "tennis-force.csv")
+    code, out, _ = measure(*found, *known, "--save", "ball.toml", "--json")
     assert code == 0
     drop = sb.Drop.from_toml("ball.toml")
     assert json.loads(out)["ball"] == drop.to_mapping()
@@ -80,11 +79,17 @@ def test_a_ball_is_saved_and_dropped(measure, capfd):
     assert ratio == pytest.approx(drop.contacts[0].restitution)
 
 
-def test_numbers_without_an_error_are_null_in_json(measure):
+def test_numbers_without_an_error_are_null_and_nothing_is_saved_without_a_contact(
+    measure, tmp_path
+):
     rows = json.loads(measure("tennis.wav", "--json")[1])["files"][0]["found"]
     errors = {row["name"]: row["error"] for row in rows}
     assert errors["knocks"] is None
     assert errors["restitution, mean"] > 0.0
+    code, _, err = measure("stack-video.txt", "--mass", "57g", "--save", "ball.toml")
+    assert code == 2
+    assert "no contact was found, which needs" in err
+    assert not (tmp_path / "ball.toml").exists()
 
 
 @pytest.mark.parametrize(
@@ -113,13 +118,6 @@ def test_numbers_without_an_error_are_null_in_json(measure):
 )
 def test_bad_input_is_one_line(refused, arguments, expected):
     assert expected in refused("measure", *arguments)
-
-
-def test_nothing_is_saved_where_no_contact_was_found(measure, tmp_path):
-    code, _, err = measure("stack-video.txt", "--mass", "57g", "--save", "ball.toml")
-    assert code == 2
-    assert "no contact was found, which needs" in err
-    assert not (tmp_path / "ball.toml").exists()
 
 
 @pytest.mark.parametrize(

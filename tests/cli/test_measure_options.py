@@ -59,7 +59,7 @@ def test_the_law_that_is_saved_has_what_was_measured(run, law):
     assert float(result.rebound_ratios[0]) == pytest.approx(kept, abs=1e-6)
 
 
-def test_numbers_alone_give_a_law_with_errors(run):
+def test_numbers_alone_give_a_law_with_errors_and_count_before_what_was_found(run):
     contact = ["--contact-time", "5.0 ± 0.1 ms", "--restitution", "0.75+/-0.02"]
     told = run(*contact, "--mass", "(57.0±0.5) g", "--law", "hysteretic", "--save", "ball.toml")
     found = rows(told["law"])
@@ -69,9 +69,6 @@ def test_numbers_alone_give_a_law_with_errors(run):
     assert relative == pytest.approx(2 * 0.1 / 5.0, rel=0.1)  # the time's error counts twice
     assert sb.Drop.from_toml("ball.toml").contacts == (law,)
     assert rows(told["files"][0]["found"])["dynamic stiffness"][0] == pytest.approx(22503, rel=1e-4)
-
-
-def test_an_exponent_with_the_law_and_what_is_known_before_what_was_found(run):
     given = ("--contact-time", "5ms", "--mass", "57g", "--speed", "2")
     told = run(*given, "--law", "power-law exponent=1.3")
     law = sb.calibrate(sb.PowerLaw, mass=0.057, contact_time=5e-3, impact_speed=2.0, exponent=1.3)
@@ -106,12 +103,16 @@ def test_heights_typed_in(run, mark):
         assert numbers == pytest.approx(found[name])
 
 
-def test_heights_in_a_table(run):
+def test_heights_in_a_table_and_of_a_sound_may_be_those_of_the_top(run):
     Path("heights.csv").write_text("height (cm)\n100\n64\n40.96\n", encoding="utf-8")
     options = ["--height-error", "5mm", "--measured-to", "bottom,top", "--diameter", "65 mm"]
     table = run("heights.csv", *options)["files"][0]
     assert table["found"] == run("--heights", HEIGHTS, *options)["files"][0]["found"]
     assert rows(table["found"])["restitution of bounce 0"][0] == pytest.approx(0.575**0.5)
+    options = ["--height", "1.066 m", "--measured-to", "top", "--diameter", "66mm"]
+    of_top = rows(run("tennis.wav", *options)["files"][0]["found"])
+    of_bottom = rows(run("tennis.wav", "--height", "1 m")["files"][0]["found"])
+    assert of_top["restitution of bounce 0"] == pytest.approx(of_bottom["restitution of bounce 0"])
 
 
 def test_heights_of_one_bounce_again_and_again_and_heights_that_are_drawn_and_saved(run):
@@ -123,13 +124,6 @@ def test_heights_of_one_bounce_again_and_again_and_heights_that_are_drawn_and_sa
     assert Path("h.svg").read_bytes().startswith(b"<?xml")
     drop = sb.Drop.from_toml("b.toml")
     assert (drop.height, drop.contacts[0].restitution) == (1.0, pytest.approx(0.8))
-
-
-def test_the_drop_height_of_a_sound_may_be_the_top(run):
-    options = ["--height", "1.066 m", "--measured-to", "top", "--diameter", "66mm"]
-    of_top = rows(run("tennis.wav", *options)["files"][0]["found"])
-    of_bottom = rows(run("tennis.wav", "--height", "1 m")["files"][0]["found"])
-    assert of_top["restitution of bounce 0"] == pytest.approx(of_bottom["restitution of bounce 0"])
 
 
 def test_the_floor_of_a_soft_balls_track():

@@ -8,12 +8,8 @@ import pytest
 import stackbounce as sb
 from stackbounce.prediction import read_scenario
 
-DROP = sb.Drop(
-    [sb.Ball(0.15, name="a (1) ± b"), sb.Ball(0.057)],
-    [sb.Hertz(2e5), sb.Spring(1000.0)],
-    gaps=[0.002],
-    height=0.63,
-)
+BALLS = [sb.Ball(0.15, name="a (1) ± b"), sb.Ball(0.057)]
+DROP = sb.Drop(BALLS, [sb.Hertz(2e5), sb.Spring(1000.0)], gaps=[0.002], height=0.63)
 
 
 @pytest.fixture(autouse=True)
@@ -45,7 +41,7 @@ def test_a_file_has_the_drop_and_its_errors_and_a_drop_has_none():
         sb.Drop.from_mapping(DROP.to_mapping() | {"height": "63 ± 1 cm"})
 
 
-def test_simulate_carries_the_errors_of_a_file(run):
+def test_simulate_carries_the_errors_of_a_file_unless_an_option_takes_their_place(run):
     code, out, err = run("simulate", "drop.toml", "--json")
     assert (code, err) == (0, "")
     found = json.loads(out)["errors"]
@@ -56,9 +52,6 @@ def test_simulate_carries_the_errors_of_a_file(run):
     assert found["numbers"]["balls.1.mass"] == {"value": 0.057, "error": 0.0005}
     assert set(found["numbers"]) == set(exact.errors)
     assert "errors" not in json.loads(run("simulate", "plain.toml", "--json")[1])
-
-
-def test_an_option_takes_the_place_of_a_number_and_its_error(run):
     options = ("--speed", "3.5m/s", "--gap", "1 ± 0.1 mm", "--json")
     found = json.loads(run("simulate", "drop.toml", *options)[1])["errors"]["numbers"]
     assert list(found) == ["balls.1.mass", "contacts.0.stiffness", "gaps.0"]

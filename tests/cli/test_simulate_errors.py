@@ -5,34 +5,32 @@ import json
 import pytest
 
 import stackbounce as sb
-from stackbounce.cli import main
 from stackbounce.cli.errors_given import split_errors
 
 PAIR = ["simulate", "basketball", "tennis", "--height", "63 ± 1 cm", "--gap", "2mm"]
 
 
-def said(capsys, *arguments):
-    """Return what a command printed; it has to succeed."""
-    assert main(list(arguments)) == 0
-    return capsys.readouterr().out
+@pytest.fixture
+def said(run):
+    return lambda *arguments: run(*arguments)[1]
 
 
-def test_tables_have_errors_and_say_how_but_not_for_times_that_do_not_change(capsys):
-    out = said(capsys, *PAIR, "--error", "balls.1.mass=1g")
+def test_tables_have_errors_and_say_how_but_not_for_times_that_do_not_change(said):
+    out = said(*PAIR, "--error", "balls.1.mass=1g")
     rows = {line.split()[0]: line.split()[1:] for line in out.splitlines() if line.strip()}
     assert rows["tennis"][:2] == ["-3.515(28)", "6.413(53)"]
     assert "Errors by derivatives: 10000 drops within the errors follow them" in out
     assert "Measure height better: it makes 8" in out
-    out = said(capsys, "simulate", "basketball", "tennis", "--height", "63 ± 1 cm")
+    out = said("simulate", "basketball", "tennis", "--height", "63 ± 1 cm")
     contacts = out[out.index("Contacts,") :].splitlines()
     (basketball,) = (line.split() for line in contacts if line.startswith("floor"))
     assert basketball[5:7] == ["30.58", "30.58"]
     assert "70.07(56)" in basketball
 
 
-def test_json_has_the_errors_of_predict(capsys):
-    plain = json.loads(said(capsys, *PAIR[:4], "63 cm", *PAIR[5:], "--json"))
-    found = json.loads(said(capsys, *PAIR, "--json"))
+def test_json_has_the_errors_of_predict(said):
+    plain = json.loads(said(*PAIR[:4], "63 cm", *PAIR[5:], "--json"))
+    found = json.loads(said(*PAIR, "--json"))
     errors = found.pop("errors")
     assert found == plain
     assert errors["method"] == "derivatives"
@@ -61,9 +59,9 @@ def test_errors_stand_in_every_option():
 
 
 @pytest.mark.slow
-def test_apexes_have_errors_and_a_picture_bands(tmp_path, capsys):
+def test_apexes_have_errors_and_a_picture_bands(tmp_path, said):
     path = tmp_path / "bounce.svg"
-    out = said(capsys, *PAIR, "--gravity", "9.81", "--until", "1s", "--plot", str(path))
+    out = said(*PAIR, "--gravity", "9.81", "--until", "1s", "--plot", str(path))
     assert "Highest points, the first 3 of each ball" in out
     assert path.stat().st_size > 10_000
 

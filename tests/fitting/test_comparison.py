@@ -37,21 +37,17 @@ def test_the_true_model_is_found(compared):
     assert compared.scores[1].probability < 1e-3
 
 
-def test_criteria_are_those_of_the_books_and_pulls_those_of_each_fit(compared):
+def test_criteria_are_those_of_the_books_and_a_drop_that_is_left_out_is_predicted(compared):
     for score in compared.scores:
         n, k = 6, score.parameters
         assert score.degrees_of_freedom == n - k
-        assert score.aicc == pytest.approx(
-            score.chi_squared + 2 * k + 2 * k * (k + 1) / (n - k - 1)
-        )
+        aicc = score.chi_squared + 2 * k + 2 * k * (k + 1) / (n - k - 1)
+        assert score.aicc == pytest.approx(aicc)
         assert score.bic == pytest.approx(score.chi_squared + k * math.log(n))
     assert compared.pulls.dims == ("model", "datum")
     for name, found in compared.fits.items():
         total = float((compared.pulls.sel(model=name) ** 2).sum())
         assert total == pytest.approx(found.chi_squared, abs=1e-9)
-
-
-def test_a_drop_that_is_left_out_is_predicted(compared):
     rows = compared.left_out["Hysteretic"]
     assert [row.drop for row in rows][:2] == ["at_10", "at_10"]
     assert [row.name for row in rows][:2] == ["rebound_ratios.0", "rebound_ratios.1"]
@@ -72,9 +68,8 @@ def test_with_one_drop_each_datum_is_left_out():
 
 def test_a_model_with_more_numbers_than_data_is_refused_by_name():
     drop = sb.Drop(BALLS, SPRINGS, impact_speed=3.0)
-    compared = sb.compare(
-        sb.standard_models(drop), {"rebound_ratios": ["0.2 ± 0.02", "1.6 ± 0.02"]}
-    )
+    data = {"rebound_ratios": ["0.2 ± 0.02", "1.6 ± 0.02"]}
+    compared = sb.compare(sb.standard_models(drop), data)
     assert "HuntCrossley" in compared.refused
     assert "3 numbers" in compared.refused["HuntCrossley"]
     assert compared.criterion == "bic"  # AICc needs two data more than numbers
@@ -83,7 +78,7 @@ def test_a_model_with_more_numbers_than_data_is_refused_by_name():
         sb.compare(usual, {"rebound_ratios.0": "0.2 ± 0.02"})
 
 
-def test_usual_models_last_as_long_as_the_given_contacts():
+def test_usual_models_last_as_long_as_the_given_contacts_which_have_to_be_finite():
     drop = sb.Drop(BALLS, SPRINGS, impact_speed=3.0)
     masses = [0.150, (0.150, 0.057)]  # in each contact
     for model in sb.standard_models(drop).values():
@@ -92,15 +87,6 @@ def test_usual_models_last_as_long_as_the_given_contacts():
         for law, spring, mass in zip(model.drop.contacts, SPRINGS, masses, strict=True):
             wanted = sb.contact_time(spring, mass)
             assert sb.contact_time(law, mass, 3.0) == pytest.approx(wanted, rel=1e-6)
-
-
-@pytest.mark.parametrize("models", [{}, {"a": 1}, {1: None}])
-def test_what_is_no_model_is_refused(models):
-    with pytest.raises(InvalidType, match="models must map names to Models"):
-        sb.compare(models, {"rebound_ratios.0": "0.2 ± 0.02"})
-
-
-def test_an_error_names_its_model_and_rigid_stacks_have_no_usual_ones():
     soft = sb.Model(sb.Drop(BALLS, SPRINGS, impact_speed=3.0), ["contacts.7.stiffness"])
     with pytest.raises(InvalidValue, match=r"^soft: contacts\.7\.stiffness"):
         sb.compare({"soft": soft}, {"rebound_ratios.0": (0.2, 0.02)})
@@ -108,3 +94,9 @@ def test_an_error_names_its_model_and_rigid_stacks_have_no_usual_ones():
         drop = sb.Drop(BALLS, contacts, velocities=[-1.0, -2.0])
         with pytest.raises(InvalidValue, match="finite contacts"):
             sb.standard_models(drop)
+
+
+@pytest.mark.parametrize("models", [{}, {"a": 1}, {1: None}])
+def test_what_is_no_model_is_refused(models):
+    with pytest.raises(InvalidType, match="models must map names to Models"):
+        sb.compare(models, {"rebound_ratios.0": "0.2 ± 0.02"})

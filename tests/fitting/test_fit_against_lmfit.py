@@ -30,14 +30,11 @@ PULLS = np.array([0.8, -0.5, 0.6])
 
 def ours(law, truth):
     target = predicted(law, truth) + PULLS * ERRORS
-    data = {
-        "rebound_ratios": list(zip(target[:2], ERRORS[:2], strict=True)),
-        "durations.0": (1e-3 * target[2], 1e-3 * ERRORS[2]),
-    }
+    ratios = list(zip(target[:2], ERRORS[:2], strict=True))
+    data = {"rebound_ratios": ratios, "durations.0": (1e-3 * target[2], 1e-3 * ERRORS[2])}
     drop = sb.Drop(BALLS, [law(k) for k in truth], impact_speed=3.5)
-    return target, sb.fit(
-        drop, data, {n: (k / 4, k * 4) for n, k in zip(NAMES, truth, strict=True)}
-    )
+    vary = {name: (k / 4, k * 4) for name, k in zip(NAMES, truth, strict=True)}
+    return target, sb.fit(drop, data, vary)
 
 
 @pytest.mark.parametrize("case", CASES)

@@ -1,16 +1,14 @@
 """What follows of a fitted drop, with the errors of the fit."""
 
+from dataclasses import replace
+
 import pytest
 
 import stackbounce as sb
+from drops import STACK
 from stackbounce.errors import InvalidValue
 
-PAIR = sb.Drop(
-    [sb.Ball(0.15), sb.Ball(0.057)],
-    [sb.Spring(2500.0), sb.Spring(1000.0)],
-    gaps=[0.003],
-    height=0.6,
-)
+PAIR = replace(STACK, gaps=[0.003], height=0.6, impact_speed=None)
 DATA = {"rebound_ratios.1": "1.90 ± 0.02", "durations.0": "20.0 ± 0.5 ms"}
 
 
@@ -20,24 +18,20 @@ def test_a_fitted_quantity_has_the_error_of_its_datum():
     found = sb.fit(drop, {"durations.0": "5.0 ± 0.1 ms"}, ["contacts.0.stiffness"])
     normal = found.predict()
     assert normal["durations.0"].std_dev == pytest.approx(1e-4, rel=1e-3)
-    assert normal.errors["contacts.0.stiffness"].std_dev == pytest.approx(
-        found["contacts.0.stiffness"].std_dev, rel=1e-6
-    )
+    error = pytest.approx(found["contacts.0.stiffness"].std_dev, rel=1e-6)
+    assert normal.errors["contacts.0.stiffness"].std_dev == error
     drawn = found.predict(posterior=found.sample(6400, seed=1))
     assert drawn.how == "errors by 4800 draws: draws were given"
     assert drawn["durations.0"].std_dev == pytest.approx(1e-4, rel=0.1)
 
 
-def test_correlated_parameters_reproduce_the_errors_of_the_data():
+def test_correlated_parameters_reproduce_the_errors_of_the_data_and_tied_ones_follow():
     data = {"rebound_ratios.1": (1.8355, 0.005), "durations.0": (0.030984, 1e-4)}
     found = sb.fit(PAIR, data, {"contacts.0.stiffness": (1e3, 5e3), "gaps.0": (5e-4, 6e-3)})
     again = found.predict()
     for name, (value, error) in data.items():
         assert again[name].nominal_value == pytest.approx(value, abs=0.1 * error)
         assert again[name].std_dev == pytest.approx(error, rel=0.01)
-
-
-def test_tied_numbers_follow():
     tie = {"contacts.1.stiffness": "0.4 * contacts.0.stiffness"}
     found = sb.fit(PAIR, DATA, {"contacts.0.stiffness": (1e3, 5e3)}, tie=tie)
     errors = found.predict().errors

@@ -14,7 +14,7 @@ DROP = sb.Drop([sb.Ball(0.0567)], [sb.Spring(1e4)], height=0.3)
 DATA = {"durations.0": "5.0 ± 0.1 ms"}
 
 
-def test_a_problem_is_fitted_as_its_parts_are_each_time():
+def test_a_problem_is_fitted_as_its_parts_are_and_has_the_residuals_of_many_trials():
     problem = FitProblem(DROP, DATA, [STIFFNESS])
     same = sb.fit(DROP, DATA, [STIFFNESS])
     assert problem.fit().as_dict() == same.as_dict()
@@ -23,9 +23,6 @@ def test_a_problem_is_fitted_as_its_parts_are_each_time():
     assert problem.fit(rtol=1e-6).objective.rtol == 1e-6
     problem.objective.unsolved["EVENT_LIMIT"] += 7
     assert problem.fit(starts=4).unsolved == {}
-
-
-def test_a_problem_has_the_residuals_of_many_trials():
     objective = FitProblem(DROP, DATA, {STIFFNESS: (1e3, 1e5)}).objective
     stiffnesses = np.array([1e4, 2e4, 4e4])
     times = np.pi * np.sqrt(0.0567 / stiffnesses)

@@ -11,7 +11,7 @@ RATIOS = {"rebound_ratios": [(0.39, 0.01), (1.80, 0.01)]}
 ANYWHERE = 12.0**-0.5
 
 
-def test_ratios_at_no_gap_tell_the_stiffness_ratio_alone():
+def test_ratios_at_no_gap_tell_the_stiffness_ratio_alone_and_the_rest_stays():
     found = sb.fit(STACK, RATIOS, BOTH)
     (sentence,) = found.undetermined
     assert sentence == (
@@ -21,9 +21,8 @@ def test_ratios_at_no_gap_tell_the_stiffness_ratio_alone():
     ratio = found[BOTH[0]] / found[BOTH[1]]
     alone = sb.fit(STACK, RATIOS, [BOTH[1]])[BOTH[1]]
     assert ratio.nominal_value == pytest.approx(2500.0 / alone.nominal_value, rel=1e-5)
-    assert ratio.std_dev / ratio.nominal_value == pytest.approx(
-        alone.std_dev / alone.nominal_value, rel=1e-2
-    )
+    relative = alone.std_dev / alone.nominal_value
+    assert ratio.std_dev / ratio.nominal_value == pytest.approx(relative, rel=1e-2)
     for name in BOTH:  # along the open direction: even between bounds a factor of 10,000 apart
         spread = np.log(1e4) * ANYWHERE / np.sqrt(2.0)
         assert found[name].std_dev / found.best[name] == pytest.approx(spread, rel=1e-2)
@@ -32,9 +31,6 @@ def test_ratios_at_no_gap_tell_the_stiffness_ratio_alone():
     assert (upper.high, upper.high_is_bound) == (1e5, True)
     assert (lower.low, lower.low_is_bound) == (25.0, True)
     assert lower.high == pytest.approx(1e5 * ratio.nominal_value, rel=0.02)  # where the upper ends
-
-
-def test_what_is_left_open_stays_where_the_drop_has_it():
     values = [sb.fit(STACK, RATIOS, BOTH, seed=seed).best for seed in range(3)]
     for one in values:
         assert one == pytest.approx(values[0], rel=1e-5)
@@ -56,9 +52,8 @@ def test_a_prior_or_a_duration_decides():
 
 def test_a_number_that_plays_no_part():
     found = sb.fit(STACK, RATIOS, {"balls.0.diameter": (0.1, 0.2), BOTH[1]: None})
-    assert found.undetermined == (
-        "the data do not determine balls.0.diameter: nothing changes within its bounds",
-    )
+    (sentence,) = found.undetermined
+    assert sentence.endswith("balls.0.diameter: nothing changes within its bounds")
     assert found["balls.0.diameter"].std_dev == pytest.approx(0.1 * ANYWHERE, rel=1e-9)
     assert found.intervals()["balls.0.diameter"] == (0.1, 0.2, True, True)
     alone = sb.fit(STACK, RATIOS, [BOTH[1]])[BOTH[1]]

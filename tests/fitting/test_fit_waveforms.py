@@ -94,15 +94,16 @@ def test_two_records_of_one_drop_have_one_clock():
     assert found.notes[0].startswith("the model does not describe the data")
 
 
-def test_two_drops_have_a_clock_each():
+def test_two_drops_have_a_clock_each_whose_name_is_taken():
     other = waveform(ONE, rate=1e4, noise=0.5, seed=3, before=0.02).force
-    found = sb.fit(
-        {"a": ONE, "b": ONE}, {"a": {"force.0": RECORD}, "b": {"force.0": other}}, VARY, starts=4
-    )
+    data = {"a": {"force.0": RECORD}, "b": {"force.0": other}}
+    found = sb.fit({"a": ONE, "b": ONE}, data, VARY, starts=4)
     assert found.names == ["contacts.0.stiffness", "a.touch", "b.touch"]
     assert found.best["a.touch"] == pytest.approx(0.01, abs=2e-4)
     assert found.best["b.touch"] == pytest.approx(0.02, abs=2e-4)
     assert within(found, "contacts.0.stiffness", 2500.0)
+    with pytest.raises(InvalidValue, match=r"^touch is the time of first touch in a force record"):
+        sb.fit(ONE, {"force.0": RECORD}, {"touch": (0.1, 1.0)}, tie={"gravity": "touch"})
 
 
 BEFORE = TIMES < 0.005
@@ -139,8 +140,3 @@ def test_records_that_cannot_be_used(value, kind, message):
 def test_a_contact_that_is_not_there(name, message):
     with pytest.raises(InvalidValue, match=message):
         sb.fit(ONE, {name: RECORD}, VARY)
-
-
-def test_a_clock_is_no_name_for_something_else():
-    with pytest.raises(InvalidValue, match=r"^touch is the time of first touch in a force record"):
-        sb.fit(ONE, {"force.0": RECORD}, {"touch": (0.1, 1.0)}, tie={"gravity": "touch"})

@@ -10,9 +10,8 @@ import pytest
 from stackbounce.errors import MissingExtra
 from stackbounce.extras import EXTRAS, need
 
-PROJECT = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text("utf-8"))[
-    "project"
-]
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
 CORE = {"pandas", "pydantic"}  # which xarray and typer bring
 BROUGHT = sorted({module for modules in EXTRAS.values() for module in modules} - CORE)
 COMPILERS = ["numba", "llvmlite"]  # for developers and benchmarks only

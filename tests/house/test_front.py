@@ -9,11 +9,16 @@ import pytest
 import stackbounce as sb
 
 
-def test_every_name_is_there_and_no_module_hides_it():
+def test_every_name_is_there_and_another_is_an_attribute_error():
     assert {name for name in sb.__all__ if not hasattr(sb, name)} == set()
     assert set(sb.__all__) <= set(dir(sb))
     modules = {module.name for module in pkgutil.iter_modules(sb.__path__)}
     assert modules & set(sb.__all__) == set()
+    for name in ("simulat", "_simulate", "__wrapped__"):
+        with pytest.raises(AttributeError, match=f"no attribute '{name}'"):
+            getattr(sb, name)
+    with pytest.raises(ImportError):
+        from stackbounce import simulat  # noqa: F401
 
 
 def run(code):
@@ -46,11 +51,3 @@ def test_nothing_is_imported_until_it_is_used_and_nothing_is_compiled_at_run_tim
         "sys.exit(', '.join({'numba', 'llvmlite'} & set(sys.modules)))\n"
     )
     assert run(code) == ""
-
-
-def test_a_name_that_is_not_there_is_an_attribute_error():
-    for name in ("simulat", "_simulate", "__wrapped__"):
-        with pytest.raises(AttributeError, match=f"no attribute '{name}'"):
-            getattr(sb, name)
-    with pytest.raises(ImportError):
-        from stackbounce import simulat  # noqa: F401

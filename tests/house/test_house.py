@@ -76,9 +76,8 @@ def test_every_public_name_is_documented():
     ],
 )
 def test_examples_on_pages_come_out_as_written(page):
-    fences = re.findall(
-        r"^```(?:python|pycon)\n(>>> .*?)^```", page.read_text("utf-8"), re.MULTILINE | re.DOTALL
-    )
+    text = page.read_text("utf-8")
+    fences = re.findall(r"^```(?:python|pycon)\n(>>> .*?)^```", text, re.MULTILINE | re.DOTALL)
     example = doctest.DocTestParser().get_doctest("\n".join(fences), {}, page.name, str(page), 0)
     flags = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
     assert doctest.DocTestRunner(optionflags=flags).run(example).failed == 0

@@ -20,11 +20,8 @@ positive = st.floats(1e-3, 1e9)
 exponents = st.floats(1.0, 5.0)
 
 
-RIGID = [
-    sb.Rigid(0.5),
-    sb.RigidBySpeed(0.5, 2.0),
-    sb.RigidLossBySpeed(0.5, 2.0, 0.43, scatter=0.1, seed=3),
-]
+SCATTERED = sb.RigidLossBySpeed(0.5, 2.0, 0.43, scatter=0.1, seed=3)
+RIGID = [sb.Rigid(0.5), sb.RigidBySpeed(0.5, 2.0), SCATTERED]
 FINITE = [
     sb.Spring(2.0),
     sb.Hertz(2.0),
@@ -204,17 +201,15 @@ def test_series_of_springs_and_hertz_contacts():
     assert sb.series(sb.Spring(1e-200), sb.Spring(1e200)).stiffness == 1e-200
     lower, upper = sb.Ball(1.0, 0.06, **STEEL), sb.Ball(1.0, 0.06, **STEEL)
     alone = sb.Hertz.between(lower)
-    assert sb.series(alone, alone).stiffness == pytest.approx(
-        sb.Hertz.between(lower, upper).stiffness, rel=1e-14
-    )
+    both = sb.Hertz.between(lower, upper)
+    assert sb.series(alone, alone).stiffness == pytest.approx(both.stiffness, rel=1e-14)
     small = sb.Ball(1.0, 0.01, **STEEL)
     both = sb.series(alone, sb.Hertz.between(small)).stiffness
     assert both != pytest.approx(sb.Hertz.between(lower, small).stiffness, rel=1e-2)
     got = refusal(errors.InvalidValue, sb.series, sb.Spring(1), sb.Rigid(1))
     assert got == "law_b must be a law with a compression, got Rigid(restitution=1.0)"
-    assert refusal(errors.InvalidType, sb.series, 3, sb.Rigid(1)) == (
-        "law_a must be a contact law, got 3"
-    )
+    got = refusal(errors.InvalidType, sb.series, 3, sb.Rigid(1))
+    assert got == "law_a must be a contact law, got 3"
 
 
 SOLID, DAMPED = sb.StandardLinearSolid, sb.HuntCrossley

@@ -68,10 +68,9 @@ def test_a_small_restitution_is_refused_with_the_least_that_is_not(value):
     assert Hysteretic(1.0, restitution=0.00142).unloading_exponent < 1e6
 
 
-def test_restitution_and_unloading_exponent_follow_from_each_other():
-    assert Hysteretic(5.6e4, restitution=0.78).unloading_exponent == pytest.approx(
-        2.28731, abs=1e-5
-    )
+def test_restitution_and_unloading_exponent_follow_from_each_other_if_one_is_given():
+    law = Hysteretic(5.6e4, restitution=0.78)
+    assert law.unloading_exponent == pytest.approx(2.28731, abs=1e-5)
     for p in (1.0, 1.5, 3.0):
         for e in (0.01, 0.5, 0.78, 1.0):
             law = Hysteretic(1.0, exponent=p, restitution=e)
@@ -80,9 +79,6 @@ def test_restitution_and_unloading_exponent_follow_from_each_other():
             assert e**2 == pytest.approx((p + 1) / (law.unloading_exponent + 1), rel=1e-14)
             back = Hysteretic(1.0, exponent=p, unloading_exponent=law.unloading_exponent)
             assert back.restitution == pytest.approx(e, rel=1e-14)
-
-
-def test_a_hysteretic_law_needs_exactly_one_of_two():
     right = "restitution and unloading_exponent: exactly one of the two must be given, got "
     assert refusal(errors.InvalidValue, Hysteretic, 1.0) == right + "neither"
     got = refusal(errors.InvalidValue, Hysteretic, 1.0, restitution=0.6, unloading_exponent=7)
@@ -117,13 +113,21 @@ def test_exponents_lie_from_1_to_the_steepest(value):
         assert got == f"{name} must be a number from 1 to 1e+06, got {value}"
 
 
-def test_laws_by_name():
+def test_laws_and_balls_have_names():
     assert law_named("Spring") is law_named("spring") is Spring
     got = refusal(errors.InvalidValue, law_named, "Sprung")
-    assert got == (
-        f"law must be a contact law, got 'Sprung'; did you mean Spring? Known: {', '.join(LAWS)}"
+    assert got.startswith(
+        "law must be a contact law, got 'Sprung'; did you mean Spring? Known: Rigid"
     )
     assert "got None; known: Rigid" in refusal(errors.InvalidValue, law_named, None)
+    assert catalogue_ball("BASKETBALL") is catalogue_ball("basketball")
+    got = refusal(errors.InvalidValue, catalogue_ball, "tenis")
+    assert got == (
+        "ball must be one of the catalogue, got 'tenis'; did you mean tennis? "
+        "Known: basketball, tennis, B1, B2, B3, big-basketball, football, handball, volleyball, "
+        "tennis-ball, ping-pong-ball, golf-ball, superball, marble, steel-ball"
+    )
+    assert refusal(errors.InvalidValue, stack, []) == "balls must hold at least one name, got none"
 
 
 def test_a_drop_has_tuples_of_floats_one_way_to_come_in_and_may_be_rigid():
@@ -170,10 +174,8 @@ def test_numbers_of_a_drop_have_ranges(given, right, values):
 @pytest.mark.parametrize(("height", "gravity"), [(1e308, 0.0), (1e-200, 1e-200), (1e200, 1e200)])
 def test_a_height_gives_a_speed(height, gravity):
     got = refusal(errors.InvalidValue, two, impact_speed=None, height=height, gravity=gravity)
-    assert got == (
-        "height must give an impact speed above 0 and finite at "
-        f"{gravity or 9.80665} m/s**2, got {height}"
-    )
+    near = f"finite at {gravity or 9.80665} m/s**2, got {height}"
+    assert got == f"height must give an impact speed above 0 and {near}"
 
 
 NONE = {"impact_speed": None}
@@ -224,6 +226,7 @@ def test_separate_collisions_keep_everything_but_gravity():
     assert separate(two(contacts=[None, SPRING])).contacts == (None, Rigid(1.0))
     assert refusal(errors.InvalidType, separate, 3) == "drop must be a Drop, got 3"
     drop = two(impact_speed=None, height=2.0, gravity=1.0)
+    rigid = separate(drop)
     assert rigid.gravity == 0.0
     assert rigid.start_velocities == drop.start_velocities == (-2.0, -2.0)
     drop = two(impact_speed=None, velocities=[0.0, -1.0], gravity=1.0)
@@ -256,17 +259,6 @@ def test_dynamic_stiffness_agrees_with_the_contact_time(name):
     entry = catalogue_ball(name)
     expected = math.pi**2 * entry.ball.mass / entry.contact_time**2
     assert entry.stiffness == pytest.approx(expected, rel=0.02)
-
-
-def test_names_of_the_catalogue():
-    assert catalogue_ball("BASKETBALL") is catalogue_ball("basketball")
-    got = refusal(errors.InvalidValue, catalogue_ball, "tenis")
-    assert got == (
-        "ball must be one of the catalogue, got 'tenis'; did you mean tennis? "
-        "Known: basketball, tennis, B1, B2, B3, big-basketball, football, handball, volleyball, "
-        "tennis-ball, ping-pong-ball, golf-ball, superball, marble, steel-ball"
-    )
-    assert refusal(errors.InvalidValue, stack, []) == "balls must hold at least one name, got none"
 
 
 def test_a_fitted_pair_has_its_own_numbers_and_other_neighbours_springs_in_series():

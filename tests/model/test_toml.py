@@ -83,9 +83,8 @@ laws = st.one_of(
 rigid_laws = st.builds(Rigid, st.floats(0.0, 1.0))
 texts = st.text(st.characters(exclude_categories=["Cs"]), min_size=1).filter(str.strip)
 ratios = st.floats(-1.0, 0.5, exclude_min=True)
-all_balls = st.builds(
-    Ball, numbers, *(st.none() | one for one in (numbers, texts, numbers, ratios))
-)
+optional = [st.none() | one for one in (numbers, texts, numbers, ratios)]
+all_balls = st.builds(Ball, numbers, *optional)
 
 
 @st.composite
@@ -158,13 +157,17 @@ def test_what_is_wrong_in_a_file_is_said_with_its_path(read, old, new, expected)
     assert got.startswith(f"drop.toml: {expected}")
 
 
-def test_the_unit_of_a_stiffness_follows_the_exponent(read):
+def test_numbers_of_a_hysteretic_contact_are_read_where_they_agree_in_units_of_the_exponent(read):
     text = SCENARIO.replace('restitution = "78 %"', "restitution = 0.78\nexponent = 1.5")
     assert read(text.replace("1 N/mm", "1 N/m^1.5")).contacts[1].stiffness == 1.0
     got = refusal(errors.ScenarioError, read, text)
     assert got.startswith(
         "drop.toml: contacts.1.stiffness must be a quantity (a number of N/m**1.5"
     )
+    text = SCENARIO.replace('"78 %"', "0.5\nunloading_exponent = 7")
+    assert read(text).contacts[1] == Hysteretic(1000.0, restitution=0.5)
+    got = refusal(errors.ScenarioError, read, text.replace("= 7", "= 8"))
+    assert got.startswith("drop.toml: contacts.1.restitution and unloading_exponent: exactly one")
 
 
 @pytest.mark.parametrize(
@@ -236,13 +239,6 @@ def test_files_that_are_too_large_or_cannot_be_opened(tmp_path, monkeypatch):
 def test_what_is_no_path(path):
     got = refusal(errors.InvalidType, Drop.from_toml, path)
     assert got == f"path must be a string or a path, got {path!r}"
-
-
-def test_both_numbers_of_a_hysteretic_contact_are_read_where_they_agree(read):
-    text = SCENARIO.replace('"78 %"', "0.5\nunloading_exponent = 7")
-    assert read(text).contacts[1] == Hysteretic(1000.0, restitution=0.5)
-    got = refusal(errors.ScenarioError, read, text.replace("= 7", "= 8"))
-    assert got.startswith("drop.toml: contacts.1.restitution and unloading_exponent: exactly one")
 
 
 @pytest.mark.parametrize(

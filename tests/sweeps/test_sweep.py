@@ -79,16 +79,13 @@ def test_any_number_can_vary(path, laws, values):
         assert_same(ds[{path: k}], other, until=1.0)
 
 
-def test_height_and_gravity_vary_together():
+def test_height_and_gravity_vary_together_and_so_do_velocities():
     drop = sb.Drop(TWO, LAWS["springs"], height=1.0)
     heights, gravities = [0.5, 2.0], [0.0, 3.7]
     ds = sb.sweep(drop, {"height": heights, "gravity": gravities}, until=0.02)
     for (i, height), (j, gravity) in product(enumerate(heights), enumerate(gravities)):
         one = sb.Drop(TWO, LAWS["springs"], height=height, gravity=gravity)
         assert_same(ds[{"height": i, "gravity": j}], one, until=0.02)
-
-
-def test_velocities_of_a_cradle():
     row = [None, sb.Hertz(1e9), sb.Hertz(1e9)]
     drop = sb.Drop([sb.Ball(0.03)] * 3, row, velocities=[1.0, 0.0, 0.0])
     ds = sb.sweep(drop, {"velocities.1": np.linspace(-1.0, 1.0, 5)})
@@ -103,9 +100,8 @@ def test_arrays_broadcast_by_dimension_name():
     drop = sb.Drop(TWO, LAWS["springs"], impact_speed=3.53)
     mass = xr.DataArray([0.1, 0.2, 0.3], dims="run")
     gap = xr.DataArray([0.0, 0.001, 0.002], dims="run")
-    stiffness = xr.DataArray(
-        [1.0, 2.0], dims="soft", coords={"soft": ["a", "b"]}, attrs={"units": "kN/m"}
-    )
+    options = {"coords": {"soft": ["a", "b"]}, "attrs": {"units": "kN/m"}}
+    stiffness = xr.DataArray([1.0, 2.0], dims="soft", **options)
     ds = sb.sweep(drop, {"balls.0.mass": mass, "gaps.0": gap, "contacts.0.stiffness": stiffness})
     assert ds.status.dims == ("run", "soft")
     assert ds["contacts.0.stiffness"].values.tolist() == [1000.0, 2000.0]
@@ -127,18 +123,24 @@ def test_provenance_and_units_also_where_nothing_varies():
     assert ds.attrs["rtol"] == 1e-6
     assert ds["balls.0.mass"].attrs["units"] == "kg"
     assert ds.first_touch.attrs["units"] == "s"
-    names = dict(
-        zip(ds.status.attrs["flag_values"], ds.status.attrs["flag_meanings"].split(), strict=True)
-    )
+    flags = ds.status.attrs
+    names = dict(zip(flags["flag_values"], flags["flag_meanings"].split(), strict=True))
     assert names == {int(status): status.name for status in sb.Status}
 
 
-def test_an_unfinished_drop_is_marked_and_the_others_are_not():
+def test_an_unfinished_drop_is_marked_and_an_error_has_all_numbers_of_the_element():
     drop = sb.Drop([sb.Ball(1.0), sb.Ball(1.0)], [sb.Rigid(1.0)] * 2, impact_speed=1.0)
     ds = sb.sweep(drop, {"balls.1.mass": [1.0, 1e8]}, event_limit=100)
     assert [sb.Status(status).name for status in ds.status.values] == ["FINISHED", "EVENT_LIMIT"]
     assert ds.collisions.values.sum(axis=-1).tolist() == [3, 100]
     assert np.isfinite(ds.rebound_ratio).all()
+    drop = sb.Drop(TWO, LAWS["losses"], impact_speed=3.53)
+    values = {"contacts.1.exponent": [1.0, 3.0], "contacts.1.unloading_exponent": [2.0, 5.0]}
+    with pytest.raises(sb.StackbounceError) as caught:
+        sb.sweep(drop, values)
+    assert "contacts.1.exponent = 3, contacts.1.unloading_exponent = 2" in str(caught.value)
+    with pytest.raises(sb.StackbounceError, match="only one of the two can vary"):
+        sb.sweep(drop, {"contacts.1.restitution": [0.5], "contacts.1.unloading_exponent": [5.0]})
 
 
 @pytest.mark.parametrize(
@@ -161,24 +163,13 @@ def test_errors_name_what_was_wrong(values, message):
         sb.sweep(drop, values)
 
 
-def test_an_error_has_all_numbers_of_the_element():
-    drop = sb.Drop(TWO, LAWS["losses"], impact_speed=3.53)
-    values = {"contacts.1.exponent": [1.0, 3.0], "contacts.1.unloading_exponent": [2.0, 5.0]}
-    with pytest.raises(sb.StackbounceError) as caught:
-        sb.sweep(drop, values)
-    assert "contacts.1.exponent = 3, contacts.1.unloading_exponent = 2" in str(caught.value)
-    with pytest.raises(sb.StackbounceError, match="only one of the two can vary"):
-        sb.sweep(drop, {"contacts.1.restitution": [0.5], "contacts.1.unloading_exponent": [5.0]})
-
-
 @pytest.mark.parametrize("laws", [LAWS["springs"], LAWS["losses"]], ids=["springs", "losses"])
 def test_order_and_number_of_rows_change_no_bit(laws):
     drop = sb.Drop(TWO, laws, [0.001], impact_speed=3.53)
     mass = np.random.default_rng(1).uniform(0.05, 1.0, 5000)
     ds = sb.sweep(drop, {"balls.0.mass": mass}, rtol=1e-6)
-    back = sb.sweep(drop, {"balls.0.mass": mass[::-1]}, rtol=1e-6).isel(
-        {"balls.0.mass": slice(None, None, -1)}
-    )
+    back = sb.sweep(drop, {"balls.0.mass": mass[::-1]}, rtol=1e-6)
+    back = back.isel({"balls.0.mass": slice(None, None, -1)})
     part = sb.sweep(drop, {"balls.0.mass": mass[1000:1040]}, rtol=1e-6)
     few = sb.sweep(drop, {"balls.0.mass": mass[1000:1005]}, rtol=1e-6)
     for name in ds.data_vars:
@@ -205,11 +196,8 @@ def test_a_grid_is_cut_into_blocks_that_fit_together(shape):
     axes = [np.linspace(1e-4, 2e-3, size) for size in shape]
     ds = sb.sweep(drop, dict(zip(paths, axes, strict=True)))
     everywhere = np.meshgrid(*axes, indexing="ij")
-    flat = {
-        path: xr.DataArray(values.ravel(), dims="run")
-        for path, values in zip(paths, everywhere, strict=True)
-    }
-    rows = sb.sweep(drop, flat)
+    rows = [xr.DataArray(values.ravel(), dims="run") for values in everywhere]
+    rows = sb.sweep(drop, dict(zip(paths, rows, strict=True)))
     for name in ds.data_vars:
         assert np.array_equal(ds[name].values.reshape(rows[name].shape), rows[name]), name
 

@@ -110,12 +110,8 @@ def test_stacks_are_as_simulated_and_in_order():
             sb.calibrate(sb.Spring, mass=one.ball.mass, contact_time=one.contact_time)
             for one in (lower, upper)
         ]
-        drop = sb.Drop(
-            [lower.ball, upper.ball],
-            [floors[0], between(*floors)],
-            [float(ds.gap[gap])],
-            impact_speed=3.0,
-        )
+        laws = [floors[0], between(*floors)]
+        drop = sb.Drop([lower.ball, upper.ball], laws, [float(ds.gap[gap])], impact_speed=3.0)
         result = sb.simulate(drop)
         row = ds.isel(stack=i, gap=gap)
         assert row.rebound_ratio.values == pytest.approx(result.rebound_ratios, abs=1e-12)
@@ -131,13 +127,16 @@ def test_stacks_are_as_simulated_and_in_order():
         assert ds.place.values[order, gap].tolist() == [1, 2, 3, 4, 5, 6]
 
 
-def test_the_best_stack_is_a_scenario():
+def test_the_best_stack_is_a_scenario_and_equal_ones_count_once():
     ds = sb.highest(["B1", "B2", "B3"], 3, gaps=[0.002])
     drop = sb.Drop.from_mapping(tomllib.loads(ds.attrs["best"]))
     assert [ball.name for ball in drop.balls] == ds.balls.values[0].tolist()
     result = sb.simulate(drop)
     assert result.rebound_ratios == pytest.approx(ds.rebound_ratio.values[0, 0], abs=1e-12)
     assert result.drop.gaps == (0.002, 0.002)
+    assert sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0]).sizes["stack"] == 6
+    assert sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0], repeat=True).sizes["stack"] == 9
+    assert sb.highest(["B1", "B1", "B2"], 2, gaps=[0.0]).sizes["stack"] == 3  # equal ones once
 
 
 def test_balls_of_ones_own_and_of_different_laws():
@@ -155,12 +154,6 @@ def test_balls_of_ones_own_and_of_different_laws():
     assert row.rebound_ratio.values[0] == pytest.approx(sb.simulate(drop).rebound_ratios, abs=1e-12)
 
 
-def test_how_many_stacks_there_are():
-    assert sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0]).sizes["stack"] == 6
-    assert sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0], repeat=True).sizes["stack"] == 9
-    assert sb.highest(["B1", "B1", "B2"], 2, gaps=[0.0]).sizes["stack"] == 3  # equal ones once
-
-
 @pytest.mark.parametrize(
     ("arguments", "error", "message"),
     [
@@ -173,8 +166,6 @@ def test_how_many_stacks_there_are():
         ({"law": sb.HuntCrossley}, InvalidValue, "basketball and tennis: .*dissipation"),
         ({"count": 8, "repeat": True}, InvalidValue, "at most 100000 drops, got 390625 of 5 balls"),
         ({"gaps": [0.0, 0.0]}, InvalidValue, "gaps must be different ones"),
-        ({"gaps": [-1.0]}, InvalidValue, "gaps.0 must be a number of metres, 0 or above"),
-        ({"impact_speed": 0.0}, InvalidValue, "impact_speed must be a positive number"),
     ],
 )
 def test_what_makes_no_stacks_is_refused(arguments, error, message):
@@ -203,9 +194,8 @@ def test_rigid_balls_are_best_with_geometric_means(count, restitution):
     masses = [ball.mass for ball in best.balls]
     assert masses == pytest.approx(np.geomspace(1.0, 0.01, count), rel=1e-5)
     gained = np.prod([(1.0 + restitution) / (1.0 + b / a) for a, b in itertools.pairwise(masses)])
-    assert sb.simulate(best).rebound_ratios[-1] == pytest.approx(
-        (1.0 + restitution) * gained - 1.0, abs=1e-9
-    )
+    top = (1.0 + restitution) * gained - 1.0
+    assert sb.simulate(best).rebound_ratios[-1] == pytest.approx(top, abs=1e-9)
 
 
 @pytest.mark.fast_cases(1)
@@ -237,7 +227,7 @@ def test_contacts_may_depend_on_the_masses():
     assert len(seen) > 100
 
 
-def test_a_given_stack_is_ranked_with_its_best_masses():
+def test_a_given_stack_is_ranked_with_its_best_masses_at_the_first_gap():
     balls = [sb.Ball(1.0), sb.Ball(0.5, name="middle"), sb.Ball(0.01)]
     drop = sb.Drop(balls, [sb.Rigid(1.0)] * 3, [0.01, 0.02], impact_speed=2.0)
     ds = sb.highest(drop, masses=(0.2, 0.4))
@@ -253,9 +243,6 @@ def test_a_given_stack_is_ranked_with_its_best_masses():
     assert np.isnan(ds.gap).all()
     assert ds.rebound_ratio.values[2, 0] == pytest.approx(sb.simulate(drop).rebound_ratios)
     assert plots.highest(ds).legends[0].get_texts()[0].get_text() == "with its own gaps"
-
-
-def test_masses_are_best_at_the_first_gap():
     balls = [sb.Ball(1.0), sb.Ball(0.5), sb.Ball(0.01)]
     drop = sb.Drop(balls, [sb.Spring(1e4)] * 3, impact_speed=1.0)
     ds = sb.highest(drop, gaps=[0.003, 0.0], masses=True)
@@ -272,7 +259,6 @@ def test_masses_are_best_at_the_first_gap():
         ([1.0, 0.1], {}, InvalidValue, "balls must be three or more, got 2"),
         ([1.0, 0.1, 1.0], {}, InvalidValue, "outer masses that differ, unless within is given"),
         ([1.0, 0.1, 0.1], {"within": (2.0, 1.0)}, InvalidValue, "the smaller first, got 2.0 and"),
-        ([1.0, 0.1, 0.1], {"within": (-2.0, 1.0)}, InvalidValue, "within must be a positive"),
         ([1.0, 0.1, 0.1], {"within": 3.0}, InvalidType, "within must be two masses, got 3.0"),
         ([1.0, 0.1, 0.1], {"contacts": [1]}, InvalidType, "contacts must be a function"),
     ],
