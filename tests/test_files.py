@@ -39,6 +39,7 @@ FILES = pytest.mark.parametrize(
         (["simulate", "B1", "--plot"], "a.svg"),
         (["simulate", "B1", "--plot"], "a.png"),
         (["simulate", "B1", "--plot"], "a.pdf"),
+        (["simulate", "B1", "--plot"], "a.SVG"),
     ],
 )
 

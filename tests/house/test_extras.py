@@ -7,8 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from stackbounce.errors import MissingExtra
-from stackbounce.extras import EXTRAS, need
+from stackbounce.extras import EXTRAS
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
@@ -42,13 +41,6 @@ def test_an_extra_brings_what_it_says(extra):
     assert brought(extra) == set(EXTRAS[extra])
     assert brought(extra) <= brought("all") <= brought("dev")
     assert set(PROJECT["optional-dependencies"]) == {*EXTRAS, "all", "dev", "bench"}
-
-
-def test_a_missing_extra_is_named(monkeypatch):
-    need("fit", "stackbounce fit")
-    monkeypatch.setitem(sys.modules, "lmfit", None)
-    with pytest.raises(MissingExtra, match=r"^a fit needs lmfit: pip install 'stackbounce\[fit\]'"):
-        need("fit", "a fit")
 
 
 @pytest.mark.fast_cases(1)
