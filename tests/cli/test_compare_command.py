@@ -5,12 +5,15 @@ import json
 import pytest
 
 
-def test_a_data_set_is_fitted_by_its_name_and_what_varies_can_be_told(run):
+def test_a_data_set_is_fitted_by_its_name(run):
     code, out, err = run("fit", "cross2007/B1-B2", "--json")
     found = json.loads(out)
     assert (code, err) == (0, "")
     assert list(found["values"]) == ["contacts.0.stiffness", "contacts.1.stiffness", "gaps.0"]
     assert [row["measured"] for row in found["residuals"][:2]] == [0.28, 1.91]
+
+
+def test_what_varies_in_a_data_set_can_be_told(run):
     more = ("--vary", "contacts.0.restitution=0.5:1")
     code, out, _ = run("fit", "cross2007/B1-B2", "--json", *more)
     assert code == 0

@@ -66,7 +66,7 @@ def test_what_is_found_is_what_the_library_finds(told):
     assert found["probability"] is None  # nothing is left to tell
 
 
-def test_a_table_for_people_has_the_same_digits_for_a_value_and_its_limits(fit):
+def test_a_table_for_people(fit):
     code, out, err = fit(*ONE, "--interval")
     assert (code, err) == (0, "")
     ((_, value, error, low, high, unit),) = cells(out, "contacts.1.stiffness")
@@ -76,6 +76,10 @@ def test_a_table_for_people_has_the_same_digits_for_a_value_and_its_limits(fit):
     assert (measured, error, best, float(pull)) == ("1.640", "0.020", "1.640", 0.0)
     assert "0 degrees of freedom: too few data to tell whether the model is right." in out
     assert max(map(len, out.splitlines())) <= 100
+
+
+def test_the_same_digits_for_a_value_and_its_limits(fit):
+    """Where an interval is shorter on one side, that side says how many digits count."""
     vary = {"contacts.1.stiffness": ("0.7kN/m", "2.5kN/m")}
     found = sb.fit(DROP, {"rebound_ratios.1": "1.64 ± 0.02"}, vary, starts=16)
     low, high, *_ = found.intervals()["contacts.1.stiffness"]
@@ -84,7 +88,7 @@ def test_a_table_for_people_has_the_same_digits_for_a_value_and_its_limits(fit):
     assert (shown_low, shown_high) == (f"{low:.0f}", f"{high:.0f}")
 
 
-def test_notes_handy_units_and_strong_correlations_are_told(fit, told):
+def test_notes_and_handy_units(fit):
     code, out, _ = fit(
         *PAIR,
         *("--measured", "rebound_ratios.1=1.90 ± 0.01", "--measured", "rebound_ratios.0=.1 ± .01"),
@@ -98,6 +102,9 @@ def test_notes_handy_units_and_strong_correlations_are_told(fit, told):
     text = " ".join(out.split())
     assert "Note: the model does not describe the data: chi squared is" in text
     assert "Note: collisions.1: 3 seen, 1 in the fit." in text
+
+
+def test_strong_correlations_are_told(fit, told):
     asked = (*ONE, "--vary", "gaps.0=1.3 ± 0.9 mm")
     _, out, _ = fit(*asked)
     (_, correlation), _ = told(*asked)["correlations"]
@@ -106,7 +113,7 @@ def test_notes_handy_units_and_strong_correlations_are_told(fit, told):
     assert words in " ".join(out.split())
 
 
-def test_a_drop_that_is_saved_does_what_was_measured_and_is_drawn(fit, tmp_path):
+def test_a_drop_that_is_saved_does_what_was_measured(fit, tmp_path):
     code, out, err = fit(*ONE, "--save", "fitted.toml")
     assert (code, err) == (0, "")
     assert "Fitted: fitted.toml; now: stackbounce simulate fitted.toml" in out
@@ -116,13 +123,16 @@ def test_a_drop_that_is_saved_does_what_was_measured_and_is_drawn(fit, tmp_path)
     again = fit("fitted.toml", *ONE[4:])
     assert cells(again[1], "contacts.1.stiffness") == cells(out, "contacts.1.stiffness")
     assert [path.name for path in tmp_path.iterdir()] == ["fitted.toml"]
+
+
+def test_a_picture(fit, tmp_path):
     code, out, _ = fit(*ONE, "--plot", "fit.svg")
     assert code == 0
     assert "Picture: fit.svg" in out
     assert (tmp_path / "fit.svg").stat().st_size > 10_000
 
 
-def test_several_drops_are_saved_into_a_folder_and_the_probability_is_told(fit, told, tmp_path):
+def test_several_drops_are_saved_into_a_folder(fit, told, tmp_path):
     (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
     asked = (*PAIR, "--data", "drops.csv", "--vary", "contacts.1.stiffness")
     found = told(*asked, "--save", "fitted")
@@ -139,6 +149,9 @@ def test_several_drops_are_saved_into_a_folder_and_the_probability_is_told(fit, 
     code, out, _ = fit(*asked)
     assert code == 0
     assert len(cells(out, "low.rebound_ratios.1")) == len(cells(out, "high.rebound_ratios.1")) == 1
+
+
+def test_the_probability_is_told_in_words(fit, tmp_path):
     (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
     _, out, _ = fit(*PAIR, "--data", "drops.csv", "--vary", "contacts.1.stiffness=1kN/m:1.3kN/m")
     assert "for 1 degree of freedom; were the model right, it would be larger in" in out
@@ -154,7 +167,7 @@ def test_a_file_asks_and_options_change_it(told, tmp_path):
     assert "height = 2.0" in other["drops"][""]
 
 
-def test_draws_their_picture_and_their_table(told, tmp_path, fit):
+def test_draws_and_their_picture(told, tmp_path):
     found = told(*ONE, "--sample", "3200", "--seed", "3", "--corner", "corner.png")
     drawn = found["posterior"]
     assert (drawn["draws"], drawn["seed"]) == (75 * 32, 3)
@@ -164,6 +177,9 @@ def test_draws_their_picture_and_their_table(told, tmp_path, fit):
     assert value["quantiles"]["0.5"] == pytest.approx(1477.0, abs=30.0)
     assert (tmp_path / "corner.png").stat().st_size > 5_000
     assert told(*ONE, "--sample", "3200", "--seed", "3")["posterior"] == drawn
+
+
+def test_draws_in_a_table(fit):
     code, out, err = fit(*ONE, "--sample", "3200", "--interval")
     assert (code, err) == (0, "")
     ((*numbers, unit),) = cells(out, "contacts.1.stiffness")
@@ -240,6 +256,10 @@ def test_what_is_wrong_with_several_drops(refused, tmp_path, arguments, expected
     (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
     asked = (*PAIR, "--data", "drops.csv", "--vary", "contacts.1.stiffness", *arguments)
     assert expected in refused("fit", *asked)
+
+
+def test_a_table_of_drops_needs_one_drop_without_data(refused, tmp_path):
+    (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
     (tmp_path / "fit.toml").write_text(ONE_BALL, encoding="utf-8")
     err = refused("fit", "fit.toml", "--data", "drops.csv")
     assert "--data has drops and what was measured of them" in err

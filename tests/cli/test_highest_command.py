@@ -24,7 +24,7 @@ def test_highest_for_machines_and_to_a_file(run):
     assert best.rebound_ratios == pytest.approx(ds.rebound_ratio.values[0, 0], abs=1e-12)
 
 
-def test_highest_of_balls_that_have_a_file_each_and_which_another_gap_favours(run):
+def test_highest_of_balls_that_have_a_file_each(run):
     for name, mass in (("a", 0.2), ("b", 0.02)):
         drop = sb.Drop([sb.Ball(mass, name=name)], [sb.Spring(1e4)], height=1.0)
         Path(f"{name}.toml").write_text(drop.to_toml(), encoding="utf-8")
@@ -34,6 +34,9 @@ def test_highest_of_balls_that_have_a_file_each_and_which_another_gap_favours(ru
     stack = sb.Drop([sb.Ball(0.2), sb.Ball(0.02)], [sb.Spring(1e4), sb.Spring(5e3)], height=1.0)
     height = sb.simulate(stack).rebound_ratios[1]
     assert f"{height:.3f}" in next(line for line in out.splitlines() if line.startswith("a + b"))
+
+
+def test_highest_says_which_stack_another_gap_favours(run):
     code, out, _ = run("highest", "B1", "B2", "B3", "--balls", "2")
     assert code == 0
     assert "With gaps of 5 mm B1 + B3 is first." in out

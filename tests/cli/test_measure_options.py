@@ -59,7 +59,7 @@ def test_the_law_that_is_saved_has_what_was_measured(run, law):
     assert float(result.rebound_ratios[0]) == pytest.approx(kept, abs=1e-6)
 
 
-def test_numbers_alone_give_a_law_with_errors_and_count_before_what_was_found(run):
+def test_numbers_alone_give_a_law_with_errors(run):
     contact = ["--contact-time", "5.0 ± 0.1 ms", "--restitution", "0.75+/-0.02"]
     told = run(*contact, "--mass", "(57.0±0.5) g", "--law", "hysteretic", "--save", "ball.toml")
     found = rows(told["law"])
@@ -69,10 +69,16 @@ def test_numbers_alone_give_a_law_with_errors_and_count_before_what_was_found(ru
     assert relative == pytest.approx(2 * 0.1 / 5.0, rel=0.1)  # the time's error counts twice
     assert sb.Drop.from_toml("ball.toml").contacts == (law,)
     assert rows(told["files"][0]["found"])["dynamic stiffness"][0] == pytest.approx(22503, rel=1e-4)
+
+
+def test_an_exponent_with_the_law(run):
     given = ("--contact-time", "5ms", "--mass", "57g", "--speed", "2")
     told = run(*given, "--law", "power-law exponent=1.3")
     law = sb.calibrate(sb.PowerLaw, mass=0.057, contact_time=5e-3, impact_speed=2.0, exponent=1.3)
     assert rows(told["law"])["stiffness"][0] == pytest.approx(law.stiffness)
+
+
+def test_what_is_known_counts_before_what_was_found(run):
     told = run("tennis.wav", "--restitution", "0.5", "--law", "rigid")
     assert rows(told["law"])["restitution"] == (0.5, 0.0)
 
@@ -86,9 +92,12 @@ def test_a_track_tells_restitution_and_speed(law):
         assert found.given["impact_speed"].nominal_value == pytest.approx(SPEED, abs=5e-3)
 
 
-def test_heights_without_errors_give_a_law_and_nothing_known_none():
+def test_heights_without_errors_give_a_law_all_the_same():
     found = one_law("rigid", [heights(1.0, 0.64)])
     assert found.law == sb.Rigid(0.8)
+
+
+def test_nothing_known_is_no_contact():
     assert of_numbers(Setup(contact_time=5e-3)).parts() == {}
 
 
@@ -103,22 +112,28 @@ def test_heights_typed_in(run, mark):
         assert numbers == pytest.approx(found[name])
 
 
-def test_heights_in_a_table_and_of_a_sound_may_be_those_of_the_top(run):
+def test_heights_in_a_table(run):
     Path("heights.csv").write_text("height (cm)\n100\n64\n40.96\n", encoding="utf-8")
     options = ["--height-error", "5mm", "--measured-to", "bottom,top", "--diameter", "65 mm"]
     table = run("heights.csv", *options)["files"][0]
     assert table["found"] == run("--heights", HEIGHTS, *options)["files"][0]["found"]
     assert rows(table["found"])["restitution of bounce 0"][0] == pytest.approx(0.575**0.5)
+
+
+def test_the_drop_height_of_a_sound_may_be_the_top(run):
     options = ["--height", "1.066 m", "--measured-to", "top", "--diameter", "66mm"]
     of_top = rows(run("tennis.wav", *options)["files"][0]["found"])
     of_bottom = rows(run("tennis.wav", "--height", "1 m")["files"][0]["found"])
     assert of_top["restitution of bounce 0"] == pytest.approx(of_bottom["restitution of bounce 0"])
 
 
-def test_heights_of_one_bounce_again_and_again_and_heights_that_are_drawn_and_saved(run):
+def test_one_bounce_again_and_again(run):
     found = rows(run("--heights", "1, 0.63, 0.65, 0.64 m", "--repeated")["files"][0]["found"])
     assert found["restitution"][0] == pytest.approx(0.8)
     assert "restitution 2" in found
+
+
+def test_heights_are_drawn_and_saved(run):
     options = ["--height-error", "5mm", "--plot", "h.svg", "--save", "b.toml", "--mass", "57g"]
     run("--heights", HEIGHTS, *options)
     assert Path("h.svg").read_bytes().startswith(b"<?xml")

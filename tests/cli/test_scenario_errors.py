@@ -27,7 +27,7 @@ def _files():
     Path("drop.toml").write_text(text, encoding="utf-8")
 
 
-def test_a_file_has_the_drop_and_its_errors_and_a_drop_has_none():
+def test_a_file_has_the_drop_and_its_errors():
     drop, errors = read_scenario("drop.toml")
     assert drop == DROP
     assert errors == {
@@ -37,11 +37,14 @@ def test_a_file_has_the_drop_and_its_errors_and_a_drop_has_none():
         "contacts.0.stiffness": "200000 ± 10000",
     }
     assert read_scenario("plain.toml") == (DROP, {})
+
+
+def test_a_drop_has_no_errors():
     with pytest.raises(sb.errors.ScenarioError, match="height must be a length without an error"):
         sb.Drop.from_mapping(DROP.to_mapping() | {"height": "63 ± 1 cm"})
 
 
-def test_simulate_carries_the_errors_of_a_file_unless_an_option_takes_their_place(run):
+def test_simulate_carries_the_errors_of_a_file(run):
     code, out, err = run("simulate", "drop.toml", "--json")
     assert (code, err) == (0, "")
     found = json.loads(out)["errors"]
@@ -52,6 +55,9 @@ def test_simulate_carries_the_errors_of_a_file_unless_an_option_takes_their_plac
     assert found["numbers"]["balls.1.mass"] == {"value": 0.057, "error": 0.0005}
     assert set(found["numbers"]) == set(exact.errors)
     assert "errors" not in json.loads(run("simulate", "plain.toml", "--json")[1])
+
+
+def test_an_option_takes_the_place_of_a_number_and_its_error(run):
     options = ("--speed", "3.5m/s", "--gap", "1 ± 0.1 mm", "--json")
     found = json.loads(run("simulate", "drop.toml", *options)[1])["errors"]["numbers"]
     assert list(found) == ["balls.1.mass", "contacts.0.stiffness", "gaps.0"]

@@ -15,12 +15,15 @@ def said(run):
     return lambda *arguments: run(*arguments)[1]
 
 
-def test_tables_have_errors_and_say_how_but_not_for_times_that_do_not_change(said):
+def test_tables_have_errors_and_say_how(said):
     out = said(*PAIR, "--error", "balls.1.mass=1g")
     rows = {line.split()[0]: line.split()[1:] for line in out.splitlines() if line.strip()}
     assert rows["tennis"][:2] == ["-3.515(28)", "6.413(53)"]
     assert "Errors by derivatives: 10000 drops within the errors follow them" in out
     assert "Measure height better: it makes 8" in out
+
+
+def test_times_of_springs_that_do_not_change_have_no_error(said):
     out = said("simulate", "basketball", "tennis", "--height", "63 ± 1 cm")
     contacts = out[out.index("Contacts,") :].splitlines()
     (basketball,) = (line.split() for line in contacts if line.startswith("floor"))
