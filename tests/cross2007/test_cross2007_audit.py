@@ -82,14 +82,20 @@ def moved(after, before):
     return abs(after - before) > 1e-12 * abs(before)
 
 
-def test_about_ninety_numbers_have_a_verdict_reads_and_calls_and_differences_a_reason(done):
+def test_about_ninety_numbers_and_each_has_a_verdict(done):
     assert len(done.rows) >= 90
     assert {row.verdict for row in done.rows} == {AGREES, WITHIN_ERROR, DIFFERS}
     assert sum(done.counts.values()) == len(done.rows)
     names = [row.id for row in done.rows]
     assert len(set(names)) == len(names)
+
+
+def test_no_disagreement_is_left_unexplained(done):
     assert not [row.id for row in done.rows if row.verdict != AGREES and not row.reason]
     assert not [row.id for row in done.rows if not row.explained]
+
+
+def test_reads_and_calls_are_recorded(done):
     for row in done.rows:
         assert row.inputs, row.id
         assert row.source, row.id
@@ -120,10 +126,13 @@ def test_known_values(done, name, expected, digits):
     assert round(value(done, name) - expected, digits) == 0
 
 
-def test_the_large_ball_of_105_g_gives_table_two_but_eleven_collisions_not_nine(done):
+def test_the_large_ball_of_105_g_gives_the_ratios_of_table_two(done):
     for row in done.rows:
         if row.id.startswith("T2.") and row.id.endswith(".ratio") and row.verdict == DIFFERS:
             assert [one.verdict for one in row.attempts] != [DIFFERS]
+
+
+def test_collisions_of_the_large_ball_on_the_smallest_are_eleven_not_nine(done):
     (row,) = [row for row in done.rows if row.id == "IV.small_count"]
     assert (row.number, row.computed, row.tolerance) == (9.0, 11.0, 0.0)
     assert [one.computed for one in row.attempts] == [9.0, 9.0, 9.0, 11.0, 11.0]
@@ -241,7 +250,7 @@ def row_of(number, computed, **more):
     return run_check(section.checks[0], PAPER)
 
 
-def test_verdicts_half_units_and_errors_that_are_carried_through():
+def test_verdicts():
     assert row_of("2.64", 2.6449).verdict == AGREES
     assert row_of("2.64", 2.6451).verdict == DIFFERS
     assert row_of("2.64", 2.6451, stated=0.01).verdict == WITHIN_ERROR
@@ -249,8 +258,13 @@ def test_verdicts_half_units_and_errors_that_are_carried_through():
     assert row_of("3", 4.0, counted=True).verdict == DIFFERS
     assert row_of("1", 2.8, stated=1.7).verdict == DIFFERS  # an error as large as the number
     assert row_of("2", 2.8, stated=1.7).verdict == WITHIN_ERROR
+
+
+def test_half_a_unit():
     assert [half_unit(number) for number in ("9", "0.236", "1.03e4")] == [0.5, 0.0005, 50.0]
 
+
+def test_errors_are_carried_through():
     def twice(b):
         return 2.0 * b("tennis.mass") / b("basketball.mass")
 
@@ -261,13 +275,16 @@ def test_verdicts_half_units_and_errors_that_are_carried_through():
     assert error == pytest.approx(expected, rel=1e-6)
 
 
-def test_only_two_numbers_are_cut_off_and_no_row_hides_what_it_reads(done):
+def test_only_two_numbers_are_read_as_cut_off(done):
     cut = [(row, one) for row in done.rows for one in row.attempts if "cut off" in one.reading]
     assert [row.id for row, _ in cut] == ["II.second_stop", "II.spring_lower"]
     for row, one in cut:
         assert row.verdict == DIFFERS
         assert one.verdict == AGREES
         assert "truncate(" in one.source
+
+
+def test_no_row_hides_what_it_reads_behind_a_variable(done):
     sources = [row.source for row in done.rows]
     sources += [one.source for row in done.rows for one in row.attempts]
     assert not [source for source in sources if re.search(r"b\((f['\"]|\w+\))", source)]
@@ -287,15 +304,18 @@ def test_a_call_makes_the_same_drop(law):
     assert eval(write_call(drop), {"sb": sb}).drop == drop
 
 
-def test_source_leaves_the_docstring_out_and_shows_values_from_outside():
+def test_source_leaves_the_docstring_out():
     def doubled(b):
         """What it is."""
         one = b("x")
         return 2.0 * one
 
+    assert source_of(doubled) == "one = b('x')\nreturn 2.0 * one"
+
+
+def test_source_of_a_lambda_shows_the_values_that_it_takes_from_outside():
     def ratio(fit, ball):
         return lambda b: b.simulate(fit(b, b(f"{ball}.mass"))).rebound_ratios[0]
 
-    assert source_of(doubled) == "one = b('x')\nreturn 2.0 * one"
     expected = "b.simulate(small_fit(b, b('B1.mass'))).rebound_ratios[0]"
     assert source_of(ratio(small_fit, "B1")) == expected

@@ -64,10 +64,13 @@ def contents(folder):
     return {str(path.relative_to(folder)): path.read_bytes() for path in files}
 
 
-def test_all_files_are_there_and_it_says_what_it_is_doing(folder, told):
+def test_all_files_and_no_others(folder):
     figures = {f"figures/figure-{name}.{end}" for name in NAMES for end in ("svg", "png")}
     others = {"index.html", "audit.csv", "audit.json", "stackbounce.sha256"}
     assert set(contents(folder)) == others | figures
+
+
+def test_it_says_what_it_is_doing(folder, told):
     assert any("audit" in line for line in told)
     assert [line for line in told if line.startswith("figure")] == [f"figure {n}" for n in NAMES]
     assert told[-1] == f"writing to {folder}"
@@ -89,10 +92,13 @@ def test_another_process_writes_the_same_bytes(tmp_path, monkeypatch):
     assert contents(tmp_path / "there") == contents(tmp_path / "here")
 
 
-def test_the_page_loads_nothing_and_links_to_what_exists(page, folder):
+def test_the_page_loads_nothing(page):
     assert page.loads
     assert all(one.startswith("data:image/svg+xml;base64,") for one in page.loads)
     assert page.open == []
+
+
+def test_the_page_links_to_what_exists(page, folder):
     assert len(set(page.ids)) == len(page.ids)
     for link in page.links:
         if link.startswith("#"):
@@ -101,7 +107,7 @@ def test_the_page_loads_nothing_and_links_to_what_exists(page, folder):
             assert (folder / link).exists()
 
 
-def test_page_json_and_csv_have_every_row_figure_and_guess(page, folder):
+def test_the_page_has_every_row_figure_and_guess(page, folder):
     done = json.loads((folder / "audit.json").read_text(encoding="utf-8"))
     assert {row["id"] for row in done["rows"]} <= set(page.ids)
     assert {f"figure-{name}" for name in NAMES} <= set(page.ids)
@@ -109,18 +115,26 @@ def test_page_json_and_csv_have_every_row_figure_and_guess(page, folder):
     assert "Guessed" in text
     assert "Table II. Rebound ratios of the pairs." in text
     assert f"stackbounce {__version__}" in text
+
+
+def test_json_has_rows_inputs_guesses_and_version(folder):
+    done = json.loads((folder / "audit.json").read_text(encoding="utf-8"))
     assert done["stackbounce"] == __version__
     assert sum(done["counts"].values()) == len(done["rows"])
     assert all(row["verdict"] and row["explained"] for row in done["rows"])
     assert {one["key"] for one in done["inputs"]} == set(cross2007.PAPER)
     assert [one["name"] for one in done["figures"]] == NAMES
     assert all(one["guesses"] for one in done["figures"])
+
+
+def test_csv_has_the_same_rows(folder):
+    done = json.loads((folder / "audit.json").read_text(encoding="utf-8"))
     with (folder / "audit.csv").open(encoding="utf-8", newline="") as stream:
         lines = [(line["id"], float(line["computed"])) for line in csv.DictReader(stream)]
     assert lines == [(row["id"], row["computed"]) for row in done["rows"]]
 
 
-def test_a_file_in_the_way_is_told_before_any_work_and_stays(tmp_path):
+def test_a_file_in_the_way_is_told_before_any_work(tmp_path):
     told = []
     (tmp_path / "taken").write_text("mine", encoding="utf-8")
     for out in (tmp_path / "taken", tmp_path / "taken" / "below"):
@@ -130,6 +144,9 @@ def test_a_file_in_the_way_is_told_before_any_work_and_stays(tmp_path):
         assert "\n" not in str(raised.value)
     assert told == []
     assert (tmp_path / "taken").read_text(encoding="utf-8") == "mine"
+
+
+def test_foreign_files_are_not_replaced(tmp_path):
     page, told = tmp_path / "index.html", []
     page.write_text("mine", encoding="utf-8")
     with pytest.raises(FileError, match=r"index\.html is there, and is not as this command"):

@@ -32,15 +32,20 @@ def written(folder, **options):
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("short")
-def test_the_page_of_the_explorer_leads_back_and_plays_the_figures_and_by_itself_not(tmp_path):
+def test_the_page_by_itself_leads_to_no_explorer(tmp_path):
     assert not [address for address in written(tmp_path) if "view=" in address or "../" in address]
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("short")
+def test_the_page_of_the_explorer_leads_back_and_plays_the_figures(tmp_path):
     links = written(tmp_path, explorer="../")
     assert links[0] == "../"
     (played,) = [address for address in links if "view=play" in address]
     assert played == link_figures("../")["9"][0].address
 
 
-def test_every_drop_of_the_paper_has_a_link_which_has_the_drop():
+def test_a_link_has_the_drop_of_its_figure():
     [link] = link_figures("../")["9"]
     drop = {"balls": [{}, {}], "contacts": [{}, {}], "gaps": [0.0]}
     for path, text in parse_qsl(link.address.partition("#")[2]):
@@ -54,5 +59,8 @@ def test_every_drop_of_the_paper_has_a_link_which_has_the_drop():
     found = Drop.from_mapping(drop)
     assert (found.contacts, found.impact_speed) == (fitted.contacts, fitted.impact_speed)
     assert [ball.mass for ball in found.balls] == [ball.mass for ball in fitted.balls]
+
+
+def test_every_drop_of_the_paper_has_a_link():
     links = link_figures("")
     assert sorted(set(paper.FIGURES) - set(links)) == ["7"]  # a press curve
