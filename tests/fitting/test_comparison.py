@@ -37,17 +37,23 @@ def test_the_true_model_is_found(compared):
     assert compared.scores[1].probability < 1e-3
 
 
-def test_criteria_are_those_of_the_books_and_a_drop_that_is_left_out_is_predicted(compared):
+def test_criteria_are_those_of_the_books(compared):
     for score in compared.scores:
         n, k = 6, score.parameters
         assert score.degrees_of_freedom == n - k
         aicc = score.chi_squared + 2 * k + 2 * k * (k + 1) / (n - k - 1)
         assert score.aicc == pytest.approx(aicc)
         assert score.bic == pytest.approx(score.chi_squared + k * math.log(n))
+
+
+def test_pulls_are_those_of_each_fit(compared):
     assert compared.pulls.dims == ("model", "datum")
     for name, found in compared.fits.items():
         total = float((compared.pulls.sel(model=name) ** 2).sum())
         assert total == pytest.approx(found.chi_squared, abs=1e-9)
+
+
+def test_a_drop_that_is_left_out_is_predicted(compared):
     rows = compared.left_out["Hysteretic"]
     assert [row.drop for row in rows][:2] == ["at_10", "at_10"]
     assert [row.name for row in rows][:2] == ["rebound_ratios.0", "rebound_ratios.1"]
@@ -78,7 +84,7 @@ def test_a_model_with_more_numbers_than_data_is_refused_by_name():
         sb.compare(usual, {"rebound_ratios.0": "0.2 ± 0.02"})
 
 
-def test_usual_models_last_as_long_as_the_given_contacts_which_have_to_be_finite():
+def test_usual_models_last_as_long_as_the_given_contacts():
     drop = sb.Drop(BALLS, SPRINGS, impact_speed=3.0)
     masses = [0.150, (0.150, 0.057)]  # in each contact
     for model in sb.standard_models(drop).values():
@@ -87,9 +93,15 @@ def test_usual_models_last_as_long_as_the_given_contacts_which_have_to_be_finite
         for law, spring, mass in zip(model.drop.contacts, SPRINGS, masses, strict=True):
             wanted = sb.contact_time(spring, mass)
             assert sb.contact_time(law, mass, 3.0) == pytest.approx(wanted, rel=1e-6)
+
+
+def test_an_error_names_its_model():
     soft = sb.Model(sb.Drop(BALLS, SPRINGS, impact_speed=3.0), ["contacts.7.stiffness"])
     with pytest.raises(InvalidValue, match=r"^soft: contacts\.7\.stiffness"):
         sb.compare({"soft": soft}, {"rebound_ratios.0": (0.2, 0.02)})
+
+
+def test_rigid_stacks_and_no_floor_have_no_usual_models():
     for contacts in ([sb.Rigid(0.8), sb.Rigid(0.8)], [None, sb.Spring(1.0)]):
         drop = sb.Drop(BALLS, contacts, velocities=[-1.0, -2.0])
         with pytest.raises(InvalidValue, match="finite contacts"):

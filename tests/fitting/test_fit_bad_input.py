@@ -127,7 +127,7 @@ def test_an_interval_needs_a_width():
             found.intervals(sigma=sigma)
 
 
-def test_numbers_and_bounds_may_come_in_many_forms():
+def test_numbers_may_come_in_many_forms():
     forms = [(1.6, 0.02), "1.6 ± 0.02", "1.6 +/- 0.02", ufloat(1.6, 0.02), np.array([1.6, 0.02])]
     data = [{"rebound_ratios.1": form} for form in forms]
     data += [{"rebound_ratios": form} for form in ([None, (1.6, 0.02)], ["", "1.6 ± 0.02"])]
@@ -136,6 +136,9 @@ def test_numbers_and_bounds_may_come_in_many_forms():
     data = [{"rebound_ratios": form([(0.64, 0.02), (1.6, 0.02)])} for form in (list, np.array)]
     one, other = (sb.fit(STACK, both, VARY, starts=1).best for both in data)
     assert one == other
+
+
+def test_bounds_may_come_in_many_forms():
     forms = [(500.0, 2000.0), [500, 2000], "0.5 kN/m : 2 kN/m", sb.Range("0.5 kN/m", 2e3)]
     found = [sb.fit(STACK, DATA, {STIFFNESS: form}, starts=1).best for form in forms]
     assert all(one == found[0] for one in found)

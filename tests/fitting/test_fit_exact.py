@@ -12,7 +12,7 @@ from drops import STACK
 MASS = 0.0567
 
 
-def test_a_contact_time_gives_the_stiffness_of_one_spring_and_its_interval():
+def test_a_contact_time_gives_the_stiffness_of_one_spring():
     time, error = 5.0e-3, 0.1e-3
     drop = sb.Drop([sb.Ball(MASS)], [sb.Spring(1e4)], height=0.3)
     found = sb.fit(drop, {"durations.0": (time, error)}, ["contacts.0.stiffness"])
@@ -24,7 +24,11 @@ def test_a_contact_time_gives_the_stiffness_of_one_spring_and_its_interval():
     assert found.drop.contacts[0].stiffness == found.best["contacts.0.stiffness"]
     assert (found.degrees_of_freedom, found.aicc) == (0, math.inf)
     assert math.isnan(found.probability)
+
+
+def test_its_interval_is_where_the_time_is_one_error_off():
     time, error = 5.0e-3, 0.5e-3
+    drop = sb.Drop([sb.Ball(MASS)], [sb.Spring(1e4)], height=0.3)
     found = sb.fit(drop, {"durations.0": (time, error)}, ["contacts.0.stiffness"])
     for sigma in (1.0, 2.0):
         low, high, *bounds = found.intervals(sigma=sigma)["contacts.0.stiffness"]
@@ -45,7 +49,7 @@ def test_rebound_ratios_of_rigid_balls_give_their_restitution():
     assert found.std_dev == pytest.approx(np.sum((slopes / [0.02, 0.01]) ** 2) ** -0.5, rel=1e-6)
 
 
-def test_heights_and_speeds_say_the_same_as_ratios_at_the_gravity_of_the_drop():
+def test_heights_and_speeds_say_the_same_as_ratios():
     ratios = sb.simulate(STACK).rebound_ratios
     vary = {"contacts.1.stiffness": (500.0, 2000.0)}
     speed = ratios[1] * 3.5
@@ -58,6 +62,9 @@ def test_heights_and_speeds_say_the_same_as_ratios_at_the_gravity_of_the_drop():
     for one in found:
         assert one.nominal_value == pytest.approx(1000.0, rel=1e-6)
         assert one.std_dev == pytest.approx(found[0].std_dev, rel=1e-4)
+
+
+def test_heights_heed_a_gravity_that_is_varied():
     drop = sb.Drop([sb.Ball(0.1)], [sb.Rigid(0.8)], impact_speed=2.0, gravity=9.81)
     height = (0.8 * 2.0) ** 2 / (2.0 * 1.62)
     found = sb.fit(drop, {"rebound_heights.0": (height, 0.01 * height)}, {"gravity": (1.0, 20.0)})
@@ -88,7 +95,7 @@ def test_the_statistics_are_what_their_names_say():
     assert found.bic == pytest.approx(chi + math.log(4), rel=1e-12)
 
 
-def test_a_wrong_model_and_a_touch_that_does_not_come_are_told():
+def test_a_wrong_model_is_told():
     drop = sb.Drop([sb.Ball(0.1)], [sb.Spring(1e4)], impact_speed=1.0)
     data = {"durations.0": "10 ± 0.1 ms", "rebound_ratios.0": "0.8 ± 0.01"}
     found = sb.fit(drop, data, ["contacts.0.stiffness"])
@@ -98,6 +105,9 @@ def test_a_wrong_model_and_a_touch_that_does_not_come_are_told():
         "the model does not describe the data: chi squared is 400 for 1 degree of freedom; "
         "its parameters' errors mean little"
     )
+
+
+def test_a_touch_that_does_not_come_is_told():
     contacts = [None, sb.Spring(1e4)]
     drop = sb.Drop([sb.Ball(0.1)] * 2, contacts, gaps=[0.01], velocities=[1.0, 0.0])
     away = sb.Drop(drop.balls, drop.contacts, gaps=[0.01], velocities=[-1.0, 0.5])

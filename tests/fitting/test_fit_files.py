@@ -56,7 +56,7 @@ def record(path, unit="N"):
     path.write_text(f"Time (s),Force ({unit})\n{rows}", encoding="ascii")
 
 
-def test_a_scenario_has_three_more_tables_or_asks_nothing_yet(write):
+def test_a_scenario_with_three_more_tables(write):
     asked = read_question(write(ONE + STACK))
     assert isinstance(asked, FitProblem)
     (drop,) = asked.drops.values()
@@ -71,8 +71,14 @@ def test_a_scenario_has_three_more_tables_or_asks_nothing_yet(write):
     assert found.best == same.best
     names = [one.name for one in found.residuals]
     assert names == ["rebound_ratios.1", "first_touch.1", "gaps.0 (known)"]
+
+
+def test_a_scenario_alone_asks_nothing_yet(write):
     asked = read_question(write("height = '1 m'\n" + STACK))
     assert (asked.data, asked.vary, asked.tie) == ({}, {}, {})
+
+
+def test_a_list_of_names_varies_around_the_drop(write):
     asked = read_question(write("vary = ['contacts.1.stiffness']\nheight = 1.0\n" + STACK))
     assert asked.vary == {"contacts.1.stiffness": None}
 

@@ -53,13 +53,21 @@ def test_one_number_far_off_is_named_with_what_is_likely_without_it(size):
     assert f"without it p is {without:.2g} instead of " in note
 
 
-def test_what_chance_a_wrong_model_or_a_contradiction_explains_is_no_outlier():
+def test_a_model_that_is_wrong_for_many_numbers_has_no_outlier():
     found = problem(shifted(), sb.HuntCrossley(2e5, exponent=1.5, dissipation=0.1)).fit()
     assert not outlier(found)
     assert "the model does not describe the data" in found.notes[0]
+
+
+def test_a_number_that_chance_may_explain_is_no_outlier():
+    """One of eight numbers is 2.6 errors off in one fit of fourteen."""
     found = problem(shifted(at2_ratios=2.6, at3_durations=2.4, at4_ratios=-2.0)).fit()
     assert 1e-3 < found.probability < 0.05
     assert found.notes == ()
+
+
+def test_two_numbers_that_contradict_each_other_are_no_outliers():
+    """With one degree of freedom every number explains chi squared as well as any other."""
     drop = sb.Drop([sb.Ball(0.1)], [sb.Spring(2e4)], impact_speed=1.0)
     drops = {"a": drop, "b": drop}
     data = {"a": {"durations.0": (7e-3, 1e-4)}, "b": {"durations.0": (8e-3, 1e-4)}}

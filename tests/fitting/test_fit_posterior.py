@@ -92,11 +92,14 @@ def test_a_prior_is_all_that_is_known_beforehand(bounds):
     assert found["balls.0.mass"].std_dev == pytest.approx(0.1, rel=0.04)
 
 
-def test_draws_have_the_same_bits_by_seed_stay_between_the_bounds_and_tell_progress():
+def test_the_same_seed_gives_the_same_bits():
     one, other, third = (linear().sample(1280, seed=seed) for seed in (5, 5, 6))
     assert one.chain.tobytes() == other.chain.tobytes()
     assert one.log_probability.tobytes() == other.log_probability.tobytes()
     assert one.chain.tobytes() != third.chain.tobytes()
+
+
+def test_draws_stay_between_the_bounds_and_progress_is_told():
     told = []
     found = sb.fit(
         BALL, {"rebound_ratios.0": (0.99, 0.1)}, {"contacts.0.restitution": (0.5, 1.0)}
@@ -125,13 +128,16 @@ def test_what_cannot_be_drawn(options, kind, message):
         linear().sample(**options)
 
 
-def test_short_chains_and_other_minima_are_told_and_a_name_that_was_not_varied_is_refused():
+def test_short_chains_are_noted_and_a_name_that_was_not_varied_is_refused():
     found = linear()
     draws = found.sample(640)
     assert draws.notes[0].startswith("the chains are only ")
     for values in (draws, found):
         with pytest.raises(InvalidValue, match=r"^'contacts' was not varied"):
             values["contacts"]
+
+
+def test_other_minima_are_told():
     stack = replace(STACK, contacts=[sb.Spring(2500.0), sb.Spring(3000.0)])
     vary = {"contacts.1.stiffness": (2800.0, 9500.0)}
     found = sb.fit(stack, {"rebound_ratios.1": (1.12, 0.002)}, vary)

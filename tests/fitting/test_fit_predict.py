@@ -25,13 +25,16 @@ def test_a_fitted_quantity_has_the_error_of_its_datum():
     assert drawn["durations.0"].std_dev == pytest.approx(1e-4, rel=0.1)
 
 
-def test_correlated_parameters_reproduce_the_errors_of_the_data_and_tied_ones_follow():
+def test_correlated_parameters_reproduce_the_errors_of_the_data():
     data = {"rebound_ratios.1": (1.8355, 0.005), "durations.0": (0.030984, 1e-4)}
     found = sb.fit(PAIR, data, {"contacts.0.stiffness": (1e3, 5e3), "gaps.0": (5e-4, 6e-3)})
     again = found.predict()
     for name, (value, error) in data.items():
         assert again[name].nominal_value == pytest.approx(value, abs=0.1 * error)
         assert again[name].std_dev == pytest.approx(error, rel=0.01)
+
+
+def test_tied_numbers_follow():
     tie = {"contacts.1.stiffness": "0.4 * contacts.0.stiffness"}
     found = sb.fit(PAIR, DATA, {"contacts.0.stiffness": (1e3, 5e3)}, tie=tie)
     errors = found.predict().errors

@@ -14,15 +14,23 @@ DROP = sb.Drop([sb.Ball(0.0567)], [sb.Spring(1e4)], height=0.3)
 DATA = {"durations.0": "5.0 ± 0.1 ms"}
 
 
-def test_a_problem_is_fitted_as_its_parts_are_and_has_the_residuals_of_many_trials():
+def test_a_problem_is_fitted_as_its_parts_are():
     problem = FitProblem(DROP, DATA, [STIFFNESS])
     same = sb.fit(DROP, DATA, [STIFFNESS])
     assert problem.fit().as_dict() == same.as_dict()
     same = sb.fit(DROP, DATA, [STIFFNESS], starts=16, seed=3)
     assert problem.fit(starts=16, seed=3).best == same.best
     assert problem.fit(rtol=1e-6).objective.rtol == 1e-6
+
+
+def test_runs_without_an_end_are_counted_for_each_fit():
+    """A second fit of the same problem begins to count anew."""
+    problem = FitProblem(DROP, DATA, [STIFFNESS])
     problem.objective.unsolved["EVENT_LIMIT"] += 7
     assert problem.fit(starts=4).unsolved == {}
+
+
+def test_a_problem_has_the_residuals_of_many_trials():
     objective = FitProblem(DROP, DATA, {STIFFNESS: (1e3, 1e5)}).objective
     stiffnesses = np.array([1e4, 2e4, 4e4])
     times = np.pi * np.sqrt(0.0567 / stiffnesses)
@@ -39,7 +47,7 @@ def test_a_problem_is_checked_when_it_is_made(change, expected):
         FitProblem(**{"drops": DROP, "data": DATA, "vary": [STIFFNESS], **change})
 
 
-def test_a_model_is_a_problem_without_data_and_several_drops_stay_several():
+def test_a_model_is_a_problem_without_data():
     model = sb.Model(DROP, [STIFFNESS])
     assert isinstance(model, FitProblem)
     assert (model.drop, model.data, model.vary, model.tie) == (DROP, {}, [STIFFNESS], None)
@@ -48,6 +56,9 @@ def test_a_model_is_a_problem_without_data_and_several_drops_stay_several():
     assert replace(model, data=DATA).fit().best == sb.fit(DROP, DATA, [STIFFNESS]).best
     compared = sb.compare({"spring": model}, DATA)
     assert compared["spring"].best == sb.fit(DROP, DATA, [STIFFNESS]).best
+
+
+def test_several_drops_stay_several():
     drops = {"low": DROP, "high": replace(DROP, height=1.0)}
     data = dict.fromkeys(drops, DATA)
     problem = FitProblem(drops, data, [STIFFNESS])

@@ -23,7 +23,7 @@ def least_on_a_grid(drop, data, stiffnesses):
     return sum(((ratios[:, i] - value) / error) ** 2 for i, (value, error) in data.items())
 
 
-def test_all_crossings_of_one_ratio_are_told_the_nearest_to_the_drop_first():
+def test_all_crossings_of_one_ratio_are_told():
     """The upper ball's ratio is 1.12 at three stiffnesses: one number cannot decide."""
     grid = np.geomspace(2800.0, 9500.0, 20_001)
     chi = least_on_a_grid(stack(), {1: (1.12, 0.002)}, grid)
@@ -36,6 +36,9 @@ def test_all_crossings_of_one_ratio_are_told_the_nearest_to_the_drop_first():
         minima = sorted(found.objective.values(one.x[None])[STIFFNESS][0] for one in found.minima)
         assert minima == pytest.approx(crossings, rel=1e-3)
         assert sum("another minimum is as good" in note for note in found.notes) == 2
+
+
+def test_of_equal_minima_the_nearest_to_the_drop_comes_first():
     data, vary = {"rebound_ratios.1": (1.12, 0.002)}, {STIFFNESS: (2800.0, 9500.0)}
     for own, seed in [(3000.0, 0), (3000.0, 1), (9000.0, 0), (9000.0, 1)]:
         found = sb.fit(stack(upper=own), data, vary, seed=seed)
@@ -85,7 +88,7 @@ def test_the_same_seed_gives_the_same_bits_on_any_number_of_threads(monkeypatch)
     assert len({fit.covariance.values.tobytes() for fit in found}) == 1
 
 
-def test_trials_are_spread_over_all_of_the_bounds_and_a_valley_is_one_minimum():
+def test_trials_are_spread_over_all_of_the_bounds():
     vary = {STIFFNESS: (300.0, 1e5), "gaps.0": (0.0, 0.01)}
     objective = FitProblem(stack(), {"rebound_ratios": [(1, 0.1)] * 2}, vary).objective
     trials = spread_trials(objective, 256, 0)
@@ -93,6 +96,10 @@ def test_trials_are_spread_over_all_of_the_bounds_and_a_valley_is_one_minimum():
         counts, _ = np.histogram(trials[:, k], bins=16, range=(low, high))
         assert np.all(counts == 16)
     assert np.array_equal(spread_trials(objective, 100, 0), spread_trials(objective, 128, 0)[:100])
+
+
+def test_a_valley_is_one_minimum():
+    """With a gap of zero only the ratio of the stiffnesses counts: all of a line is as good."""
     data = {"rebound_ratios": [(0.6, 0.05), (1.6, 0.05)]}
     objective = FitProblem(stack(), data, ["contacts.0.stiffness", STIFFNESS]).objective
     for seed in range(3):

@@ -85,7 +85,7 @@ def test_a_formula_is_a_text_or_a_function(formula):
         fitted({UPPER: formula})
 
 
-def test_ties_may_use_each_other_in_any_order_and_be_functions():
+def test_ties_may_use_each_other_in_any_order():
     ties = {UPPER: "2 * contacts.0.stiffness / 5", "contacts.0.stiffness": "k"}
     one = fitted(ties)
     other = fitted(dict(reversed(ties.items())))
@@ -94,6 +94,9 @@ def test_ties_may_use_each_other_in_any_order_and_be_functions():
     assert one.best["k"] == pytest.approx(alone.best["k"], rel=1e-9)
     law, above = one.drop.contacts
     assert above.stiffness == pytest.approx(0.4 * law.stiffness, rel=1e-12)
+
+
+def test_a_function_of_python_is_a_tie():
     vary = {"contacts.0.stiffness": (500.0, 5000.0)}
     found = fitted({UPPER: lambda values: 0.4 * values["contacts.0.stiffness"]}, vary)
     assert found.best == fitted({UPPER: "0.4 * contacts.0.stiffness"}, vary).best
@@ -126,7 +129,7 @@ def test_a_diameter_that_is_varied_can_be_used():
     assert found.drop.contacts[1].stiffness == stiffness
 
 
-def test_several_drops_have_shared_and_own_numbers_each_varied_or_tied_once():
+def test_shared_and_own_numbers_of_several_drops():
     other = sb.Drop([sb.Ball(0.3), sb.Ball(0.057)], STACK.contacts, impact_speed=3.5)
     drops = {"one": STACK, "contacts": other}  # a name that paths begin with
     truth = {key: sb.simulate(drop).rebound_ratios for key, drop in drops.items()}
@@ -135,6 +138,9 @@ def test_several_drops_have_shared_and_own_numbers_each_varied_or_tied_once():
     assert found.best[UPPER] == pytest.approx(1000.0, rel=1e-3)
     assert found.drops["one"].gaps == (0.0,)
     assert found.best["contacts.gaps.0"] == found.drops["contacts"].gaps[0]
+
+
+def test_a_number_is_varied_or_tied_once():
     drops = {"one": STACK, "two": STACK}
     data = {"one": DATA, "two": DATA}
     with pytest.raises(InvalidValue, match="is varied twice: only once for each drop"):

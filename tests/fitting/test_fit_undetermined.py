@@ -11,7 +11,7 @@ RATIOS = {"rebound_ratios": [(0.39, 0.01), (1.80, 0.01)]}
 ANYWHERE = 12.0**-0.5
 
 
-def test_ratios_at_no_gap_tell_the_stiffness_ratio_alone_and_the_rest_stays():
+def test_ratios_at_no_gap_tell_the_stiffness_ratio_alone():
     found = sb.fit(STACK, RATIOS, BOTH)
     (sentence,) = found.undetermined
     assert sentence == (
@@ -31,21 +31,30 @@ def test_ratios_at_no_gap_tell_the_stiffness_ratio_alone_and_the_rest_stays():
     assert (upper.high, upper.high_is_bound) == (1e5, True)
     assert (lower.low, lower.low_is_bound) == (25.0, True)
     assert lower.high == pytest.approx(1e5 * ratio.nominal_value, rel=0.02)  # where the upper ends
+
+
+def test_what_is_left_open_stays_where_the_drop_has_it():
     values = [sb.fit(STACK, RATIOS, BOTH, seed=seed).best for seed in range(3)]
     for one in values:
         assert one == pytest.approx(values[0], rel=1e-5)
         assert one["contacts.0.stiffness"] == pytest.approx(2500.0, rel=0.02)
 
 
-def test_a_prior_or_a_duration_decides():
+def test_a_prior_decides():
     found = sb.fit(STACK, RATIOS, {BOTH[0]: "2500 ± 100", BOTH[1]: None})
     assert found.undetermined == ()
     alone = sb.fit(STACK, RATIOS, [BOTH[1]])[BOTH[1]]
     relative = np.hypot(alone.std_dev / alone.nominal_value, 0.04)
     both = found[BOTH[1]]
     assert both.std_dev / both.nominal_value == pytest.approx(relative, rel=1e-2)
+
+
+def test_a_duration_decides():
     data = {**RATIOS, "durations.0": "30 ± 1 ms"}
     assert sb.fit(STACK, data, BOTH).undetermined == ()
+
+
+def test_what_is_known_counts_as_a_datum():
     known = {BOTH[0]: "2500 ± 25", BOTH[1]: None}
     assert sb.fit(STACK, {"rebound_ratios.1": (1.6, 0.02)}, known).undetermined == ()
 

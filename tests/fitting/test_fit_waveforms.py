@@ -60,7 +60,7 @@ def test_the_clock_of_a_record_is_its_own(shift):
     assert found.best["touch"] - shift == pytest.approx(plain.best["touch"], abs=1e-8)
 
 
-def test_volts_have_a_scale_that_is_free_and_the_sign_of_newtons_does_not_count():
+def test_volts_have_a_scale_that_is_free():
     volts = (RECORD * 0.01).assign_attrs(units="V")
     found = fitted(volts)
     assert found.degrees_of_freedom == len(TIMES) - 4
@@ -68,6 +68,9 @@ def test_volts_have_a_scale_that_is_free_and_the_sign_of_newtons_does_not_count(
     assert found["contacts.0.stiffness"].std_dev > fitted(RECORD)["contacts.0.stiffness"].std_dev
     turned = fitted(-volts)
     assert turned.best == pytest.approx(found.best, rel=1e-9)
+
+
+def test_a_record_of_the_other_sign_in_newtons():
     assert fitted((TIMES, -FORCE)).best == pytest.approx(fitted((TIMES, FORCE)).best, rel=1e-9)
 
 
@@ -94,7 +97,7 @@ def test_two_records_of_one_drop_have_one_clock():
     assert found.notes[0].startswith("the model does not describe the data")
 
 
-def test_two_drops_have_a_clock_each_whose_name_is_taken():
+def test_two_drops_have_a_clock_each():
     other = waveform(ONE, rate=1e4, noise=0.5, seed=3, before=0.02).force
     data = {"a": {"force.0": RECORD}, "b": {"force.0": other}}
     found = sb.fit({"a": ONE, "b": ONE}, data, VARY, starts=4)
@@ -102,6 +105,9 @@ def test_two_drops_have_a_clock_each_whose_name_is_taken():
     assert found.best["a.touch"] == pytest.approx(0.01, abs=2e-4)
     assert found.best["b.touch"] == pytest.approx(0.02, abs=2e-4)
     assert within(found, "contacts.0.stiffness", 2500.0)
+
+
+def test_a_clock_is_no_name_for_something_else():
     with pytest.raises(InvalidValue, match=r"^touch is the time of first touch in a force record"):
         sb.fit(ONE, {"force.0": RECORD}, {"touch": (0.1, 1.0)}, tie={"gravity": "touch"})
 

@@ -85,14 +85,15 @@ def test_a_true_law_is_refuted_as_often_as_p_says_if_its_errors_are_a_scatter(
         assert np.mean(np.array(found) < limit) == pytest.approx(limit, abs=3.0 * error)
 
 
-def test_calibrated_on_one_says_the_same_of_a_constant_and_assumed_errors_are_halved_and_doubled(
-    monkeypatch,
-):
+def test_calibrated_on_one_and_fitted_to_all_say_the_same_of_a_constant(monkeypatch):
     """A constant is linear in its value, and then χ² of the contrasts is that of the best fit."""
     monkeypatch.setattr(comparison, "families", only("Rigid"))
     found = compare_laws(series_of(sb.Rigid, np.random.default_rng(5)))
     own = outcome(found, "Rigid")
     assert own.p_calibrated == pytest.approx(own.p, rel=1e-6)
+
+
+def test_assumed_errors_are_halved_and_doubled(monkeypatch):
     monkeypatch.setattr(comparison, "families", only("Rigid"))
     made = series_of(sb.Rigid, np.random.default_rng(6))
     supposed = dataclasses.replace(made, published=made.assumed, assumed=made.published)
@@ -110,7 +111,7 @@ def test_every_law_is_asked_or_has_a_reason_and_one_curve_is_one_outcome():
     assert found.skipped["Spring"] == "it loses nothing"
 
 
-def test_contact_times_and_losses_have_the_exponents_of_their_laws(monkeypatch):
+def test_contact_times_tell_a_spring_from_hertz(monkeypatch):
     monkeypatch.setattr(comparison, "families", only("Spring", "Hertz", "Rigid"))
     made = series_of(sb.Hertz, quantity=CONTACT_TIME, value=5e-3, error=5e-5)
     found = compare_laws(made)
@@ -118,6 +119,9 @@ def test_contact_times_and_losses_have_the_exponents_of_their_laws(monkeypatch):
     assert outcome(found, "Spring").verdict == REFUTED
     assert found.exponent == pytest.approx(-0.2, abs=1e-3)
     assert "no duration" in found.skipped["Rigid"]
+
+
+def test_the_exponent_of_the_loss_is_that_of_weak_viscoelasticity(monkeypatch):
     monkeypatch.setattr(comparison, "families", only())
     found = compare_laws(series_of(sb.Viscoelastic, value=0.99, error=1e-4))
     assert found.exponent == pytest.approx(0.2, abs=0.005)
@@ -153,12 +157,15 @@ class Narrow(Family):
         return super().law(value)
 
 
-def test_a_law_that_cannot_be_fitted_or_depends_on_the_speed_of_calibration_is_skipped(monkeypatch):
+def test_a_law_that_cannot_be_fitted_is_skipped(monkeypatch):
     family = Narrow(sb.HuntCrossley, RESTITUTION, 4.0)
     monkeypatch.setattr(comparison, "families", lambda _: [("HuntCrossley", family)])
     found = compare_laws(series_of(sb.Rigid))
     assert found.outcomes == ()
     assert found.skipped == {"HuntCrossley": "it cannot be fitted: too small"}
+
+
+def test_a_calibration_that_depends_on_the_speed_is_skipped():
     family = Forgetful(sb.Rigid, RESTITUTION, 4.0)
     reason = reason_to_skip(family, series_of(sb.Rigid))
     assert reason == "what it gives depends on the speed at which it is calibrated"

@@ -36,11 +36,14 @@ def test_ctrl_c_leaves_the_best_so_far(trials):
         assert f"{name} = {value:.6g}" in str(stopped.value)
 
 
-def test_a_fit_that_takes_long_shows_progress_and_says_so_and_one_of_days_is_refused():
+def test_progress_ends_with_all_trials_done():
     seen = []
     fit = sb.fit(DROP, DATA, VARY, progress=lambda done, every: seen.append((done, every)))
     assert all(done <= every for done, every in seen)
     assert seen[-1] == (fit.objective.course.trials,) * 2
+
+
+def test_a_fit_that_takes_long_says_so_and_one_that_takes_days_is_refused():
     with pytest.warns(UserWarning, match=r"a fit of 60 numbers will take about 2 h: fix some, or"):
         announce("a fit of 60 numbers", 2 * 3600 * 5e7, "fix some")
     with pytest.raises(InvalidValue, match=r"would take about 2 days: fix some$"):

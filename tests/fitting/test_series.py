@@ -78,22 +78,28 @@ def test_the_scatter_of_throws_is_the_error_of_their_mean():
     )
 
 
-def test_published_restitutions_and_contact_times_at_several_heights_are_series():
+def test_contact_times_at_several_heights_are_a_series():
     columns = {"drop_height": [0.4, 1.6], "contact_time": [9e-3, 8e-3], "restitution": [0.9, 0.9]}
     series = make_series(table(**columns))
     assert (series.quantity, series.restitution) == (CONTACT_TIME, 0.9)
     assert series.values.tolist() == [9e-3, 8e-3]
     assert series.speeds == pytest.approx(np.sqrt(2.0 * STANDARD_GRAVITY * np.array([0.4, 1.6])))
+
+
+def test_the_knocks_of_the_superball_are_two_restitutions():
     series = make_series(datasets.load("superball-knocks"))
     assert series.values == pytest.approx([0.9356, 0.9364], abs=1e-4)
     assert series.speeds == pytest.approx([3.705, 3.467], abs=1e-3)
+
+
+def test_the_basketball_loses_as_a_power_of_its_speed_if_the_air_is_left_out():
     series = make_series(datasets.load("leather-basketball"), air=False)
     assert series.values == pytest.approx([0.81, 0.85])
     loss, speed = np.log(1.0 - series.values), np.log(series.speeds)
     assert np.diff(loss) / np.diff(speed) == pytest.approx(0.43, abs=0.005)
 
 
-def test_errors_have_the_degrees_of_freedom_of_their_scatter_and_of_the_drag():
+def test_errors_have_the_degrees_of_freedom_of_their_scatter():
     """The more of an error is assumed, the less matters how well its scatter is known."""
     heights = make_series(datasets.load("rubber-ball-two-heights"))
     assert heights.freedom(0.0) == pytest.approx(2 * 9)
@@ -101,6 +107,9 @@ def test_errors_have_the_degrees_of_freedom_of_their_scatter_and_of_the_drag():
     flights = make_series(datasets.load("golf-marble-flights"), air=False)
     assert 0.9 * 14 * 4 < flights.freedom() < 14 * 4  # neighbouring bounces are correlated
     assert make_series(datasets.load("steel-on-metallic-glass")).freedom() == np.inf
+
+
+def test_a_drag_that_is_not_known_well_moves_all_values_together():
     series = make_series(datasets.load("table-tennis-bounces"))
     without = make_series(datasets.load("table-tennis-bounces"), air=False)
     assert (series.values > without.values).all()

@@ -72,7 +72,7 @@ def everything():
 
 
 @pytest.mark.slow
-def test_every_dataset_is_compared_or_has_a_reason_and_calibration_does_not_matter(everything):
+def test_every_dataset_is_compared_or_has_a_reason_and_the_summary_counts_them(everything):
     compared = [found.series.name for found in everything.comparisons]
     assert sorted([*compared, *everything.left_out]) == list(datasets.names())
     assert len(compared) >= 15
@@ -83,6 +83,10 @@ def test_every_dataset_is_compared_or_has_a_reason_and_calibration_does_not_matt
     shaky = sum(not found.steady for found in everything.comparisons)
     assert everything.summary.startswith(f"{len(compared)} series have {verdicts} verdicts")
     assert f" {shaky} of the series are not steady" in everything.summary
+
+
+@pytest.mark.slow
+def test_what_is_calibrated_on_one_speed_is_judged_as_what_is_fitted_to_all(everything):
     for one in everything.comparisons:
         for law in one.outcomes:
             if law.p > 1e-3:
