@@ -28,13 +28,16 @@ def quick(monkeypatch):
     monkeypatch.setattr(machine_code, "link", lambda *_: _[-1].file.encode() * 100_000)
 
 
-def test_tools_have_the_versions_of_the_constraints_and_the_metadata_all_licences():
+def test_the_tools_have_the_versions_of_the_constraints():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
     needs = [one.split(";")[0].strip() for one in project["build-system"]["requires"]]
     pinned = (ROOT / "constraints.txt").read_text("utf-8").splitlines()
     names = [one.partition("==")[0] for one in needs]
     assert names == ["hatchling", "llvmlite", "numba", "numpy", "ziglang"]
     assert set(needs) - {"hatchling"} <= set(pinned)
+
+
+def test_the_metadata_have_the_licence_of_all_that_is_vendored():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
     named = {path for pattern in project["license-files"] for path in ROOT.glob(pattern)}
     vendored = [path for path in (ROOT / "src").rglob("vendor/*") if path.is_dir()]
@@ -149,13 +152,14 @@ def test_a_wheel_of_another_platform_leaves_the_sources_alone(monkeypatch, tmp_p
     assert commands[0][-3:] == ["macos-aarch64", "--folder", str(tmp_path / "macos-aarch64")]
 
 
-def test_an_installation_of_the_sources_takes_their_folder_and_without_a_compiler_it_is_pure(
-    monkeypatch,
-):
+def test_an_installation_of_the_sources_takes_their_folder(monkeypatch):
     hook, commands = hook_with(monkeypatch, 0, "macos-aarch64")
     assert put(hook, "editable")[0] == {"force_include": {}}
     assert commands[0][-1] == native.FOLDER
     assert commands[0][-3] == native.platform_name()
+
+
+def test_where_nothing_can_be_compiled_the_wheel_is_pure(monkeypatch):
     hook, _ = hook_with(monkeypatch, command.IMPOSSIBLE)
     assert put(hook)[0] == {"force_include": {}}
 

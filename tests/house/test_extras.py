@@ -40,6 +40,9 @@ def brought(extra):
 def test_an_extra_brings_what_it_says(extra):
     assert brought(extra) == set(EXTRAS[extra])
     assert brought(extra) <= brought("all") <= brought("dev")
+
+
+def test_everything_is_in_all():
     assert set(PROJECT["optional-dependencies"]) == {*EXTRAS, "all", "dev", "bench"}
 
 

@@ -9,11 +9,18 @@ import pytest
 import stackbounce as sb
 
 
-def test_every_name_is_there_and_another_is_an_attribute_error():
+def test_every_name_is_there():
     assert {name for name in sb.__all__ if not hasattr(sb, name)} == set()
     assert set(sb.__all__) <= set(dir(sb))
+
+
+def test_no_module_has_the_name_of_a_function():
+    """Python sets each submodule as an attribute of its package, and would hide the function."""
     modules = {module.name for module in pkgutil.iter_modules(sb.__path__)}
     assert modules & set(sb.__all__) == set()
+
+
+def test_a_name_that_is_not_there_is_an_attribute_error():
     for name in ("simulat", "_simulate", "__wrapped__"):
         with pytest.raises(AttributeError, match=f"no attribute '{name}'"):
             getattr(sb, name)
