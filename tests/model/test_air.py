@@ -129,7 +129,7 @@ def test_the_speed_of_a_flight_is_that_of_quadrature(k, speed):
     assert drag.landing_speed(k, speed, G) <= speed
 
 
-def test_the_speed_of_a_flight_grows_with_its_time_and_has_limits():
+def test_the_speed_of_a_flight_grows_with_its_time():
     times = np.geomspace(1e-9, 300.0, 3000)
     found = [drag.flight_speed(0.126, time, G) for time in times.tolist()]
     assert (np.diff(found) > 0.0).all()
@@ -137,6 +137,9 @@ def test_the_speed_of_a_flight_grows_with_its_time_and_has_limits():
     assert drag.flight_speed(0.126, 0.0, G) == 0.0
     with pytest.raises(OverflowError):
         drag.flight_speed(0.126, 1e4, G)
+
+
+def test_a_ball_that_is_too_fast_is_followed_nowhere():
     with pytest.raises(OverflowError):
         drag.flown(K, -1.01 * AIR.terminal_speed(BALL), 0.1, G)
     with pytest.raises(OverflowError):
@@ -182,7 +185,7 @@ def alone(drop, i, time):
     return [-one for one in drag.flown(k, 0.0, time, G)]
 
 
-def test_balls_with_more_drag_fall_behind_unless_one_above_presses_them_down():
+def test_balls_with_more_drag_fall_behind():
     heavy, light = sb.Ball(0.1, 0.058), sb.Ball(0.0085, 0.026)
     drop = stack([heavy, light, sb.Ball(0.001, 0.03)], [0.0, 0.002])
     in_air = AIR.dropped(drop)
@@ -193,6 +196,10 @@ def test_balls_with_more_drag_fall_behind_unless_one_above_presses_them_down():
     apart = [ways[0][0] - ways[1][0], 0.002 + ways[1][0] - ways[2][0]]
     assert in_air.gaps == pytest.approx(apart, rel=1e-8)
     assert (in_air.height, in_air.contacts, in_air.gravity) == (None, drop.contacts, 0.0)
+
+
+def test_three_balls_press_on_each_other_as_one():
+    """The middle one alone would fall behind; the heavy one above presses it down."""
     light, middle, heavy = sb.Ball(0.02, 0.1), sb.Ball(0.01, 0.1), sb.Ball(1.0, 0.1)
     in_air = AIR.dropped(stack([light, middle, heavy]))
     assert in_air.gaps == (0.0, 0.0)
@@ -201,7 +208,7 @@ def test_balls_with_more_drag_fall_behind_unless_one_above_presses_them_down():
     assert apart.gaps[0] > 0.0
 
 
-def test_a_ball_with_less_drag_stays_on_the_one_below_or_comes_nearer():
+def test_a_ball_with_less_drag_stays_on_the_one_below():
     """As one body with the drag of both; a third one, with more drag, falls behind."""
     balls = [sb.Ball(0.150, 0.160), sb.Ball(0.057, 0.066), sb.Ball(0.001, 0.03)]
     in_air = AIR.dropped(stack(balls))
@@ -212,6 +219,9 @@ def test_a_ball_with_less_drag_stays_on_the_one_below_or_comes_nearer():
     assert in_air.gaps[0] == 0.0
     assert in_air.gaps[1] > 1e-3
     assert -in_air.velocities[2] < together
+
+
+def test_a_ball_may_come_nearer_and_not_meet():
     balls = [sb.Ball(0.150, 0.160), sb.Ball(0.057, 0.066)]
     wide = AIR.dropped(stack(balls, [0.05]))
     assert 0.04 < wide.gaps[0] < 0.05
@@ -230,20 +240,26 @@ def test_a_drop_without_drag_is_the_drop(height):
         assert in_air.gaps == here.gaps
 
 
-def test_air_has_coefficients_of_each_ball_hashes_and_gives_heights_with_a_sign():
+def test_heights_of_balls_that_move_down_have_a_minus_sign():
     drop = stack([BALL, BALL])
     down, up = AIR.rebound_heights(drop, [-2.0, 3.0])
     assert (down, up) == (-AIR.rise(BALL, 2.0), AIR.rise(BALL, 3.0))
+
+
+def test_each_ball_may_have_a_coefficient():
     air = sb.Air(drag_coefficient={"tennis": 0.6, "smooth": 0.4})
     other = dataclasses.replace(BALL, name="smooth")
     assert air.impact_speed(BALL, 2.0) == sb.Air(drag_coefficient=0.6).impact_speed(BALL, 2.0)
     assert air.impact_speed(other, 2.0) == sb.Air(drag_coefficient=0.4).impact_speed(BALL, 2.0)
+
+
+def test_air_is_a_value_that_hashes():
     one = sb.Air(drag_coefficient={"a": 0.5, "b": 0.4})
     assert one == sb.Air(drag_coefficient={"b": 0.4, "a": 0.5})
     assert len({one, sb.Air(drag_coefficient={"b": 0.4, "a": 0.5}), sb.Air(), sb.Air(1.204)}) == 2
 
 
-def test_what_is_wrong_or_out_of_range_is_told():
+def test_what_is_wrong_is_told():
     assert refused(sb.Air, density=-1).startswith("density must be a number of kg/m**3, 0 or above")
     assert refused(sb.Air, drag_coefficient={"a": "x"}).startswith("drag_coefficient.a must be")
     assert refused(AIR.impact_speed, sb.Ball(1.0), 1.0).startswith(
@@ -263,11 +279,17 @@ def test_what_is_wrong_or_out_of_range_is_told():
     assert refused(AIR.rebound_heights, thrown, [1.0, 2.0]).startswith("speeds must hold one num")
     assert refused(AIR.rebound_heights, thrown, [math.nan]).startswith("speeds.0 must be a")
     assert refused(AIR.dropped, stack([BALL, sb.Ball(1.0)])).startswith("balls.1.diameter must")
+
+
+def test_what_is_out_of_range_is_refused():
     launched = refused(sb.Air(density=1e3).launch_speed, sb.Ball(1e-3, 0.1), 10.0)
     assert launched.startswith("height must be one that a ball can")
     flown = refused(AIR.flight, sb.Ball(1.0, 0.1), 1e200)
     assert flown.startswith("speed must give a flight in the range")
     assert "names of balls as keys, got 1" in refused(sb.Air, drag_coefficient={1: 0.5})
+
+
+def test_parts_of_one_body_do_not_part_in_the_fall():
     laws = [sb.Spring(1.0), sb.Bond(1.0)]
     drop = sb.Drop([sb.Ball(1.0, 0.1), sb.Ball(1e-3, 0.2)], laws, height=1.0)
     with pytest.raises(errors.InvalidValue, match=r"contacts\.1 must not be a Bond"):

@@ -17,23 +17,31 @@ MATERIALS = {  # density, Young's modulus and Poisson's ratio, of the balls' sou
 
 
 @pytest.mark.parametrize("entry", CLASS_BALLS, ids=NAMES)
-def test_each_figure_has_a_source_and_a_ball_bounces_as_its_figures_say(entry):
+def test_each_figure_has_a_source_and_a_kind(entry):
     assert set(dict(entry.sources)) == FIGURES
     assert all(source.strip() for _, source in entry.sources)
     assert set(dict(entry.kinds)) <= FIGURES
     assert {entry.kind_of(figure) for figure in FIGURES} <= set(KINDS)
+
+
+@pytest.mark.parametrize("entry", CLASS_BALLS, ids=NAMES)
+def test_a_ball_bounces_as_its_figures_say(entry):
     drop = sb.Drop([entry.ball], [entry.contact], height=0.7)
     result = sb.simulate(drop)
     assert result.rebound_ratios[0] == pytest.approx(entry.restitution, rel=1e-9)
     assert result.end_time == pytest.approx(entry.contact_time, rel=1e-9)
 
 
-def test_names_are_typed_with_hyphens_and_the_tennis_ball_is_within_the_games_rules():
+def test_names_differ_from_the_papers_and_are_typed_with_hyphens():
     names = [str(entry.ball.name) for entry in (*BALLS, *CLASS_BALLS)]
     assert len({name.casefold() for name in names}) == len(names)
     for entry in CLASS_BALLS:
         typed = str(entry.ball.name).replace(" ", "-")
         assert catalogue_ball(typed) is catalogue_ball(typed.upper()) is entry
+
+
+def test_the_tennis_ball_is_within_the_games_rules():
+    """The ITF's test: from 254 cm on granite, back to between 135 and 147 cm."""
     entry = catalogue_ball("tennis-ball")
     assert 1.35 < 2.54 * entry.restitution**2 < 1.47
     assert 0.056 <= entry.ball.mass <= 0.0594
@@ -52,11 +60,14 @@ def test_a_pair_loses_what_both_lose_by_their_shares_of_the_work(lower, upper):
     assert law.restitution == pytest.approx(between(a.contact, b.contact).restitution, rel=1e-12)
 
 
-def test_a_pair_is_the_same_either_way_round_and_the_papers_keep_their_springs():
+def test_a_pair_is_the_same_either_way_round():
     one, other = stack(["football", "golf ball"]), stack(["golf ball", "football"])
     assert one.contacts[1].stiffness == pytest.approx(other.contacts[1].stiffness, rel=1e-14)
     assert one.contacts[1].restitution == pytest.approx(other.contacts[1].restitution, rel=1e-14)
     assert one.contact_sources[1] == "football and golf ball in series"
+
+
+def test_the_papers_balls_keep_their_springs_beside_a_classs():
     chosen = stack(["basketball", "tennis", "superball"])
     assert chosen.contacts[:2] == (sb.Spring(2500.0), sb.Spring(1000.0))
     assert chosen.contacts[2].restitution < 1.0

@@ -36,9 +36,12 @@ FINITE = [
 EXAMPLES = RIGID + FINITE
 
 
-def test_every_law_is_named_and_its_numbers_are_floats():
+def test_every_law_is_named():
     assert list(LAWS.values()) == [type(law) for law in EXAMPLES]
     assert all(getattr(sb, name) is law for name, law in LAWS.items())
+
+
+def test_numbers_become_floats():
     law = sb.HuntCrossley(np.float32(2), 1, np.int64(0))
     assert [type(value) for value in vars(law).values()] == [float] * 3
 
@@ -102,7 +105,7 @@ def test_extreme_stacks_are_not_refused(law):
     assert sb.Drop(balls, contacts, impact_speed=1.0).contacts[1].stiffness == 2e12
 
 
-def test_hertz_stiffness_of_one_and_of_two_materials():
+def test_steel_balls_on_each_other():
     lower, upper = sb.Ball(0.228, 0.0381, **STEEL), sb.Ball(0.081, 0.0270, **STEEL)
     # k = (E/(1 - ν²)) (2/3) sqrt(R1 R2/(R1 + R2)) for one material (Landau, Lifshitz, eq 9.13)
     plane = 206e9 / (1.0 - 0.09)
@@ -111,6 +114,9 @@ def test_hertz_stiffness_of_one_and_of_two_materials():
     assert sb.Hertz.between(lower, upper).stiffness == pytest.approx(expected, rel=1e-14)
     on_floor = plane * (4.0 / 3.0) * math.sqrt(r1)
     assert sb.Hertz.between(lower).stiffness == pytest.approx(on_floor, rel=1e-14)
+
+
+def test_two_materials():
     a, b = sb.Ball(1.0, 0.1, **STEEL), sb.Ball(1.0, 0.04, **RUBBER)
     modulus = 1.0 / ((1.0 - 0.3**2) / 206e9 + (1.0 - 0.5**2) / 5e6)
     expected = 4.0 / 3.0 * modulus * math.sqrt(1.0 / (1.0 / 0.05 + 1.0 / 0.02))
@@ -118,7 +124,7 @@ def test_hertz_stiffness_of_one_and_of_two_materials():
     assert sb.Hertz.between(b, a) == sb.Hertz.between(a, b)
 
 
-def test_what_a_ball_lacks_is_named_and_materials_are_checked():
+def test_what_a_ball_lacks_is_named():
     ball = sb.Ball(1.0, 0.06, **STEEL)
     for name in ("diameter", "young_modulus", "poisson_ratio"):
         bare = dataclasses.replace(ball, **{name: None})
@@ -129,6 +135,9 @@ def test_what_a_ball_lacks_is_named_and_materials_are_checked():
     got = refusal(errors.InvalidValue, sb.Hertz.between, sb.Ball(1.0))
     assert got.startswith("ball_a.diameter, ball_a.young_modulus, ball_a.poisson_ratio must be")
     assert refusal(errors.InvalidType, sb.Hertz.between, 3) == "ball_a must be a Ball, got 3"
+
+
+def test_materials_are_checked():
     got = refusal(errors.InvalidValue, sb.Ball, 1.0, young_modulus=0.0)
     assert got == "young_modulus must be a positive number of pascals, got 0.0"
     for value in (-1.1, 0.51, math.nan):
@@ -194,11 +203,14 @@ def test_series_does_not_depend_on_the_order(laws):
     assert vars(one) == pytest.approx(vars(other), rel=1e-9)
 
 
-def test_series_of_springs_and_hertz_contacts():
+def test_series_of_springs_and_power_laws():
     assert sb.series(sb.Spring(3.0), sb.Spring(6.0)).stiffness == pytest.approx(2.0, rel=1e-15)
     hertz = sb.series(sb.Hertz(2.0), sb.Hertz(5.0)).stiffness
     assert hertz ** (-2 / 3) == pytest.approx(2.0 ** (-2 / 3) + 5.0 ** (-2 / 3), rel=1e-14)
     assert sb.series(sb.Spring(1e-200), sb.Spring(1e200)).stiffness == 1e-200
+
+
+def test_hertz_contacts_with_a_rigid_floor_are_not_in_series_as_spheres():
     lower, upper = sb.Ball(1.0, 0.06, **STEEL), sb.Ball(1.0, 0.06, **STEEL)
     alone = sb.Hertz.between(lower)
     both = sb.Hertz.between(lower, upper)
@@ -206,6 +218,9 @@ def test_series_of_springs_and_hertz_contacts():
     small = sb.Ball(1.0, 0.01, **STEEL)
     both = sb.series(alone, sb.Hertz.between(small)).stiffness
     assert both != pytest.approx(sb.Hertz.between(lower, small).stiffness, rel=1e-2)
+
+
+def test_rigid_contacts_and_others_are_not_in_series():
     got = refusal(errors.InvalidValue, sb.series, sb.Spring(1), sb.Rigid(1))
     assert got == "law_b must be a law with a compression, got Rigid(restitution=1.0)"
     got = refusal(errors.InvalidType, sb.series, 3, sb.Rigid(1))

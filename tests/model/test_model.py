@@ -21,13 +21,16 @@ def two(**changes):
     return Drop(**(parameters | changes))
 
 
-def test_a_ball_holds_floats_and_a_name():
+def test_a_ball_holds_floats():
     ball = Ball(np.float32(1), 2, "B1")
     assert (ball.mass, ball.diameter, ball.name) == (1.0, 2.0, "B1")
     assert type(ball.mass) is type(ball.diameter) is float
     with pytest.raises(dataclasses.FrozenInstanceError):
         ball.mass = 3.0
     assert hash(ball) == hash(Ball(1.0, 2.0, "B1"))
+
+
+def test_names():
     assert refusal(errors.InvalidType, Ball, 1.0, name=3) == "name must be a string, got 3"
     assert refusal(errors.InvalidValue, Ball, 1.0, name=" ") == "name must not be empty, got ' '"
     got = refusal(errors.InvalidValue, Ball, 1.0, name="a\ud800")
@@ -50,12 +53,15 @@ def test_a_mass_is_a_number(value):
 
 @pytest.mark.parametrize("value", [-0.1, 1.1, math.nan, math.inf])
 def test_restitution_lies_from_0_to_1(value):
-    assert Rigid(0).restitution == 0.0
-    assert "above 0" in refusal(errors.InvalidValue, Hysteretic, 1.0, restitution=0)
     got = refusal(errors.InvalidValue, Rigid, value)
     assert got == f"restitution must be a number from 0 to 1, got {value}"
     got = refusal(errors.InvalidValue, Hysteretic, 1.0, restitution=value)
     assert got == f"restitution must be a number above 0 and at most 1, got {value}"
+
+
+def test_only_a_rigid_contact_may_keep_nothing():
+    assert Rigid(0).restitution == 0.0
+    assert "above 0" in refusal(errors.InvalidValue, Hysteretic, 1.0, restitution=0)
 
 
 @pytest.mark.parametrize("value", [0.00141, 1e-200])
@@ -68,7 +74,7 @@ def test_a_small_restitution_is_refused_with_the_least_that_is_not(value):
     assert Hysteretic(1.0, restitution=0.00142).unloading_exponent < 1e6
 
 
-def test_restitution_and_unloading_exponent_follow_from_each_other_if_one_is_given():
+def test_restitution_and_unloading_exponent_follow_from_each_other():
     law = Hysteretic(5.6e4, restitution=0.78)
     assert law.unloading_exponent == pytest.approx(2.28731, abs=1e-5)
     for p in (1.0, 1.5, 3.0):
@@ -79,6 +85,9 @@ def test_restitution_and_unloading_exponent_follow_from_each_other_if_one_is_giv
             assert e**2 == pytest.approx((p + 1) / (law.unloading_exponent + 1), rel=1e-14)
             back = Hysteretic(1.0, exponent=p, unloading_exponent=law.unloading_exponent)
             assert back.restitution == pytest.approx(e, rel=1e-14)
+
+
+def test_a_hysteretic_law_needs_exactly_one_of_two():
     right = "restitution and unloading_exponent: exactly one of the two must be given, got "
     assert refusal(errors.InvalidValue, Hysteretic, 1.0) == right + "neither"
     got = refusal(errors.InvalidValue, Hysteretic, 1.0, restitution=0.6, unloading_exponent=7)
@@ -113,13 +122,16 @@ def test_exponents_lie_from_1_to_the_steepest(value):
         assert got == f"{name} must be a number from 1 to 1e+06, got {value}"
 
 
-def test_laws_and_balls_have_names():
+def test_laws_by_name():
     assert law_named("Spring") is law_named("spring") is Spring
     got = refusal(errors.InvalidValue, law_named, "Sprung")
     assert got.startswith(
         "law must be a contact law, got 'Sprung'; did you mean Spring? Known: Rigid"
     )
     assert "got None; known: Rigid" in refusal(errors.InvalidValue, law_named, None)
+
+
+def test_names_of_the_catalogue():
     assert catalogue_ball("BASKETBALL") is catalogue_ball("basketball")
     got = refusal(errors.InvalidValue, catalogue_ball, "tenis")
     assert got == (
@@ -130,7 +142,7 @@ def test_laws_and_balls_have_names():
     assert refusal(errors.InvalidValue, stack, []) == "balls must hold at least one name, got none"
 
 
-def test_a_drop_has_tuples_of_floats_one_way_to_come_in_and_may_be_rigid():
+def test_sequences_become_tuples_and_numbers_floats():
     drop = two(gaps=np.array([0.002]), impact_speed=3)
     assert drop.balls == (BALL, BALL)
     assert drop.contacts == (SPRING, SPRING)
@@ -139,6 +151,9 @@ def test_a_drop_has_tuples_of_floats_one_way_to_come_in_and_may_be_rigid():
     assert hash(drop) == hash(two(gaps=(0.002,), impact_speed=3.0))
     assert two().gaps == (0.0,)
     assert Drop([BALL], [SPRING], impact_speed=1).gaps == ()
+
+
+def test_ways_to_come_in():
     assert two(impact_speed=3.53).start_velocities == (-3.53, -3.53)
     drop = two(impact_speed=None, height=0.63)
     assert drop.reference_speed == pytest.approx(math.sqrt(2 * 9.80665 * 0.63), rel=1e-15)
@@ -147,6 +162,9 @@ def test_a_drop_has_tuples_of_floats_one_way_to_come_in_and_may_be_rigid():
     drop = two(impact_speed=None, velocities=[0, -2.0])
     assert drop.reference_speed == 2.0
     assert drop.start_velocities == (0.0, -2.0)
+
+
+def test_rigid_drops():
     assert two(contacts=[Rigid(1), Rigid(0.5)]).rigid
     assert two(contacts=[None, Rigid(0.5)]).rigid
     assert not two().rigid
@@ -217,14 +235,20 @@ def test_types_of_a_drop(changes, expected):
     assert refusal(errors.InvalidType, two, **changes).startswith(expected)
 
 
-def test_separate_collisions_keep_everything_but_gravity():
+def test_separate_collisions_keep_everything_else():
     contacts = [Hysteretic(1.0, restitution=0.78), SPRING]
     drop = two(contacts=contacts, gaps=[0.001], impact_speed=None, height=1.0)
     rigid = separate(drop)
     assert rigid == dataclasses.replace(drop, contacts=[Rigid(0.78), Rigid(1.0)])
     assert separate(rigid) == rigid
     assert separate(two(contacts=[None, SPRING])).contacts == (None, Rigid(1.0))
+
+
+def test_only_a_drop_has_separate_collisions():
     assert refusal(errors.InvalidType, separate, 3) == "drop must be a Drop, got 3"
+
+
+def test_separate_collisions_know_no_gravity():
     drop = two(impact_speed=None, height=2.0, gravity=1.0)
     rigid = separate(drop)
     assert rigid.gravity == 0.0
@@ -233,13 +257,16 @@ def test_separate_collisions_keep_everything_but_gravity():
     assert separate(drop).start_velocities == (0.0, -1.0)
 
 
-def test_the_catalogue_holds_the_papers_balls_with_a_source_for_each_figure():
+def test_the_catalogue_gives_a_source_for_each_figure():
     other = {"ball", "name", "sources", "kinds", "lossy"}
     for entry in BALLS:
         plain = dataclasses.asdict(entry.ball) | dataclasses.asdict(entry)
         given = {key for key, value in plain.items() if value is not None}
         assert set(dict(entry.sources)) == given - other
         assert all(source.startswith("Cross 2007, ") for _, source in entry.sources)
+
+
+def test_the_catalogue_holds_the_papers_balls():
     figures = {
         entry.ball.name: (entry.ball.mass, entry.ball.diameter, entry.stiffness) for entry in BALLS
     }
@@ -261,15 +288,21 @@ def test_dynamic_stiffness_agrees_with_the_contact_time(name):
     assert entry.stiffness == pytest.approx(expected, rel=0.02)
 
 
-def test_a_fitted_pair_has_its_own_numbers_and_other_neighbours_springs_in_series():
+def test_a_fitted_pair_has_its_own_floor_gap_and_spring():
     for pair in PAIRS:
         chosen = stack([pair.lower, pair.upper])
         assert chosen.contacts == (Spring(pair.floor_stiffness), Spring(pair.stiffness))
         assert chosen.gaps == (pair.gap,)
         assert chosen.contact_sources == (pair.source, pair.source)
+
+
+def test_a_pair_the_other_way_round_has_its_spring_only():
     chosen = stack(["B2", "B1"])
     assert chosen.contacts == (Spring(3.6e4), Spring(1.6e4))
     assert chosen.gaps == (0.0,)
+
+
+def test_other_neighbours_have_their_springs_in_series():
     chosen = stack(["B1", "B1", "tennis"])
     assert chosen.contacts[:2] == (Spring(5.4e4), Spring(2.7e4))
     assert chosen.contacts[2].stiffness == pytest.approx(1 / (1 / 5.4e4 + 1 / 2.25e4))

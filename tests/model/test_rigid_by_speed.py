@@ -29,7 +29,7 @@ def test_numbers_out_of_range_are_refused(kind, field):
         kind(**{"restitution": 0.8, "speed": 1.0} | {field: "1"})
 
 
-def test_restitutions_are_those_of_their_formulas():
+def test_published_restitutions():
     """Ice (Bridges et al. 1984), and spheres that yield above 0.2 m/s."""
     ice = sb.RigidBySpeed(0.32, speed=0.01, speed_exponent=0.234)
     for speed in (0.002, 0.015, 0.05):
@@ -40,6 +40,9 @@ def test_restitutions_are_those_of_their_formulas():
     steel = sb.RigidBySpeed(1.0, speed=0.2)
     assert [sb.restitution(steel, impact_speed=v) for v in (0.1, 0.2)] == [1.0, 1.0]
     assert sb.restitution(steel, impact_speed=3.2) == pytest.approx(0.5, rel=1e-14)
+
+
+def test_a_loss_that_grows_with_the_speed():
     law = sb.RigidLossBySpeed(0.8, speed=3.0, speed_exponent=0.43)
     for speed in (0.1, 3.0, 10.0):
         kept = 1.0 - 0.2 * (speed / 3.0) ** 0.43
@@ -49,7 +52,7 @@ def test_restitutions_are_those_of_their_formulas():
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_calibration_takes_the_usual_exponent_and_sweeps_have_the_bits_of_single_runs(kind):
+def test_calibration_takes_the_usual_exponent(kind):
     law = sb.calibrate(kind, restitution=0.7, impact_speed=2.5)
     assert law == kind(0.7, 2.5)
     assert law.speed_exponent == {"RigidBySpeed": 0.25, "RigidLossBySpeed": 0.2}[kind.__name__]
@@ -58,6 +61,10 @@ def test_calibration_takes_the_usual_exponent_and_sweeps_have_the_bits_of_single
         sb.calibrate(kind, restitution=0.7)
     with pytest.raises(errors.InvalidValue, match="speed must be given, as the restitution of"):
         sb.restitution(law, mass=0.1)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_sweep_of_all_its_numbers_has_the_bits_of_single_runs(kind):
     random = np.random.default_rng(4)
     names = ("restitution", "speed", "speed_exponent", "scatter", "seed")
     least, most = np.array([[0.1, 0.01, 0.0, 0.0, 0.0], [1.0, 5.0, 1.0, 0.2, 9.0]])
@@ -73,11 +80,14 @@ def test_calibration_takes_the_usual_exponent_and_sweeps_have_the_bits_of_single
     assert swept.rebound_ratio.values.tolist() == single
 
 
-def test_scatter_is_described_and_rigid_laws_stand_together_only():
+def test_scatter_is_described_where_there_is_some():
     law = sb.RigidBySpeed(0.8, 3.0)
     assert law.described() == "RigidBySpeed, restitution 0.8, speed 3 m/s, speed exponent 0.25"
     told = sb.RigidBySpeed(0.8, 3.0, scatter=0.05, seed=2).described()
     assert told.endswith("exponent 0.25, scatter 0.05, seed 2")
+
+
+def test_rigid_laws_stand_together_and_not_with_others():
     balls = [sb.Ball(1.0)] * 2
     law = sb.RigidBySpeed(0.8, 1.0)
     assert sb.Drop(balls, [sb.Rigid(0.5), law], impact_speed=1.0).rigid
@@ -86,7 +96,7 @@ def test_scatter_is_described_and_rigid_laws_stand_together_only():
     assert usual_laws()[:2] == ["Rigid", "Spring"]
 
 
-def test_a_file_has_units_and_separate_collisions_the_restitution_at_the_first_speed(tmp_path):
+def test_a_file_with_units(tmp_path):
     file = tmp_path / "ice.toml"
     file.write_text(
         'impact_speed = "2 cm/s"\n[[balls]]\nmass = 0.2\n[[contacts]]\nlaw = "RigidBySpeed"\n'
@@ -97,6 +107,9 @@ def test_a_file_has_units_and_separate_collisions_the_restitution_at_the_first_s
     assert drop.contacts == (sb.RigidBySpeed(0.32, 0.01, 0.234, 0.02, 4.0),)
     file.write_text(drop.to_toml(), encoding="utf-8")
     assert sb.Drop.from_toml(file) == drop
+
+
+def test_separate_collisions_take_the_restitution_at_the_first_speed():
     law = sb.RigidLossBySpeed(0.8, speed=2.0, speed_exponent=1.0)
     balls = [sb.Ball(3.0), sb.Ball(1.0)]
     floor, between = sb.separate(sb.Drop(balls, [law, law], impact_speed=2.0)).contacts

@@ -35,11 +35,14 @@ def test_a_spline_goes_through_its_points_and_rises(seed):
     assert slopes.min() > -1e-9 * slopes.max()
 
 
-def test_a_spline_has_no_corner_and_converges_to_a_smooth_curve():
+def test_a_spline_has_no_corner_but_at_the_last_point_of_a_level():
     spline = monotone_spline(X, Y)
     for before, after in itertools.pairwise(spline):
         one, two = before[2] + 2.0 * (after[0] - before[0]) * before[3], after[2]
         assert one == pytest.approx(two, rel=1e-9)
+
+
+def test_a_spline_converges_to_a_smooth_curve():
     misses = []
     for count in (5, 9, 17):
         x = np.linspace(0.0, 1.0, count)
@@ -71,7 +74,7 @@ def test_what_is_no_table_is_refused(given, words):
     assert words in str(caught.value)
 
 
-def test_what_is_no_sequence_or_endless_is_refused_and_tables_in_series_too():
+def test_what_is_no_sequence_is_refused():
     with pytest.raises(errors.InvalidType, match="force must be a sequence of numbers, got 'many'"):
         sb.Tabulated(X, "many")
     with pytest.raises(errors.InvalidValue, match=r"of more, stackbounce.measure.press"):
@@ -79,10 +82,16 @@ def test_what_is_no_sequence_or_endless_is_refused_and_tables_in_series_too():
     for value in (np.array(3.0), {0.0, 1e-3}):
         with pytest.raises(errors.InvalidType, match="compression must be a sequence of numbers"):
             sb.Tabulated(value, Y)
+
+
+def test_a_sequence_may_be_endless():
     with pytest.raises(errors.InvalidValue, match="from 2 to 16 points, got more"):
         sb.Tabulated(itertools.count(), Y)
     with pytest.raises(errors.InvalidValue, match="balls must hold at most 100000 values"):
         sb.Drop(itertools.repeat(sb.Ball(1.0)), [sb.Spring(1.0)], impact_speed=1.0)
+
+
+def test_tables_are_not_pressed_in_series():
     law = sb.Tabulated(X, Y)
     with pytest.raises(errors.InvalidValue, match="give the table of both together"):
         sb.series(law, law)
@@ -128,11 +137,14 @@ def test_a_press_curve_becomes_its_table(exponent, e):
     assert found.table(points=8).compression == pytest.approx(fewer)
 
 
-def test_a_press_without_a_way_back_makes_a_lossless_table_and_files_have_units():
+def test_a_press_without_a_way_back_makes_a_lossless_table():
     x = np.linspace(0.0, 5e-3, 80)
     law = press((x, 2e4 * x)).table(points=5)
     assert law.unloading is None
     assert law.force == pytest.approx(2e4 * np.array(law.compression), rel=1e-3)
+
+
+def test_units_of_a_file_are_read():
     given = {"law": "tabulated", "compression": ["0 mm", "2 mm"], "force": ["0 N", "0.03 kN"]}
     drop = {"balls": [{"mass": 0.1}], "contacts": [given], "gaps": [], "impact_speed": 1.0}
     (law,) = sb.Drop.from_mapping(drop).contacts

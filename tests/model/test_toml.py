@@ -58,13 +58,16 @@ def read(tmp_path, monkeypatch):
     return read_text
 
 
-def test_a_scenario_file_with_or_without_a_byte_order_mark(read):
+def test_a_scenario_file(read):
     assert read(SCENARIO) == Drop(
         balls=[Ball(0.150, 0.16, "basketball"), Ball(0.057)],
         contacts=[Spring(2500.0), Hysteretic(1000.0, restitution=0.78)],
         gaps=[0.002],
         height=0.63,
     )
+
+
+def test_a_byte_order_mark_is_passed_over(read):
     assert read(b"\xef\xbb\xbf" + SCENARIO.encode()) == read(SCENARIO)
 
 
@@ -112,11 +115,14 @@ def test_toml_and_mappings_are_read_back_exactly(tmp_path_factory, drop):
     assert Drop.from_mapping(json.loads(json.dumps(drop.to_mapping()))) == drop
 
 
-def test_no_floor_is_a_law_and_null_stands_for_a_key_left_out():
+def test_no_floor():
     drop = Drop([Ball(1.0)], [None], impact_speed=1.0)
     assert drop.to_mapping()["contacts"] == [{"law": "none"}]
     assert 'law = "none"' in drop.to_toml()
     assert Drop.from_mapping(drop.to_mapping()) == drop
+
+
+def test_null_stands_for_a_key_left_out():
     plain = Drop([Ball(1.0)], [Spring(1.0)], impact_speed=1.0).to_mapping()
     assert Drop.from_mapping(plain | {"height": None, "velocities": None}).impact_speed == 1.0
 
@@ -157,13 +163,16 @@ def test_what_is_wrong_in_a_file_is_said_with_its_path(read, old, new, expected)
     assert got.startswith(f"drop.toml: {expected}")
 
 
-def test_numbers_of_a_hysteretic_contact_are_read_where_they_agree_in_units_of_the_exponent(read):
+def test_the_unit_of_a_stiffness_follows_the_exponent(read):
     text = SCENARIO.replace('restitution = "78 %"', "restitution = 0.78\nexponent = 1.5")
     assert read(text.replace("1 N/mm", "1 N/m^1.5")).contacts[1].stiffness == 1.0
     got = refusal(errors.ScenarioError, read, text)
     assert got.startswith(
         "drop.toml: contacts.1.stiffness must be a quantity (a number of N/m**1.5"
     )
+
+
+def test_both_numbers_of_a_hysteretic_contact_are_read_where_they_agree(read):
     text = SCENARIO.replace('"78 %"', "0.5\nunloading_exponent = 7")
     assert read(text).contacts[1] == Hysteretic(1000.0, restitution=0.5)
     got = refusal(errors.ScenarioError, read, text.replace("= 7", "= 8"))
@@ -184,12 +193,18 @@ def test_mappings_of_another_shape(mapping, expected):
     assert refusal(errors.ScenarioError, Drop.from_mapping, mapping) == expected
 
 
-def test_a_key_cannot_break_the_line_and_texts_may_have_many_dots(read):
+def test_a_key_cannot_break_the_line(read):
     got = refusal(errors.ScenarioError, read, '"a\\nb\\u001b" = 1\n' + SCENARIO)
     assert got.startswith(r"drop.toml: 'a\nb\x1b' is not a known key; known: balls, contacts")
+
+
+def test_texts_and_lists_may_have_many_dots(read):
     numbers = ", ".join(["0.5"] * 100)
     got = refusal(errors.ScenarioError, read, f"name = 'a. b. c. d. e. f. g'\ngaps = [{numbers}]")
     assert got == "drop.toml: name is not a known key; " + got.partition("; ")[2]
+
+
+def test_no_text(read):
     got = refusal(errors.ScenarioError, read, b"\xff\xfe\x00a")
     assert got == "drop.toml is not TOML: it is not text in UTF-8"
 
@@ -222,10 +237,13 @@ def test_what_may_never_end_is_not_read(tmp_path):
         assert "is no ordinary file" in refusal(errors.FileError, Drop.from_toml, path)
 
 
-def test_files_that_are_too_large_or_cannot_be_opened(tmp_path, monkeypatch):
+def test_a_file_too_large_is_not_read(tmp_path):
     path = tmp_path / "large.toml"
     path.write_bytes(b"#" * (2**19 + 1))
     assert "is larger than 512 KiB" in refusal(errors.FileError, Drop.from_toml, path)
+
+
+def test_files_that_cannot_be_opened(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     got = refusal(errors.FileError, Drop.from_toml, "none.toml")
     assert got == "none.toml cannot be read: No such file or directory"
