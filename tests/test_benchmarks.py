@@ -20,7 +20,7 @@ def small():
     return race.sets(quiet, most=40, changes=3)
 
 
-def test_random_drops_are_what_they_say_and_the_same_for_the_same_seed():
+def test_random_drops_are_what_they_say():
     drops = random_drops.random(1000, seed=3)
     mass, stiffness, gap = drops.ratios.T
     limits = (random_drops.MASS_RATIOS, random_drops.STIFFNESS_RATIOS)
@@ -31,6 +31,9 @@ def test_random_drops_are_what_they_say_and_the_same_for_the_same_seed():
     assert np.count_nonzero(gap == 0.0) == 500
     assert 1.9 < gap.max() <= 2.0
     assert np.array_equal(drops.masses[:, 0] / drops.masses[:, 1], 1.0 / (1.0 / mass))
+
+
+def test_same_seed_same_drops():
     one, other = (random_drops.random(50, seed=seed).ratios for seed in (4, 5))
     assert np.array_equal(one, random_drops.random(50, seed=4).ratios)
     assert not np.array_equal(one, other)
@@ -99,14 +102,19 @@ def test_starts_are_told_next_to_numpy():
 
 
 @pytest.mark.slow
-def test_other_laws_are_told_next_to_scipy_and_rigid_ones_next_to_a_division(monkeypatch):
-    for name, value in {"THEIRS": (1e-6,), "ROUNDS": 1, "RIGID": 100, "DIVISIONS": 10**4}.items():
-        monkeypatch.setattr(laws, name, value)
+def test_other_laws_are_told_next_to_scipy_at_equal_error(monkeypatch):
+    monkeypatch.setattr(laws, "THEIRS", (1e-6,))
+    monkeypatch.setattr(laws, "ROUNDS", 1)
     entries = laws.nonlinear(quiet, drops=4)
     assert [entry.law for entry in entries] == list(laws.LAWS)
     for entry in entries:
         assert 0.0 < entry.our_error <= entry.error < 1e-3
         assert min(entry.seconds, entry.our_seconds) > 0.0
     assert len(report.law_times(entries)) == len(figures.laws(entries).axes[0].lines) == 4
+
+
+def test_rigid_collisions_are_told_next_to_a_division(monkeypatch):
+    monkeypatch.setattr(laws, "RIGID", 100)
+    monkeypatch.setattr(laws, "DIVISIONS", 10**4)
     found = laws.rigid(quiet)
     assert min(found.division, found.collision) > 0.0

@@ -83,10 +83,13 @@ def test_what_is_no_whole_number_is_refused(value):
         errors.whole("limit", value, 1)
 
 
-def test_nearest_names_and_long_values_in_one_line():
+def test_nearest_name():
     near = errors.nearest("sprng", ["Rigid", "Spring"])
     assert near == "did you mean Spring? Known: Rigid, Spring"
     assert errors.nearest("xyz", ["Rigid", "Spring"]) == "known: Rigid, Spring"
+
+
+def test_long_values_are_cut_to_one_line():
     assert errors.shown("a\nb") == "'a\\nb'"
     assert len(errors.shown("x" * 1000)) == 60
     assert "\n" not in errors.shown(np.zeros((4, 4)))
@@ -107,5 +110,8 @@ def test_no_value_breaks_a_message(value):
     with pytest.raises(errors.StackbounceError, match=r"^mass must be a positive number, got "):
         errors.positive("mass", value)
     assert errors.nearest(value, ["Rigid", "Spring"]) == "known: Rigid, Spring"
+
+
+def test_what_cannot_be_shown_says_its_type():
     assert errors.shown(10**5000) == "<unprintable int object>"
     assert errors.shown(Unprintable()) == "<unprintable Unprintable object>"

@@ -163,7 +163,7 @@ def test_a_write_protected_file_is_not_replaced():
 
 
 @posix
-def test_the_target_of_a_link_is_replaced_and_a_pipe_is_written_to():
+def test_the_target_of_a_link_is_replaced():
     Path("below").mkdir()
     for target in ("below/there", "below/new"):
         link = Path(f"to-{Path(target).name}")
@@ -172,6 +172,10 @@ def test_the_target_of_a_link_is_replaced_and_a_pipe_is_written_to():
         assert link.is_symlink()
         assert Path(target).read_bytes() == b"1"
     assert names("below") == ["new", "there"]
+
+
+@posix
+def test_a_pipe_is_written_to():
     out, into = os.pipe()
     try:
         write_file(Path(f"/dev/fd/{into}"), b"picture")
@@ -196,11 +200,14 @@ def test_no_more_is_read_than_allowed():
         content_of("large", 2**20)
 
 
-def test_only_files_as_they_were_written_are_replaced_and_no_temporary_file_stays(tmp_path):
+def test_no_temporary_file_stays_where_a_file_of_a_folder_cannot_be_replaced(tmp_path):
     (tmp_path / "audit.csv").mkdir()
     with pytest.raises(FileError):
         write_folder(tmp_path, {"audit.csv": b"new", "index.html": b"new"})
     assert [path.name for path in tmp_path.iterdir()] == ["audit.csv"]
+
+
+def test_only_files_as_they_were_written_are_replaced(tmp_path):
     write_folder(tmp_path, {"index.html": b"1", "study.html": b"1"})
     write_folder(tmp_path, {"index.html": b"2"})
     assert (tmp_path / "index.html").read_bytes() == b"2"

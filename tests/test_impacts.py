@@ -66,10 +66,13 @@ def test_answers_are_what_the_references_give(name):
     assert make_answers.answer(BY_NAME[name]) == answer_to(name)
 
 
-def test_a_perfect_answer_has_full_marks_and_an_error_loses_the_digits_above_it():
+def test_a_perfect_answer_has_full_marks():
     for one in score_all(PROBLEMS, ANSWERS, ANSWERS):
         assert one.right(score.MOST), one
         assert one.forces in (None, score.MOST)
+
+
+def test_an_error_loses_the_digits_above_it():
     velocities = answer_to(PAIR)["velocities"]
     error = 3.53e-5  # of 3.53 m/s; the conditioning is 1.4
     one = changed("velocities", [float(velocities[0]) + error, float(velocities[1])])
@@ -96,7 +99,7 @@ def test_each_kind_of_wrong_answer_loses_what_it_should():
         assert not changed(*wrong).right(0)
 
 
-def test_what_is_not_answered_is_not_right_and_an_ill_conditioned_problem_asks_for_less():
+def test_what_is_not_answered_is_told_and_not_right():
     answers = [{"name": PAIR, "unsupported": "no"}, {"name": "rigid-cannon", "failed": "it died"}]
     found = {one.name: one for one in score_all(PROBLEMS, ANSWERS, answers)}
     assert found[PAIR].outcome == "unsupported"
@@ -104,6 +107,9 @@ def test_what_is_not_answered_is_not_right_and_an_ill_conditioned_problem_asks_f
     assert found["rigid-million"].outcome == "missing"
     assert not any(one.right(0) for one in found.values())
     assert score.summary(list(found.values()))["answered"] == 0
+
+
+def test_an_ill_conditioned_problem_asks_for_fewer_digits():
     worst = max(ANSWERS, key=lambda answer: answer["conditioning"]["velocities"])
     name, factor = worst["name"], worst["conditioning"]["velocities"]
     assert factor > 100.0
@@ -173,13 +179,16 @@ def test_ours_is_right():
 
 
 @pytest.mark.parametrize("name", [PAIR, "dashpot-one-ball", "hysteretic-superballs"])
-def test_scipy_is_right_where_problems_are_easy_and_knows_no_rigid_ones(name):
-    solve = by_scipy.DOP853.prepare()
-    one = scored([{"name": name, **solve(BY_NAME[name])}], name)
+def test_scipy_is_right_where_problems_are_easy(name):
+    answer = {"name": name, **by_scipy.DOP853.prepare()(BY_NAME[name])}
+    one = scored([answer], name)
     assert one.right(9)
     assert one.forces > 6.0
+
+
+def test_a_program_says_what_it_is_not_meant_for():
     with pytest.raises(Unsupported, match="rigid collisions"):
-        solve(BY_NAME["rigid-cannon"])
+        by_scipy.DOP853.prepare()(BY_NAME["rigid-cannon"])
 
 
 @pytest.mark.parametrize(("restitution", "ratio"), [(0.744079, 0.1), (0.450975, 0.3)])
@@ -187,9 +196,7 @@ def test_the_damping_of_a_soft_rigid_contact_has_the_restitution(restitution, ra
     assert by_mujoco.damping_ratio(restitution) == pytest.approx(ratio, abs=1e-6)
 
 
-def test_the_table_has_a_row_for_each_program_and_the_command_writes_it(
-    tmp_path, monkeypatch, capsys
-):
+def test_the_table_has_a_row_for_each_program(tmp_path):
     problems = [BY_NAME[PAIR], BY_NAME["rigid-cannon"]]
     right = answer_to("rigid-cannon") | {"seconds": 0.001}
     answers = [{"name": PAIR, "failed": "not done", "seconds": 1.0}, right]
@@ -199,6 +206,9 @@ def test_the_table_has_a_row_for_each_program_and_the_command_writes_it(
     assert "| pymunk (Chipmunk) | 7 | 1 | 1 | 1 | 1 | 1 | 15.0 | 15.0 | – | 1.0 |" in text
     assert len((tmp_path / "impacts.csv").read_text("utf-8").splitlines()) == 3
     assert json.loads((tmp_path / "impacts.json").read_text("utf-8"))[0]["version"] == "7"
+
+
+def test_the_command_prints_and_writes_the_table(tmp_path, monkeypatch, capsys):
     options = ["--only", "stackbounce", "--problem", PAIR, "--out", str(tmp_path)]
     monkeypatch.setattr(sys, "argv", ["impacts", *options])
     command.main()

@@ -46,12 +46,15 @@ def test_correlated_numbers_keep_their_covariance():
     assert np.isnan(found.sensitivity.total).all()
     assert float(found.sensitivity["first"].sel(quantity="durations.0").sum()) == pytest.approx(1.0)
     assert "correlated" in found.advice("durations.0")
+
+
+def test_the_same_variable_twice_cancels():
     off = ufloat(1.0, 0.01)
     found = sb.predict(ONE, {"balls.0.mass": 0.06 * off, "contacts.0.stiffness": 2e4 * off})
     assert found["durations.0"].std_dev < 1e-6 * found["durations.0"].nominal_value
 
 
-def test_changing_counts_are_drawn_bit_for_bit_the_same_by_seed():
+def test_changing_counts_are_drawn():
     found = sb.predict(LOSSY, CHANGING)
     assert found.method == "draws"
     assert found.how == "errors by 10000 draws: contact 0 collides 1 or 2 times"
@@ -60,6 +63,9 @@ def test_changing_counts_are_drawn_bit_for_bit_the_same_by_seed():
     assert sum(shares.values()) == pytest.approx(1.0)
     low, middle, high = found.quantiles("rebound_speeds.1")
     assert low < middle < high
+
+
+def test_draws_repeat_bit_for_bit_and_follow_the_seed():
     found = [sb.predict(LOSSY, CHANGING, draws=500, seed=seed) for seed in (0, 0, 1)]
     first, second, other = (prediction.draws for prediction in found)
     assert first.identical(second)
@@ -76,9 +82,12 @@ def test_long_runs_are_drawn_less_often():
     assert short.draws.sizes["draw"] == 200
 
 
-def test_an_error_of_few_draws_is_said_to_be_rough_and_draws_are_drops():
+def test_an_error_that_comes_from_few_draws_is_said_to_be_rough():
     (note,) = sb.predict(LOSSY, CHANGING, draws=200).notes
     assert note.startswith("the error of rebound_ratios.0, rebound_ratios.1, rebound_speeds.0 and")
+
+
+def test_draws_are_drops_of_their_own():
     draws = sb.predict(LOSSY, CHANGING, draws=300).draws
     paths = list(CHANGING)
     ds = sb.sweep(LOSSY, {path: draws[path].drop_vars(paths) for path in paths})
@@ -86,7 +95,7 @@ def test_an_error_of_few_draws_is_said_to_be_rough_and_draws_are_drops():
     assert np.array_equal(ds.last_release, draws.last_release)
 
 
-def test_impossible_numbers_are_left_out_and_round_off_has_no_error():
+def test_impossible_numbers_are_left_out_and_named():
     found = sb.predict(LOSSY, {"gaps.0": (0.0, 1e-4)})
     assert float(found.draws["gaps.0"].min()) >= 0.0
     assert "gaps.0 must be a number of metres, 0 or above" in found.how
@@ -94,6 +103,9 @@ def test_impossible_numbers_are_left_out_and_round_off_has_no_error():
     assert note.startswith("the error of energy_retained is known")
     half = 1e-4 * math.sqrt(1.0 - 2.0 / math.pi)  # of half a normal distribution
     assert float(found.draws["gaps.0"].std()) == pytest.approx(half, rel=0.03)
+
+
+def test_round_off_has_no_error():
     row = sb.Drop([sb.Ball(0.1)] * 2, [None, sb.Spring(1e4)], velocities=[1.0, 0.0])
     found = sb.predict(row, {"velocities.0": (1.0, 0.01)})
     assert found.method == "derivatives"
@@ -121,12 +133,15 @@ def test_sobol_indices_of_a_product():
         assert np.all(off < 0.05)
 
 
-def test_the_advice_names_the_number_that_makes_most_and_given_draws_are_used():
+def test_the_advice_names_the_number_that_makes_most():
     errors = {"contacts.0.restitution": (0.8, 0.001), "impact_speed": (3.0, 0.03)}
     assert sb.predict(RIGID, errors).advice() == (
         "measure impact_speed better: it makes 98 % of the variance of rebound_speeds.0"
     )
     assert sb.predict(RIGID, {"impact_speed": (3.0, 0.03)}).advice() == ""
+
+
+def test_given_draws_are_used_as_they_are():
     random = np.random.default_rng(3)
     restitution = random.uniform(0.7, 0.9, 500)
     speed = 3.0 / restitution
@@ -140,7 +155,7 @@ def test_the_advice_names_the_number_that_makes_most_and_given_draws_are_used():
     assert mixed.draws.impact_speed.std() > 0.05
 
 
-def test_apexes_and_forces_have_errors_and_a_prediction_is_a_table_too():
+def test_apexes_and_forces_have_errors():
     drop = sb.Drop([sb.Ball(0.06)], [sb.Rigid(0.8)], height=1.0, gravity=9.81)
     found = sb.predict(drop, {"height": (1.0, 0.01)}, until=1.2)
     first = found.apexes[0]
@@ -150,6 +165,9 @@ def test_apexes_and_forces_have_errors_and_a_prediction_is_a_table_too():
     peak = found.carry(lambda result: {"force": result.intervals["peak_force"].max()})["force"]
     exact = (2 * 9.80665 * ufloat(0.63, 0.01) * 0.06 * 2e4) ** 0.5
     assert (peak.nominal_value, peak.std_dev) == pytest.approx((exact.n, exact.s), rel=1e-3)
+
+
+def test_a_prediction_as_a_table_and_as_values():
     found = sb.predict(RIGID, {"impact_speed": (3.0, 0.03)})
     assert "rebound_speeds.0          2.400 ± 0.024    m/s" in found.table()
     assert found.as_dict()["values"]["rebound_speeds.0"]["error"] == pytest.approx(0.024)
@@ -168,15 +186,21 @@ def test_a_band_encloses_the_curve(errors):
     assert np.mean((low <= middle + 1e-9) & (middle - 1e-9 <= high)) > 0.9
 
 
-def test_numbers_in_many_forms_replace_the_drops_own_and_an_error_of_zero_is_none():
+def test_an_error_of_zero_is_no_error():
     found = sb.predict(RIGID, {"impact_speed": (3.0, 0.03), "contacts.0.restitution": (0.8, 0.0)})
     assert found["rebound_speeds.0"].std_dev == pytest.approx(0.024)
     assert list(found.sensitivity.number) == ["impact_speed", "contacts.0.restitution"]
+
+
+def test_numbers_in_many_forms_replace_the_drops_own():
     for form in ("1.00 m ± 1 cm", (1.0, 0.01), ("100 cm", "10 mm"), ufloat(1.0, 0.01)):
         found = sb.predict(ONE, {"height": form})
         assert str(found["rebound_speeds.0"]) == "4.429+/-0.022"
         assert found.drop.height == 1.0
         assert found.result.rebound_speeds[0] == pytest.approx(found.rebound_speeds[0].n)
+
+
+def test_drops_that_do_not_finish_are_counted():
     errors = {"height": (0.2, 0.001)}
     (note,) = sb.predict(LOSSY, errors, event_limit=1).notes
     assert note == "10000 of 10000 drops did not finish and were left out"
@@ -209,9 +233,12 @@ def test_bad_input_is_one_clear_error(errors, message):
     assert "\n" not in str(caught.value)
 
 
-def test_names_of_curves_and_numbers_that_there_are_not_are_refused():
+def test_a_curve_that_there_is_not_is_refused():
     with pytest.raises(InvalidValue, match="'speed' is not a curve; known: position, velocity"):
         sb.predict(ONE, {"height": (0.6, 0.01)}).band([0.0], "speed")
+
+
+def test_names_that_are_not_predicted_are_refused():
     found = sb.predict(RIGID, {"impact_speed": (3.0, 0.03)})
     for ask in (found.__getitem__, found.quantiles, found.advice):
         with pytest.raises(InvalidValue, match=r"is not predicted; did you mean rebound_speeds\.0"):

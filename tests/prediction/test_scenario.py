@@ -42,7 +42,7 @@ def test_what_is_written_is_read(tmp_path, seed):
     assert dict(zip(known.paths, numbers, strict=True)) == errors
 
 
-def test_numbers_have_their_units_and_places_and_correlated_errors_none():
+def test_numbers_have_their_units_and_places():
     errors = {
         "balls.0.mass": "150 ± 2 g",
         "contacts.0.stiffness": (2.1e5, 1e4),
@@ -58,6 +58,9 @@ def test_numbers_have_their_units_and_places_and_correlated_errors_none():
     assert 'stiffness = "210000.0 ± 10000.0 N/m**1.5"' in lines
     assert 'unloading_exponent = "2.0 ± 0.1"' in lines
     assert not any(line.startswith("restitution") for line in lines)
+
+
+def test_correlated_errors_have_no_place_in_a_file():
     mass = ufloat(0.15, 0.002)
     with pytest.raises(InvalidValue, match="must be independent"):
         write_scenario(DROP, {"balls.0.mass": mass, "balls.1.mass": mass / 3})

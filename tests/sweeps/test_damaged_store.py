@@ -48,17 +48,20 @@ def test_a_damaged_store_beside_one_that_is_not_complete(tmp_path):
     assert write(out, DROP, VALUES, block=64) == out
 
 
-def test_files_of_others_are_kept_and_a_log_that_is_no_file_is_refused(tmp_path):
+def test_files_of_others_in_a_store_are_kept(tmp_path):
     out = tmp_path / "map.zarr"
     write_some(out)
     own = tmp_path / "map.zarr.partial" / "status" / "notes.partial"
     own.write_text("mine")
     write(out, DROP, VALUES, block=64)
     assert (out / "status" / "notes.partial").read_text() == "mine"
-    other = tmp_path / "other.zarr"
-    os.mkfifo(tmp_path / "other.zarr.progress")
+
+
+def test_a_log_that_is_no_file_is_refused(tmp_path):
+    out = tmp_path / "map.zarr"
+    os.mkfifo(tmp_path / "map.zarr.progress")
     with pytest.raises(FileError, match="is no ordinary file"):
-        write(other, DROP, VALUES, block=64)
+        write(out, DROP, VALUES, block=64)
 
 
 def harmed(text):
@@ -84,25 +87,31 @@ def test_damaged_metadata_are_named(whole, out, name, harm):
     assert json.loads((out / ".zgroup").read_bytes()) == {"zarr_format": 2}
 
 
-def test_a_damaged_coordinate_and_a_writer_that_has_just_begun_are_named(whole, out):
+def test_a_damaged_coordinate_is_named(whole, out):
     shutil.copytree(whole, out)
     (chunk,) = (out / "balls.0.mass").glob("[0-9]*")
     chunk.write_bytes(b"\xff" * chunk.stat().st_size)
     with pytest.raises(sb.StackbounceError, match=r"map.zarr exists, and (cannot be read|is not)"):
         write(out, DROP, VALUES, block=64)
-    other = out.with_name("other.zarr")
-    with only_writer(other) as log:
+
+
+def test_a_writer_that_has_just_begun_is_named(out):
+    with only_writer(out) as log:
         threading.Timer(0.1, log.sign).start()
         words = rf"is being written by process {os.getpid()} on .* since \d{{4}}-.*: wait until"
         with pytest.raises(sb.StackbounceError, match=words):
-            write(other, DROP, VALUES, block=64)
+            write(out, DROP, VALUES, block=64)
 
 
-def test_no_log_is_left_behind_by_a_kill_at_the_end_or_another_sweep(whole, out):
+def test_killed_when_all_was_done_it_leaves_nothing(whole, out):
     shutil.copytree(whole, out)
     log_of(out).write_text("# process 1 on x since then\nready\n")
     write(out, DROP, VALUES, block=64)
     assert list(out.parent.iterdir()) == [out]
+
+
+def test_another_sweep_leaves_no_log_behind(whole, out):
+    shutil.copytree(whole, out)
     with pytest.raises(sb.StackbounceError, match="is not this sweep"):
         write(out, DROP, grid(DROP, OVER[:1]), block=64)
     assert list(out.parent.iterdir()) == [out]

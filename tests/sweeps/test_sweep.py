@@ -79,13 +79,16 @@ def test_any_number_can_vary(path, laws, values):
         assert_same(ds[{path: k}], other, until=1.0)
 
 
-def test_height_and_gravity_vary_together_and_so_do_velocities():
+def test_height_and_gravity_vary_together():
     drop = sb.Drop(TWO, LAWS["springs"], height=1.0)
     heights, gravities = [0.5, 2.0], [0.0, 3.7]
     ds = sb.sweep(drop, {"height": heights, "gravity": gravities}, until=0.02)
     for (i, height), (j, gravity) in product(enumerate(heights), enumerate(gravities)):
         one = sb.Drop(TWO, LAWS["springs"], height=height, gravity=gravity)
         assert_same(ds[{"height": i, "gravity": j}], one, until=0.02)
+
+
+def test_velocities_of_a_cradle():
     row = [None, sb.Hertz(1e9), sb.Hertz(1e9)]
     drop = sb.Drop([sb.Ball(0.03)] * 3, row, velocities=[1.0, 0.0, 0.0])
     ds = sb.sweep(drop, {"velocities.1": np.linspace(-1.0, 1.0, 5)})
@@ -111,10 +114,13 @@ def test_arrays_broadcast_by_dimension_name():
     assert_same(ds.sel(soft="b").isel(run=1), one)
 
 
-def test_provenance_and_units_also_where_nothing_varies():
+def test_nothing_varies():
     drop = sb.Drop(TWO, LAWS["springs"], impact_speed=3.53)
     assert_same(sb.sweep(drop, {}), drop)
     assert_same(sb.sweep(drop, {"balls.0.mass": 0.15}), drop)
+
+
+def test_provenance_and_units():
     drop = sb.Drop(TWO, LAWS["losses"], impact_speed=3.53)
     ds = sb.sweep(drop, {"balls.0.mass": [0.1]}, rtol=1e-6)
     assert ds.attrs["stackbounce"] == sb.__version__
@@ -128,12 +134,15 @@ def test_provenance_and_units_also_where_nothing_varies():
     assert names == {int(status): status.name for status in sb.Status}
 
 
-def test_an_unfinished_drop_is_marked_and_an_error_has_all_numbers_of_the_element():
+def test_an_unfinished_drop_is_marked_and_the_others_are_not():
     drop = sb.Drop([sb.Ball(1.0), sb.Ball(1.0)], [sb.Rigid(1.0)] * 2, impact_speed=1.0)
     ds = sb.sweep(drop, {"balls.1.mass": [1.0, 1e8]}, event_limit=100)
     assert [sb.Status(status).name for status in ds.status.values] == ["FINISHED", "EVENT_LIMIT"]
     assert ds.collisions.values.sum(axis=-1).tolist() == [3, 100]
     assert np.isfinite(ds.rebound_ratio).all()
+
+
+def test_an_error_has_all_numbers_of_the_element():
     drop = sb.Drop(TWO, LAWS["losses"], impact_speed=3.53)
     values = {"contacts.1.exponent": [1.0, 3.0], "contacts.1.unloading_exponent": [2.0, 5.0]}
     with pytest.raises(sb.StackbounceError) as caught:

@@ -34,9 +34,7 @@ def whole(tmp_path_factory):
     return path, digest(path)
 
 
-def test_a_store_holds_what_sweep_returns_and_is_read_where_nothing_can_be_written(
-    whole, monkeypatch
-):
+def test_a_store_holds_what_sweep_returns(whole):
     with opened(whole[0]) as data:
         stored, eager = data.load(), sb.sweep(DROP, VALUES)
     assert set(stored) == set(eager)
@@ -50,6 +48,8 @@ def test_a_store_holds_what_sweep_returns_and_is_read_where_nothing_can_be_writt
         assert all(np.all(eager[name].attrs[k] == v) for k, v in stored[name].attrs.items())
     assert not [path for path in whole[0].parent.iterdir() if path != whole[0]]
 
+
+def test_a_complete_file_is_read_where_nothing_can_be_written(whole, monkeypatch):
     def refuse(*_, **__):
         raise PermissionError
 
@@ -128,9 +128,7 @@ def test_chunks_of_dask_make_it_lazy():
         bad.compute()
 
 
-def test_a_complete_store_is_left_alone_and_neither_it_nor_a_part_is_lost_to_another(
-    whole, tmp_path
-):
+def test_a_complete_store_is_left_alone_and_another_is_refused(whole):
     calls = []
     write(whole[0], DROP, VALUES, block=64, progress=lambda *done: calls.append(done))
     assert calls == [(600, 600)]
@@ -138,6 +136,9 @@ def test_a_complete_store_is_left_alone_and_neither_it_nor_a_part_is_lost_to_ano
         with pytest.raises(sb.StackbounceError, match="exists, and is not this sweep"):
             write(whole[0], DROP, values, **options)
     assert digest(whole[0]) == whole[1]
+
+
+def test_part_of_another_sweep_is_not_lost(whole, tmp_path):
     out = tmp_path / whole[0].name
     write_some(out)
     kept = digest(tmp_path)
@@ -203,7 +204,7 @@ def test_a_block_that_is_lost_is_computed_again(tmp_path, harm):
     assert list(tmp_path.iterdir()) == [out]
 
 
-def test_chunks_of_one_value_tall_stacks_and_no_number_that_varies_are_stored(tmp_path):
+def test_chunks_of_one_value_are_there(tmp_path):
     """No ball touches the other: all of a chunk is nan, zarr's value of what is not written."""
     drop = sb.Drop([sb.Ball(0.1), sb.Ball(1.0)], [sb.Spring(1e3)] * 2, velocities=[-1.0, 0.0])
     out, calls = tmp_path / "map.zarr", []
@@ -212,6 +213,9 @@ def test_chunks_of_one_value_tall_stacks_and_no_number_that_varies_are_stored(tm
         values = {"gaps.0": [0.5, 1.0]}
         write(out, drop, values, until=0.01, progress=lambda *now: calls.append(now))
     assert calls == [(2, 2)]
+
+
+def test_a_tall_stack_and_no_number_that_varies(tmp_path):
     tall = sb.Drop([sb.Ball(0.01)] * 1500, [sb.Rigid(0.5)] * 1500, impact_speed=1.0)
     for number, values in enumerate([{}, {"impact_speed": np.array([1.0, 2.0])}]):
         out = write(tmp_path / f"{number}.zarr", tall, values, event_limit=100)

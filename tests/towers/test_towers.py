@@ -57,17 +57,28 @@ def test_nothing_changes_from_there_on_and_something_just_before(drop):
         assert ratios == pytest.approx(textbook.rebound_ratios, abs=1e-9)
 
 
-def test_limits_of_separation_are_the_closed_forms():
+def test_equal_balls_on_equal_springs_are_separate_after_half_a_period():
     assert sb.separation_limit(pair(1.0, 1.0, SPRINGS)) == pytest.approx(math.pi, rel=1e-12)
     drop = pair(4.0, 1.0, [sb.Spring(9.0)] * 2, impact_speed=2.0)  # m2 < m1
     half = math.pi * math.sqrt(4.0 / 9.0)
     assert sb.separation_limit(drop) == pytest.approx(2.0 * half, rel=1e-12)
+
+
+def test_a_dashpot_is_waited_for_until_its_compression_is_gone():
+    """When the floor's force ends the compression goes on at a constant rate for b/k."""
     law = sb.Dashpot(1.0, 0.2)
     time = sb.contact_time(law, mass=5.0) + law.damping / law.stiffness
     limit = sb.separation_limit(pair(5.0, 1.0, [law, sb.Spring(0.01)]))
     assert limit == pytest.approx(time, rel=1e-9)  # the upper ball came down at 1 m/s
+
+
+def test_collisions_without_end_are_never_separate():
     laws = [sb.Hysteretic(1.0, restitution=0.5)] * 2
     assert sb.separation_limit(pair(1.0, 10.0, laws)) == math.inf
+
+
+def test_touches_of_round_off_do_not_count():
+    """The cannon's lower balls come to rest but for round-off: they touch again, much later."""
     balls = [sb.Ball(m) for m in (0.3, 0.1, 0.05)]
     drop = sb.Drop(balls, [sb.Hertz(1e9)] * 3, impact_speed=1.0)
     assert 0.0 < sb.separation_limit(drop) < 1e-2
@@ -127,13 +138,16 @@ def test_stacks_are_as_simulated_and_in_order():
         assert ds.place.values[order, gap].tolist() == [1, 2, 3, 4, 5, 6]
 
 
-def test_the_best_stack_is_a_scenario_and_equal_ones_count_once():
+def test_the_best_stack_is_a_scenario():
     ds = sb.highest(["B1", "B2", "B3"], 3, gaps=[0.002])
     drop = sb.Drop.from_mapping(tomllib.loads(ds.attrs["best"]))
     assert [ball.name for ball in drop.balls] == ds.balls.values[0].tolist()
     result = sb.simulate(drop)
     assert result.rebound_ratios == pytest.approx(ds.rebound_ratio.values[0, 0], abs=1e-12)
     assert result.drop.gaps == (0.002, 0.002)
+
+
+def test_how_many_stacks_there_are():
     assert sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0]).sizes["stack"] == 6
     assert sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0], repeat=True).sizes["stack"] == 9
     assert sb.highest(["B1", "B1", "B2"], 2, gaps=[0.0]).sizes["stack"] == 3  # equal ones once
@@ -227,7 +241,7 @@ def test_contacts_may_depend_on_the_masses():
     assert len(seen) > 100
 
 
-def test_a_given_stack_is_ranked_with_its_best_masses_at_the_first_gap():
+def test_a_given_stack_is_ranked_with_its_best_masses():
     balls = [sb.Ball(1.0), sb.Ball(0.5, name="middle"), sb.Ball(0.01)]
     drop = sb.Drop(balls, [sb.Rigid(1.0)] * 3, [0.01, 0.02], impact_speed=2.0)
     ds = sb.highest(drop, masses=(0.2, 0.4))
@@ -243,6 +257,9 @@ def test_a_given_stack_is_ranked_with_its_best_masses_at_the_first_gap():
     assert np.isnan(ds.gap).all()
     assert ds.rebound_ratio.values[2, 0] == pytest.approx(sb.simulate(drop).rebound_ratios)
     assert plots.highest(ds).legends[0].get_texts()[0].get_text() == "with its own gaps"
+
+
+def test_masses_are_best_at_the_first_gap():
     balls = [sb.Ball(1.0), sb.Ball(0.5), sb.Ball(0.01)]
     drop = sb.Drop(balls, [sb.Spring(1e4)] * 3, impact_speed=1.0)
     ds = sb.highest(drop, gaps=[0.003, 0.0], masses=True)
@@ -270,13 +287,16 @@ def test_masses_that_make_no_search_are_refused(masses, options, error, message)
         sb.best_masses(drop, **options)
 
 
-def test_the_picture_of_stacks_shows_the_best_above_and_nothing_else():
+def test_the_picture_of_stacks_shows_the_best_above():
     ds = sb.highest(["B1", "B2", "B3"], 2)
     (axes,) = plots.highest(ds).axes
     names = [text.get_text() for text in axes.get_yticklabels()]
     assert names == [" + ".join(stack) for stack in ds.balls.values] == ds["stack"].values.tolist()
     assert axes.get_ylim()[0] > axes.get_ylim()[1]
     assert np.array_equal(axes.get_lines()[0].get_xdata(), ds.height_ratio.isel(gap=0))
+
+
+def test_pictures_of_something_else_are_refused():
     with pytest.raises(InvalidType, match="data must be a Dataset from"):
         plots.highest(sb.sweep(pair(1.0, 1.0, SPRINGS), {"balls.0.mass": [1.0, 2.0]}))
     many = sb.highest(["B1", "B2"], 2, gaps=list(np.linspace(0.0, 0.01, 9)))
