@@ -425,6 +425,16 @@ def test_what_ends_a_run_is_one_line(run, monkeypatch, error, code, line):
 
 
 @pytest.mark.fast_cases(2)
+@pytest.mark.parametrize("speed", ["1e200", "1e-200", "1e308", "5e-324"])
+@pytest.mark.parametrize("form", [[], ["--json"]])
+def test_speeds_at_the_ends_of_the_range(run, speed, form):
+    code, out, err = run("simulate", "B1", "B2", "--speed", speed, *form)
+    lost = "stackbounce: error: no result for 1 of 1 drop: 1"
+    assert (code, err) in [(0, ""), (3, f"{lost} EVENT_LIMIT\n"), (3, f"{lost} INVALID\n")]
+    assert "nan" not in out.lower()
+
+
+@pytest.mark.fast_cases(2)
 @pytest.mark.skipif(os.name != "posix", reason="a shell closes the streams")
 @pytest.mark.parametrize(
     ("streams", "line"),
@@ -495,6 +505,13 @@ def test_paper_says_what_it_does_and_what_came_out(run, write):
 def test_an_output_folder_needs_a_name(refused, write):
     assert refused("paper", "--out", "") == "--out must name a folder, got ''\n"
     assert write == []
+
+
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write everywhere")
+def test_an_output_folder_without_permission(refused):
+    Path("shut").mkdir(mode=0o500)
+    assert refused("paper", "--out", "shut") == "shut cannot be written to: Permission denied\n"
+    assert list(Path("shut").iterdir()) == []
 
 
 @pytest.mark.parametrize("folder", ["file", "file/new/deep", "/proc/new"])
