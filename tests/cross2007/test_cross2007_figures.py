@@ -24,6 +24,8 @@ from stackbounce.cross2007.stacks import (
     late_pair,
     late_twins,
     reversed_pair,
+    stiffen,
+    twin_pair,
 )
 from stackbounce.cross2007.style import GREY, render, use_style
 from stackbounce.cross2007.tables import make_table_one, make_table_two
@@ -67,6 +69,11 @@ def test_the_same_figure_gives_the_same_bytes(drawn):
     with use_style():
         again = FIGURES["9"](Bench(PAPER))
     assert render(again.figure) == render(drawn["9"].figure)
+
+
+def test_figure_six_is_dashed_and_solid_as_the_caption_says(drawn):
+    styles = [line.get_linestyle() for line in curves(drawn["6"].figure.axes[0])]
+    assert styles == ["--", "-"] * 3
 
 
 def test_figures_follow_the_data(drawn):
@@ -155,6 +162,11 @@ def test_the_floor_force_shows_the_peaks_that_the_text_counts(bench):
     assert len(peak_times(bench.simulate(three), 0, 0.011)) == 3
     assert len(peak_times(bench.simulate(early_twins(bench)), 0, 0.0095)) == 2
     assert list(bench.simulate(late_twins(bench)).collisions) == [2, 1]
+
+
+def test_stiffening_makes_the_contact_one_of_hertz(bench):
+    law = stiffen(bench, twin_pair(bench, 0.0)).contacts[0]
+    assert (law.exponent, law.restitution) == (1.5, 1.0)
 
 
 def test_table_one_carries_the_errors(bench):
