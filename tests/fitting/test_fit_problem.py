@@ -1,6 +1,6 @@
 """`FitProblem`: what a fit needs, checked when it is made; a model until it has data."""
 
-from dataclasses import replace
+from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
 import pytest
@@ -45,6 +45,11 @@ def test_a_problem_has_the_residuals_of_many_trials():
 def test_a_problem_is_checked_when_it_is_made(change, expected):
     with pytest.raises((InvalidType, InvalidValue), match=expected):
         FitProblem(**{"drops": DROP, "data": DATA, "vary": [STIFFNESS], **change})
+
+
+def test_a_problem_does_not_change():
+    with pytest.raises(FrozenInstanceError):
+        FitProblem(DROP, DATA, [STIFFNESS]).rtol = 1e-6
 
 
 def test_a_model_is_a_problem_without_data():

@@ -259,6 +259,14 @@ def test_what_is_no_path(path):
     assert got == f"path must be a string or a path, got {path!r}"
 
 
+def test_a_path_in_bytes_of_an_object_is_refused():
+    class InBytes:
+        def __fspath__(self):
+            return b"drop.toml"
+
+    assert refusal(errors.InvalidType, Drop.from_toml, InBytes()).startswith("path must be a str")
+
+
 @pytest.mark.parametrize(
     ("text", "law"),
     [
