@@ -101,6 +101,16 @@ def test_starts_are_told_next_to_numpy():
     assert len(figures.startup(starts).axes[0].patches) == 2 * len(starts)
 
 
+def test_a_start_is_the_median_of_its_rounds_and_of_their_ratios(monkeypatch):
+    monkeypatch.setattr(startup, "STARTS", {startup.BASE: "1", "ours": "2"})
+    first, rounds = [(9.0, 9.0)] * 2, [(1, 2), (3, 4), (2, 2), (4, 3), (1, 1), (8, 9)]
+    spent = iter([*first, *rounds])
+    monkeypatch.setattr(startup, "_spent", lambda _: next(spent))
+    base, ours = startup.measure(quiet, rounds=3)
+    assert base == startup.Start(startup.BASE, 1.0, 2.0, 1.0, 1.0)
+    assert ours == startup.Start("ours", 4.0, 4.0, 3.0, 2.0)
+
+
 @pytest.mark.slow
 def test_other_laws_are_told_next_to_scipy_at_equal_error(monkeypatch):
     monkeypatch.setattr(laws, "THEIRS", (1e-6,))
@@ -118,3 +128,4 @@ def test_rigid_collisions_are_told_next_to_a_division(monkeypatch):
     monkeypatch.setattr(laws, "DIVISIONS", 10**4)
     found = laws.rigid(quiet)
     assert min(found.division, found.collision) > 0.0
+    assert laws.divisions(2) == 1.5
