@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from stackbounce.extras import EXTRAS
+from stackbounce.errors import MissingExtra
+from stackbounce.extras import EXTRAS, need
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
@@ -44,6 +45,23 @@ def test_an_extra_brings_what_it_says(extra):
 
 def test_everything_is_in_all():
     assert set(PROJECT["optional-dependencies"]) == {*EXTRAS, "all", "dev", "bench"}
+
+
+@pytest.mark.parametrize("extra", EXTRAS)
+def test_a_missing_extra_is_named(extra, monkeypatch):
+    for module in EXTRAS[extra]:
+        monkeypatch.setitem(sys.modules, module, None)
+    with pytest.raises(MissingExtra) as caught:
+        need(extra, "a task")
+    names = ", ".join(EXTRAS[extra])
+    assert str(caught.value) == f"a task needs {names}: pip install 'stackbounce[{extra}]'"
+
+
+def test_what_is_installed_of_an_extra_is_not_named(monkeypatch):
+    need("fit", "stackbounce fit")
+    monkeypatch.setitem(sys.modules, "lmfit", None)
+    with pytest.raises(MissingExtra, match=r"^a fit needs lmfit: pip install 'stackbounce\[fit\]'"):
+        need("fit", "a fit")
 
 
 @pytest.mark.fast_cases(1)
