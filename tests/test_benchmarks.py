@@ -23,13 +23,11 @@ def small():
 def test_random_drops_are_what_they_say():
     drops = random_drops.random(1000, seed=3)
     mass, stiffness, gap = drops.ratios.T
-    for ratio, limits in [
-        (mass, random_drops.MASS_RATIOS),
-        (stiffness, random_drops.STIFFNESS_RATIOS),
-    ]:
-        assert limits[0] <= ratio.min() < 2 * limits[0]
-        assert limits[1] / 2 < ratio.max() <= limits[1]
-        assert abs(np.median(np.log(ratio)) - np.log(limits).mean()) < 0.5
+    limits = (random_drops.MASS_RATIOS, random_drops.STIFFNESS_RATIOS)
+    for ratio, (low, high) in zip((mass, stiffness), limits, strict=True):
+        assert low <= ratio.min() < 2 * low
+        assert high / 2 < ratio.max() <= high
+        assert abs(np.median(np.log(ratio)) - np.log([low, high]).mean()) < 0.5
     assert np.count_nonzero(gap == 0.0) == 500
     assert 1.9 < gap.max() <= 2.0
     assert np.array_equal(drops.masses[:, 0] / drops.masses[:, 1], 1.0 / (1.0 / mass))
@@ -118,10 +116,10 @@ def test_other_laws_are_told_next_to_scipy_at_equal_error(monkeypatch):
     monkeypatch.setattr(laws, "THEIRS", (1e-6,))
     monkeypatch.setattr(laws, "ROUNDS", 1)
     entries = laws.nonlinear(quiet, drops=4)
-    assert [one.law for one in entries] == list(laws.LAWS)
-    for one in entries:
-        assert 0.0 < one.our_error <= one.error < 1e-3
-        assert min(one.seconds, one.our_seconds) > 0.0
+    assert [entry.law for entry in entries] == list(laws.LAWS)
+    for entry in entries:
+        assert 0.0 < entry.our_error <= entry.error < 1e-3
+        assert min(entry.seconds, entry.our_seconds) > 0.0
     assert len(report.law_times(entries)) == len(figures.laws(entries).axes[0].lines) == 4
 
 

@@ -11,24 +11,16 @@ from stackbounce.units import quantity
     ("text", "unit", "value"),
     [
         ("58 mm", "m", 0.058),
-        ("58mm", "m", 0.058),
         ("0.63m", "m", 0.63),
         ("5 µm", "m", 5e-6),
         ("2 in", "m", 0.0508),
         ("24.8 g", "kg", 0.0248),
-        ("150 g", "kg", 0.150),
         ("20 kN/m", "N/m", 20000.0),
-        ("2.5kN/m", "N/m", 2500.0),
         ("9.81 m/s^2", "m/s**2", 9.81),
-        ("9.81 m/s**2", "m/s**2", 9.81),
         ("9.81 m s^-2", "m/s**2", 9.81),
-        ("3.53 m/s", "m/s", 3.53),
         ("36 km/h", "m/s", 10.0),
-        ("30 ms", "s", 0.030),
         ("78 %", "", 0.78),
-        ("0.78", "", 0.78),
         ("1 N/mm^1.5", "N/m**1.5", 1000.0**1.5),
-        ("1e-3 m", "m", 1e-3),
         ("-.5 m", "m", -0.5),
         ("+2 m", "m", 2.0),
         (" 2 m ", "m", 2.0),
@@ -54,9 +46,13 @@ def test_numbers_are_si_already(value):
 def test_message_is_one_clear_line():
     with pytest.raises(errors.UnitError) as caught:
         quantity("3 kg", "m", "height")
-    assert str(caught.value) == (
-        "height must be a length (a number of m or a string such as \"58 mm\"), got '3 kg'"
-    )
+    right = 'a length (a number of m or a string such as "58 mm")'
+    assert str(caught.value) == f"height must be {right}, got '3 kg'"
+
+
+def test_unknown_unit_is_said_to_be_one():
+    with pytest.raises(errors.UnitError, match=r"got '3 furlongz', of unknown unit$"):
+        quantity("3 furlongz", "m")
 
 
 @pytest.mark.parametrize(
@@ -65,9 +61,6 @@ def test_message_is_one_clear_line():
         ("3 kg", "m", "a length"),
         ("3 m", "kg", "a mass"),
         ("3 m", "m/s", "a speed"),
-        ("3 N", "N/m", "a stiffness"),
-        ("3 m/s", "m/s**2", "an acceleration"),
-        ("3 m", "s", "a time"),
         ("3 m", "", "a pure number"),
         ("1 N/m", "N/m**1.5", "a quantity"),
     ],
@@ -93,11 +86,6 @@ def test_strings_that_cannot_be_read(text):
         quantity(text, "m", "x")
     assert "\n" not in str(caught.value)
     assert len(str(caught.value)) < 200
-
-
-def test_unknown_unit_is_said_to_be_one():
-    with pytest.raises(errors.UnitError, match=r"got '3 furlongz', of unknown unit$"):
-        quantity("3 furlongz", "m")
 
 
 @pytest.mark.parametrize("value", [None, True, [1.0], {}, b"3 m"])

@@ -4,15 +4,15 @@ import os
 import re
 import subprocess
 import sys
-from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from typer.testing import CliRunner
 
 import stackbounce as sb
 from stackbounce import cross2007, plots
-from stackbounce.cli import app, descriptions, main, output, tables
+from stackbounce.cli import app, descriptions, main, tables
 from stackbounce.cli.drop_options import read_contact
 from stackbounce.cli.scenario import read
 from stackbounce.model import LAWS
@@ -21,7 +21,6 @@ from stackbounce.run.collision import separate
 from stackbounce.version import __version__
 
 PAIR = ["simulate", "basketball", "tennis", "--height", "0.63m", "--gap", "2mm"]
-
 
 MAIN = "import sys; from stackbounce.cli import main; sys.exit(main())"
 
@@ -38,9 +37,6 @@ def rows(text, first):
     return [row for row in cells if row[0] == first and len(row) > 1]
 
 
-# the front door
-
-
 def test_version_and_help(run):
     assert run("--version") == (0, f"stackbounce {__version__}\n", "")
     code, out, err = run("--help")
@@ -51,6 +47,11 @@ def test_version_and_help(run):
     assert CliRunner().invoke(app, ["--help"]).exit_code == 0
     for command in ("simulate", "balls", "paper"):
         assert run(command, "--help")[0] == 0
+
+
+def test_help_names_every_law(run):
+    _, out, _ = run("simulate", "--help")
+    assert all(name in out for name in LAWS)
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["fit", "--help"]])
@@ -70,10 +71,8 @@ def test_help_does_not_wait_for_heavy_libraries(arguments):
         (["simulat"], "No such command 'simulat'", "stackbounce"),
         (["balls", "--jsn"], "No such option", "stackbounce balls"),
         (["simulate"], "Missing argument", "stackbounce simulate"),
-        (["paper"], "Missing option '--out'", "stackbounce paper"),
         (["simulate", "B1", "--height"], "'--height' requires an argument", "stackbounce simulate"),
         (["balls", "B1"], "unexpected extra argument", "stackbounce balls"),
-        (["measure", "--hight", "1m"], "No such option", "stackbounce measure"),
     ],
 )
 def test_wrong_usage_is_one_line(refused, arguments, expected, command):
@@ -112,16 +111,11 @@ def test_the_shells_script_asks_this_program(monkeypatch, capsys):
     assert "_STACKBOUNCE_COMPLETE=complete_bash" in capsys.readouterr().out
 
 
-# simulate
-
-
 def test_a_table_for_people(run):
     code, out, err = run(*PAIR)
     assert (code, err) == (0, "")
     assert "basketball + tennis from 0.63 m, at 3.515 m/s" in out
-    assert (
-        "contact 1, basketball – tennis: Spring, stiffness 1000 N/m  [Cross 2007, Figure 9]" in out
-    )
+    assert "contact 1, basketball – tennis: Spring, stiffness 1000 N/m  [Cross 2007, Fig" in out
     assert "gap 0, basketball – tennis: 2 mm  [--gap]" in out
     assert "Energy retained: 100.0 %" in out
     result = sb.simulate(read(PAIR[1:3], height="0.63m", gap=["2mm"]).drop)
@@ -140,6 +134,13 @@ def test_a_table_for_people(run):
     assert cells == pytest.approx(numbers, rel=1e-3)
 
 
+def test_springs_of_any_exponent_lose_nothing(run):
+    _, out, _ = run("simulate", "B1", "--contact", "Hertz stiffness=1e6")
+    assert "Springs lose nothing." in out
+    _, out, _ = run("simulate", "B1", "--contact", "Dashpot stiffness=1e4 damping=1")
+    assert "Springs lose nothing." not in out
+
+
 @pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     "arguments", [PAIR, ["balls"], ["simulate", "B1", "B2", "B3", "tennis"], ["simulate", "B1"]]
@@ -155,6 +156,14 @@ def test_piped_output_is_plain_and_no_wider_than_a_page(arguments):
 def test_a_terminal_without_unicode_is_no_reason_to_fail():
     done = process(*PAIR, env=os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"})
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_reader_that_goes_away_is_no_error():
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = process("balls", capture_output=False, stdout=writer, stderr=subprocess.PIPE)
+    os.close(writer)
+    assert done.stderr == ""
 
 
 def test_json_for_machines(run):
@@ -182,32 +191,36 @@ def test_json_has_null_where_numbers_are_not_finite(run):
     assert got["separate"] is None
 
 
+def test_a_rigid_drop_needs_no_textbook_beside_it(run):
+    _, out, _ = run("simulate", "B1", "--contact", "Rigid restitution=0.5", "--speed", "2")
+    assert "Rigid, restitution 0.5" in out
+    assert "eparate" not in out
+    assert rows(out, "B1")[0][3:6] == ["1.000", "0.5000", "0.2500"]
+
+
 def test_a_scenario_file_and_changes_to_it(run):
-    drop = sb.Drop(
-        [sb.Ball(0.1, name="lower"), sb.Ball(0.05)],
-        [sb.Spring(1e4), sb.Hysteretic(5e3, restitution=0.8)],
-        height=0.5,
-    )
+    laws = [sb.Spring(1e4), sb.Hysteretic(5e3, restitution=0.8)]
+    drop = sb.Drop([sb.Ball(0.1, name="lower"), sb.Ball(0.05)], laws, height=0.5)
     Path("drop.toml").write_text(drop.to_toml())
     code, out, err = run("simulate", "drop.toml")
     assert (code, err) == (0, "")
     assert "lower + ball 1 from 0.5 m, at 3.132 m/s" in out
     assert "Hysteretic, stiffness 5000 N/m, restitution 0.8  [drop.toml]" in out
-    code, out, _ = run(
-        "simulate", "./drop.toml", "--speed", "2 m/s", "--gap", "1mm", "--gravity", "9.81m/s^2",
-        "--contact", "Spring stiffness='20 kN/m'", "--contact", "spring stiffness=1000", "--json",
-    )  # fmt: skip
+    numbers = ("--speed", "2 m/s", "--gap", "1mm", "--gravity", "9.81m/s^2")
+    laws = ("--contact", "Spring stiffness='20 kN/m'", "--contact", "spring stiffness=1000")
+    code, out, _ = run("simulate", "./drop.toml", *numbers, *laws, "--json")
     assert code == 0
     assert sb.Drop.from_mapping(json.loads(out)["drop"]) == sb.Drop(
         drop.balls, [sb.Spring(2e4), sb.Spring(1e3)], gaps=[0.001], impact_speed=2.0, gravity=9.81
     )
 
 
-def test_a_rigid_drop_needs_no_textbook_beside_it(run):
-    _, out, _ = run("simulate", "B1", "--contact", "Rigid restitution=0.5", "--speed", "2")
-    assert "Rigid, restitution 0.5" in out
-    assert "eparate" not in out
-    assert rows(out, "B1")[0][3:6] == ["1.000", "0.5000", "0.2500"]
+def test_names_cannot_write_on_the_terminal(run):
+    drop = sb.Drop([sb.Ball(1.0, name="a\x1b[31mb\nc[red]")], [sb.Spring(1.0)], impact_speed=1.0)
+    Path("drop.toml").write_text(drop.to_toml())
+    _, out, _ = run("simulate", "drop.toml")
+    assert "\x1b" not in out
+    assert "a?[31mb?c[red] at 1.000 m/s" in out
 
 
 def test_highest_points_are_shown(run):
@@ -232,14 +245,6 @@ def test_a_run_that_did_not_finish_says_what_to_do(run):
     assert rows(out, "floor – B3")[0][1] == "∞"
 
 
-def test_names_cannot_write_on_the_terminal(run):
-    drop = sb.Drop([sb.Ball(1.0, name="a\x1b[31mb\nc[red]")], [sb.Spring(1.0)], impact_speed=1.0)
-    Path("drop.toml").write_text(drop.to_toml())
-    _, out, _ = run("simulate", "drop.toml")
-    assert "\x1b" not in out
-    assert "a?[31mb?c[red] at 1.000 m/s" in out
-
-
 def one_ball(name, law, mass=0.1, **how):
     how = how or {"height": 0.5}
     drop = sb.Drop([sb.Ball(mass, name=name)], [law], **how)
@@ -261,31 +266,18 @@ def test_balls_of_a_file_each_are_stacked(run):
     assert told["contact_sources"] == ["lower.toml", "lower.toml and upper.toml in series"]
 
 
-def test_files_that_cannot_be_stacked(run):
+def test_files_that_cannot_be_stacked(run, refused):
     lower = one_ball("lower", sb.Spring(3e4))
     upper = one_ball("upper", sb.Rigid(0.6))
-    _, _, err = run("simulate", lower, upper)
+    err = refused("simulate", lower, upper)
     assert "lower.toml and upper.toml: law_b must be a law with a compression" in err
     assert err.strip().endswith("give all contacts with --contact")
     contacts = ["--contact", "Rigid restitution=0.8", "--contact", "Rigid restitution=0.5"]
     assert run("simulate", lower, upper, *contacts)[0] == 0
     pair = sb.Drop([sb.Ball(1.0)] * 2, [sb.Spring(1.0)] * 2, height=1.0)
     Path("pair.toml").write_text(pair.to_toml())
-    _, _, err = run("simulate", lower, "pair.toml")
-    assert (
-        "pair.toml must have one ball and its contact with the floor, to be stacked, got 2" in err
-    )
-
-
-@pytest.mark.parametrize("suffix", [*output.SUFFIXES, ".SVG"])
-def test_the_same_picture_is_the_same_file(run, suffix):
-    for name in "ab":
-        code, out, err = run(*PAIR, "--plot", f"{name}{suffix}")
-        assert (code, err) == (0, "")
-        assert f"Picture: {name}{suffix}" in out
-    first, second = (Path(f"{name}{suffix}").read_bytes() for name in "ab")
-    assert first == second
-    assert first[:5] in (b"<?xml", b"\x89PNG\r", b"%PDF-")
+    err = refused("simulate", lower, "pair.toml")
+    assert "pair.toml must have one ball and its contact with the floor, to be stacked" in err
 
 
 @pytest.mark.parametrize(
@@ -293,46 +285,24 @@ def test_the_same_picture_is_the_same_file(run, suffix):
     [
         (["tenis"], "ball must be one of the catalogue, got 'tenis'; did you mean tennis? Known: "),
         (["B1", "--height", "-1m"], "height must be a positive number of metres, got -1.0"),
-        (["B1", "--height", "0"], "height must be a positive number of metres, got 0.0"),
         (["B1", "--height", "3 kg"], "--height must be a length (a number of m or a string such"),
-        (["B1", "--height", "nan"], "--height must be a length"),
         (["B1", "--speed", "inf"], "--speed must be a speed"),
-        (["B1", "--speed", "-3m/s"], "impact_speed must be a positive number of m/s, got -3.0"),
         (["B1", "--speed", "1", "--height", "1"], "--height and --speed: only one of the two"),
-        (["B1", "B2", "--gap", "-1mm"], "gaps.0 must be a number of metres, 0 or above, got"),
         (["B1", "--gap", "1mm"], "gaps must hold one number per neighbouring pair of balls (0)"),
-        (["B1", "--gravity", "-1"], "gravity must be a number of m/s**2, 0 or above, got -1.0"),
-        (["B1", "--until", "1m"], "--until must be a time"),
         (["B1", "--until", "-1s"], "until must be"),
         (["B1", "--contact", ""], "--contact 0 must be 'LAW key=value …', such as 'Spring stiff"),
-        (["B1", "--contact", "Spring 3"], "--contact 0 must be 'LAW key=value …', such as"),
         (["B1", "--contact", "Spring stiffness="], "--contact 0 must be 'LAW key=value …'"),
-        (["B1", "--contact", "'"], "--contact 0 must be 'LAW key=value …'"),
         (["B1", "--contact", "Sprung stiffness=1"], "--contact 0.law must be a contact law, got"),
         (["B1", "--contact", "Spring stifness=1"], "--contact 0.stifness is not a known key; did"),
         (["B1", "--contact", "Spring stiffness=-1"], "--contact 0.stiffness must be a positive"),
-        (
-            ["B1", "--contact", "Spring stiffness=1kg"],
-            "--contact 0.stiffness must be a stiffness (",
-        ),
-        (
-            ["B1", "--contact", "Spring stiffness=1 stiffness=2"],
-            "--contact 0 must give each key once, got 'Spring stiffness=1 stiffness=2'",
-        ),
+        (["B1", "--contact", "Spring stiffness=1kg"], "--contact 0.stiffness must be a stiffness"),
+        (["B1", "--contact", "Spring a=1 a=2"], "--contact 0 must give each key once, got 'Spring"),
         (["B1", "--contact", "Spring law=Rigid"], "--contact 0 must give each key once, got 'Spr"),
-        (["B1", "--height", "1e308"], "height must give an impact speed above 0 and finite at 9."),
-        (["B1", "B2", "--contact", "Spring stiffness=1"], "contacts must hold one law per ball"),
-        (
-            ["B1", "B2", "--contact", "Rigid restitution=1", "--contact", "Spring stiffness=1"],
-            "contacts must be all rigid or have none that is, got a mixture",
-        ),
-        (["none.toml"], "none.toml cannot be read: No such file or directory"),
         (["./B1"], "./B1 cannot be read: No such file or directory"),
         (["."], ". is a folder: give one of its files"),
         (["a.toml", "b.toml"], "a.toml cannot be read: No such file or directory"),
         (["a.toml", "B1"], "either scenario files or balls of the catalogue must be given, got"),
         (["B1", "--plot", "drop.gif"], "--plot must end in .svg, .png, .pdf, got drop.gif"),
-        (["B1", "--plot", "drop"], "--plot must end in .svg, .png, .pdf, got drop"),
         (["B1", "--plot", "no/drop.svg"], "no/drop.svg cannot be written: there is no folder no"),
         (["B1", "--plot", "folder.svg"], "folder.svg cannot be written: it is a folder\n"),
         (["bad.toml"], "bad.toml is not TOML: "),
@@ -391,6 +361,11 @@ def test_an_interruption_while_modules_are_imported_is_one_line():
     assert (done.returncode, done.stderr) == (130, "stackbounce: interrupted\n")
 
 
+def test_an_interruption_that_python_drops_comes_again():
+    done = process(code=LOST)
+    assert (done.returncode, done.stderr) == (130, "")
+
+
 LOST = """
 import signal, sys, time
 import stackbounce.cli
@@ -412,11 +387,6 @@ sys.exit(main())
 """
 
 
-def test_an_interruption_that_python_drops_comes_again():
-    done = process(code=LOST)
-    assert (done.returncode, done.stderr) == (130, "")
-
-
 @pytest.mark.slow
 def test_pictures_do_not_depend_on_the_settings_of_matplotlib(run):
     assert run("simulate", "B1", "--plot", "plain.svg")[0] == 0
@@ -424,16 +394,6 @@ def test_pictures_do_not_depend_on_the_settings_of_matplotlib(run):
     done = process("simulate", "B1", "--plot", "own.svg", env={**os.environ, "MPLBACKEND": "junk"})
     assert (done.returncode, done.stderr) == (0, "")
     assert Path("own.svg").read_bytes() == Path("plain.svg").read_bytes()
-
-
-def test_true_process_ends_with_2_and_no_traceback():
-    done = process("simulate", "B1", "--height", "3 kg")
-    assert done.returncode == 2
-    assert done.stdout == ""
-    assert done.stderr == (
-        "stackbounce: error: --height must be a length (a number of m or a string such as "
-        "\"58 mm\"), got '3 kg'\n"
-    )
 
 
 def broken_import():
@@ -449,11 +409,7 @@ def broken_import():
         (broken_import(), 130, "interrupted\n"),
         (OSError(28, "No space left on device", "x.svg"), 2, "error: x.svg: No space left on dev"),
         (MemoryError(), 1, "error: out of memory: ask for fewer balls"),
-        (
-            OverflowError(34, "too\nlarge"),
-            1,
-            "error: unexpected OverflowError: (34, 'too\\nlarge')",
-        ),
+        (OverflowError(4, "a\nb"), 1, "error: unexpected OverflowError: (4, 'a\\nb')"),
         (RecursionError("deep"), 1, "error: unexpected RecursionError: deep (please report it)"),
     ],
 )
@@ -496,17 +452,6 @@ def test_a_standard_output_that_cannot_be_written_to(arguments, streams, line):
     assert done.stderr == ("" if line is None else f"stackbounce: error: {line}\n")
 
 
-def test_a_reader_that_goes_away_is_no_error():
-    reader, writer = os.pipe()
-    os.close(reader)
-    done = process("balls", capture_output=False, stdout=writer, stderr=subprocess.PIPE)
-    os.close(writer)
-    assert done.stderr == ""
-
-
-# balls
-
-
 def test_the_catalogue_as_a_table(run):
     code, out, err = run("balls")
     assert (code, err) == (0, "")
@@ -527,24 +472,6 @@ def test_the_catalogue_as_json(run):
     assert got["pairs"][0]["stiffness"] == 1000.0
 
 
-# paper
-
-
-@dataclass(frozen=True)
-class Row:
-    verdict: str
-    explained: bool
-
-
-@dataclass(frozen=True)
-class Audit:
-    rows: tuple[Row, ...]
-    counts: dict[str, int]
-
-    def as_dict(self):
-        return {"counts": self.counts, "computed": math.inf}
-
-
 @pytest.fixture
 def write(monkeypatch):
     """Stands in for the report, which has tests of its own, and takes its time."""
@@ -553,8 +480,10 @@ def write(monkeypatch):
     def stand_in(out, progress):
         progress("figure 2a")
         written.append(out)
-        rows = (Row("agrees", True), Row("agrees", True), Row("differs", False))
-        return Audit(rows, {"agrees": 2, "differs": 1})
+        told = {"counts": {"agrees": 2, "differs": 1}, "computed": math.inf}
+        rows = [SimpleNamespace(verdict="agrees", explained=True)] * 2
+        rows.append(SimpleNamespace(verdict="differs", explained=False))
+        return SimpleNamespace(rows=rows, counts=told["counts"], as_dict=lambda: told)
 
     monkeypatch.setattr(cross2007, "write", stand_in)
     return written
@@ -573,14 +502,6 @@ def test_paper_says_what_it_does_and_what_came_out(run, write):
     assert told == {"counts": {"agrees": 2, "differs": 1}, "computed": None}
 
 
-@pytest.mark.parametrize("folder", ["file", "file/new/deep", "/proc/new"])
-def test_an_output_folder_that_cannot_be_written_to(refused, folder):
-    Path("file").write_text("kept")
-    assert refused("paper", "--out", folder).startswith(f"{folder} cannot be written to: ")
-    assert Path("file").read_text() == "kept"
-    assert list(Path().iterdir()) == [Path("file")]
-
-
 def test_an_output_folder_needs_a_name(refused, write):
     assert refused("paper", "--out", "") == "--out must name a folder, got ''\n"
     assert write == []
@@ -593,7 +514,12 @@ def test_an_output_folder_without_permission(refused):
     assert list(Path("shut").iterdir()) == []
 
 
-# parts
+@pytest.mark.parametrize("folder", ["file", "file/new/deep", "/proc/new"])
+def test_an_output_folder_that_cannot_be_written_to(refused, folder):
+    Path("file").write_text("kept")
+    assert refused("paper", "--out", folder).startswith(f"{folder} cannot be written to: ")
+    assert Path("file").read_text() == "kept"
+    assert list(Path().iterdir()) == [Path("file")]
 
 
 @pytest.mark.parametrize(
@@ -602,38 +528,12 @@ def test_an_output_folder_without_permission(refused):
         ("none", None, "none"),
         ("Rigid restitution=78%", sb.Rigid(0.78), "Rigid, restitution 0.78"),
         ("Hertz stiffness=2e9", sb.Hertz(2e9), "Hertz, stiffness 2e+09 N/m^1.5"),
-        (
-            "powerlaw stiffness=20kN/m^1.3 exponent=1.3",
-            sb.PowerLaw(2e4, 1.3),
-            "PowerLaw, stiffness 20000 N/m^1.3, exponent 1.3",
-        ),
-        (
-            "Dashpot stiffness=20kN/m damping='7 N s/m'",
-            sb.Dashpot(2e4, 7.0),
-            "Dashpot, stiffness 20000 N/m, damping 7 N s/m",
-        ),
-        (
-            "Viscoelastic stiffness=3e6 dissipative_time=0.2ms",
-            sb.Viscoelastic(3e6, 2e-4),
-            "Viscoelastic, stiffness 3e+06 N/m^1.5, dissipative time 0.0002 s",
-        ),
+        ("powerlaw stiffness=2N/m^2 exponent=2", sb.PowerLaw(2, 2), "PowerLaw, stiffness 2 N/m^2"),
     ],
 )
 def test_a_law_is_read_and_described(words, law, text):
     assert read_contact(words, "x") == law
-    assert descriptions.law_text(law) == text
-
-
-def test_help_names_every_law(run):
-    _, out, _ = run("simulate", "--help")
-    assert all(name in out for name in LAWS)
-
-
-def test_springs_of_any_exponent_lose_nothing(run):
-    _, out, _ = run("simulate", "B1", "--contact", "Hertz stiffness=1e6")
-    assert "Springs lose nothing." in out
-    _, out, _ = run("simulate", "B1", "--contact", "Dashpot stiffness=1e4 damping=1")
-    assert "Springs lose nothing." not in out
+    assert descriptions.law_text(law).startswith(text)
 
 
 @pytest.mark.parametrize(
@@ -645,9 +545,6 @@ def test_springs_of_any_exponent_lose_nothing(run):
 )  # fmt: skip
 def test_numbers_for_people(value, text):
     assert tables.number(value) == text.removesuffix(".")
-
-
-# sweep
 
 
 def test_sweep_writes_a_store_and_a_picture(run, tmp_path):
@@ -673,20 +570,18 @@ def test_sweep_draws_the_ball_that_is_asked_for(run, monkeypatch):
     monkeypatch.setattr(style, "render", lambda draw, *_: draw() or b"")
     over = ["--over", "balls.0.mass = 50 g, 60 g", "--out", "a.zarr", "--overwrite"]
     for asked in ("rebound_ratio.0", "collisions"):
-        shown = ["--plot", "a.png", "--show", asked]
-        assert run("sweep", "basketball", "tennis", *over, *shown)[0] == 0
+        assert run("sweep", "B1", "B2", *over, "--plot", "a.png", "--show", asked)[0] == 0
     assert drawn == [(("rebound_ratio",), {"index": 0}), (("collisions",), {})]
+
+
+THREE = ["--over", "gaps.0=0", "--over", "height=1", "--over", "gravity=0", "--plot", "a.png"]
 
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
         (["--over", "balls.0.mass=-1kg,1kg"], "balls.0.mass must be a positive number"),
-        (
-            ["--over", "gaps.0=0,1", "--cluster", "tcp://127.0.0.1:9"],
-            "--cluster must be the address",
-        ),
-        (["--over", "gaps.0=0,1", "--plot", "map.txt"], "--plot must end in"),
+        (["--over", "gaps.0=0", "--cluster", "tcp://127.0.0.1:9"], "--cluster must be the address"),
         (["--over", "gaps.0=0,1", "--plot", "a.png", "--show", "colisions"], "did you mean coll"),
         (["--over", "gaps.0=0,1", "--plot", "a.png", "--show", "collisions.2"], "from 0 to 1, got"),
         (["--over", "gaps.0=0", "--plot", "a.png", "--show", "energy_retained.0"], "whole stack"),
@@ -695,10 +590,7 @@ def test_sweep_draws_the_ball_that_is_asked_for(run, monkeypatch):
         (["--over", "speed=1:2:3"], "speed is not a parameter of this drop"),
         (["--over", "contacts.0.restitution=1"], "did you mean contacts.0.stiffness?"),
         (["--over", "gaps.0=0:1mm:9:log"], "of one sign for :log, not from or to 0, got 0:1mm"),
-        (
-            ["--over", "gaps.0=0", "--over", "height=1", "--over", "gravity=0", "--plot", "a.png"],
-            "--plot needs one or two parameters that vary, got 3",
-        ),
+        (THREE, "--plot needs one or two parameters that vary, got 3"),
         ([], "nothing is to vary: give --over PATH=VALUES or --draws FILE"),
     ],
 )

@@ -31,9 +31,8 @@ def test_highest_of_balls_that_have_a_file_each(run):
     code, out, _ = run("highest", "a.toml", "b.toml", "--balls", "2", "--gap", "0", "--rows", "1")
     assert code == 0
     assert "The best 1 of 2 stacks" in out
-    height = sb.simulate(
-        sb.Drop([sb.Ball(0.2), sb.Ball(0.02)], [sb.Spring(1e4), sb.Spring(5e3)], height=1.0)
-    ).rebound_ratios[1]
+    stack = sb.Drop([sb.Ball(0.2), sb.Ball(0.02)], [sb.Spring(1e4), sb.Spring(5e3)], height=1.0)
+    height = sb.simulate(stack).rebound_ratios[1]
     assert f"{height:.3f}" in next(line for line in out.splitlines() if line.startswith("a + b"))
 
 
@@ -49,9 +48,7 @@ def test_the_best_masses_for_machines_and_to_a_file(run):
     assert (code, err) == (0, "")
     found = json.loads(out)
     masses = {stack["name"]: stack["masses"] for stack in found["stacks"]}
-    best, means = (
-        masses[f"B1 + 29.3 g + B3 ({note})"] for note in ("best masses", "geometric means")
-    )
+    best, means = (masses[f"B1 + 29.3 g + B3 ({n})"] for n in ("best masses", "geometric means"))
     assert best[1] == pytest.approx((0.101 * 0.0085) ** 0.5, rel=1e-5)
     assert means[1] == pytest.approx((0.101 * 0.0085) ** 0.5)
     assert masses["B1 + B2 + B3"] == [0.101, 0.0248, 0.0085]
@@ -70,16 +67,12 @@ def test_it_says_when_the_best_masses_lie_beyond(run):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--balls", "9"], "count must be a whole number from 2 to 5, got 9"),
         (["B9"], "ball must be one of the catalogue"),
-        (["--law", "rigid"], "law must be one with a stiffness"),
         (["--height", "1m", "--speed", "1"], "only one of the two can be given"),
         (["--height", "-1m"], "--height must be a positive number of metres"),
         (["--save", "best.txt"], "--save must end in .toml"),
         (["no.toml"], "no.toml cannot be read"),
-        (["B1", "B2", "--in-order", "--masses"], "balls must be three or more"),
         (["--within", "1g"], "--within must be MASS:MASS"),
-        (["--save", "no/best.toml"], "there is no folder"),
     ],
 )
 def test_what_is_wrong_is_said_in_one_line(refused, arguments, message):

@@ -8,12 +8,8 @@ import pytest
 import stackbounce as sb
 from stackbounce.prediction import read_scenario
 
-DROP = sb.Drop(
-    [sb.Ball(0.15, name="a (1) ± b"), sb.Ball(0.057)],
-    [sb.Hertz(2e5), sb.Spring(1000.0)],
-    gaps=[0.002],
-    height=0.63,
-)
+BALLS = [sb.Ball(0.15, name="a (1) ± b"), sb.Ball(0.057)]
+DROP = sb.Drop(BALLS, [sb.Hertz(2e5), sb.Spring(1000.0)], gaps=[0.002], height=0.63)
 
 
 @pytest.fixture(autouse=True)
@@ -41,6 +37,11 @@ def test_a_file_has_the_drop_and_its_errors():
         "contacts.0.stiffness": "200000 ± 10000",
     }
     assert read_scenario("plain.toml") == (DROP, {})
+
+
+def test_a_drop_has_no_errors():
+    with pytest.raises(sb.errors.ScenarioError, match="height must be a length without an error"):
+        sb.Drop.from_mapping(DROP.to_mapping() | {"height": "63 ± 1 cm"})
 
 
 def test_simulate_carries_the_errors_of_a_file(run):
@@ -77,8 +78,3 @@ def test_where_errors_mean_nothing_they_are_refused(refused, command, message):
     err = refused(*command)
     assert message in err
     assert "without an error here" in err or "--error" in command
-
-
-def test_a_drop_has_no_errors():
-    with pytest.raises(sb.errors.ScenarioError, match="height must be a length without an error"):
-        sb.Drop.from_mapping(DROP.to_mapping() | {"height": "63 ± 1 cm"})

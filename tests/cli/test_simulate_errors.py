@@ -5,37 +5,35 @@ import json
 import pytest
 
 import stackbounce as sb
-from stackbounce.cli import main
 from stackbounce.cli.errors_given import split_errors
 
 PAIR = ["simulate", "basketball", "tennis", "--height", "63 ± 1 cm", "--gap", "2mm"]
 
 
-def said(capsys, *arguments):
-    """Return what a command printed; it has to succeed."""
-    assert main(list(arguments)) == 0
-    return capsys.readouterr().out
+@pytest.fixture
+def said(run):
+    return lambda *arguments: run(*arguments)[1]
 
 
-def test_tables_have_errors_and_say_how(capsys):
-    out = said(capsys, *PAIR, "--error", "balls.1.mass=1g")
+def test_tables_have_errors_and_say_how(said):
+    out = said(*PAIR, "--error", "balls.1.mass=1g")
     rows = {line.split()[0]: line.split()[1:] for line in out.splitlines() if line.strip()}
     assert rows["tennis"][:2] == ["-3.515(28)", "6.413(53)"]
     assert "Errors by derivatives: 10000 drops within the errors follow them" in out
     assert "Measure height better: it makes 8" in out
 
 
-def test_times_of_springs_that_do_not_change_have_no_error(capsys):
-    out = said(capsys, "simulate", "basketball", "tennis", "--height", "63 ± 1 cm")
+def test_times_of_springs_that_do_not_change_have_no_error(said):
+    out = said("simulate", "basketball", "tennis", "--height", "63 ± 1 cm")
     contacts = out[out.index("Contacts,") :].splitlines()
     (basketball,) = (line.split() for line in contacts if line.startswith("floor"))
     assert basketball[5:7] == ["30.58", "30.58"]
     assert "70.07(56)" in basketball
 
 
-def test_json_has_the_errors_of_predict(capsys):
-    plain = json.loads(said(capsys, *PAIR[:4], "63 cm", *PAIR[5:], "--json"))
-    found = json.loads(said(capsys, *PAIR, "--json"))
+def test_json_has_the_errors_of_predict(said):
+    plain = json.loads(said(*PAIR[:4], "63 cm", *PAIR[5:], "--json"))
+    found = json.loads(said(*PAIR, "--json"))
     errors = found.pop("errors")
     assert found == plain
     assert errors["method"] == "derivatives"
@@ -64,15 +62,10 @@ def test_errors_stand_in_every_option():
 
 
 @pytest.mark.slow
-def test_apexes_and_counts_have_errors(capsys):
-    out = said(capsys, *PAIR, "--gravity", "9.81", "--until", "1s")
-    assert "Highest points, the first 3 of each ball" in out
-
-
-@pytest.mark.slow
-def test_a_picture_with_bands(tmp_path, capsys):
+def test_apexes_have_errors_and_a_picture_bands(tmp_path, said):
     path = tmp_path / "bounce.svg"
-    said(capsys, *PAIR, "--plot", str(path))
+    out = said(*PAIR, "--gravity", "9.81", "--until", "1s", "--plot", str(path))
+    assert "Highest points, the first 3 of each ball" in out
     assert path.stat().st_size > 10_000
 
 
@@ -82,11 +75,7 @@ def test_a_picture_with_bands(tmp_path, capsys):
         (["--error", "balls.1.mass"], "--error must be PATH=ERROR, such as balls.1.mass=1g"),
         (["--error", "mass=1g"], "mass is not a parameter of this drop"),
         (["--error", "balls.1.mass=1cm"], "--error balls.1.mass must be a mass"),
-        (["--error", "height=1cm"], "--error height: only one error can be given, got two"),
-        (["--error", "balls.1.mass=-1g"], "balls.1.mass's error must be 0 or above"),
-        (["--error", "balls.1.mass=1e308"], "balls.1.mass's error must be at most 1e+100, got"),
         (["--gap", "2 mm ± 1 s"], "gaps.0 must be a length"),
-        (["--gap", "2 ± 1) mm"], "gaps.0 must be a length"),
         (["--gap", "2 ± 1e308 mm"], "gaps.0's error must be at most 1e+100, got 1e+305"),
         (["--contact", "Spring stiffness=1±kN/m", "--contact", "Spring stiffness=1"], "must be"),
     ],

@@ -1,6 +1,5 @@
 """The paper's figures and tables, recomputed."""
 
-import struct
 import xml.etree.ElementTree as ET
 
 import numpy as np
@@ -31,26 +30,7 @@ from stackbounce.cross2007.stacks import (
 from stackbounce.cross2007.style import GREY, render, use_style
 from stackbounce.cross2007.tables import make_table_one, make_table_two
 
-MASS, TIME, FORCE = "$m_1/m_2$", "$t$ (ms)", "$F$ (N)"
-# per figure: label of the horizontal axis, labels of the vertical ones, curves in each
-CONTENT = {
-    "2a": (MASS, ["$v/v_0$"], [4]),
-    "2b": (MASS, ["$v/v_0$"], [4]),
-    "4a": (MASS, ["$v/v_0$"], [2]),
-    "4b": (MASS, ["$v/v_0$"], [2]),
-    "5": (TIME, ["displacement (mm)", "force (N)"], [2, 2]),
-    "6": ("$r_k=k_1/k_2$", ["$v/v_0$"], [6]),
-    "7": ("compression (mm)", [FORCE], [6]),
-    "8": (TIME, [FORCE, FORCE], [2, 2]),
-    "8-hollow": (TIME, [FORCE, FORCE], [2, 2]),
-    "9": (TIME, [FORCE], [2]),
-    "10a": (TIME, [FORCE, FORCE], [1, 1]),
-    "10b": (TIME, [FORCE, FORCE], [1, 1]),
-    "11a": (TIME, [FORCE, FORCE], [1, 1]),
-    "11b": (TIME, [FORCE, FORCE], [1, 1]),
-    "12": (TIME, [FORCE, FORCE, "balls"], [2, 2, 1]),
-    "13": (TIME, [FORCE], [2]),
-}
+CURVES = [4, 4, 2, 2, 4, 6, 6, 4, 4, 2, 2, 2, 2, 2, 5, 2]  # in each figure
 
 
 @pytest.fixture(scope="module")
@@ -67,35 +47,22 @@ def curves(ax):
     return [line for line in ax.lines if line.get_color() != GREY]
 
 
-@pytest.mark.parametrize("name", CONTENT)
-def test_axes_and_curves(drawn, name):
-    below, beside, counts = CONTENT[name]
-    axes = drawn[name].figure.axes
-    assert axes[-1].get_xlabel() == below
-    assert [ax.get_ylabel() for ax in axes] == beside
-    assert [len(curves(ax)) for ax in axes] == counts
+@pytest.mark.parametrize(("name", "count"), list(zip(FIGURES, CURVES, strict=True)))
+def test_axes_curves_and_guesses(drawn, name, count):
+    picture = drawn[name]
+    axes = picture.figure.axes
+    assert axes[-1].get_xlabel()
+    assert all(ax.get_ylabel() for ax in axes)
+    assert sum(len(curves(ax)) for ax in axes) == count
     assert all(np.isfinite(line.get_ydata()).all() for ax in axes for line in curves(ax))
-
-
-@pytest.mark.parametrize("name", CONTENT)
-def test_every_guess_is_told(drawn, name):
-    assert drawn[name].guesses
-    assert drawn[name].title
-    assert drawn[name].caption
-
-
-def test_all_figures_with_numbers_are_there(drawn):
-    assert list(drawn) == list(FIGURES) == list(CONTENT)
+    assert all((picture.guesses, picture.title, picture.caption))
 
 
 @pytest.mark.parametrize("name", ["6", "12"])
-def test_files_are_images_of_a_fair_size(drawn, name):
+def test_files_are_images(drawn, name):
     files = render(drawn[name].figure)
     assert ET.fromstring(files["svg"]).tag == "{http://www.w3.org/2000/svg}svg"
     assert files["png"].startswith(b"\x89PNG")
-    width, height = struct.unpack(">II", files["png"][16:24])
-    assert width == 1260
-    assert height >= 900
 
 
 def test_the_same_figure_gives_the_same_bytes(drawn):
@@ -109,11 +76,10 @@ def test_figure_six_is_dashed_and_solid_as_the_caption_says(drawn):
     assert styles == ["--", "-"] * 3
 
 
-def test_figures_follow_the_data():
+def test_figures_follow_the_data(drawn):
     with use_style():
         lighter = FIGURES["9"](Bench(changed(PAPER, "tennis.mass", 0.99)))
-        same = FIGURES["9"](Bench(PAPER))
-    assert lighter.features != same.features
+    assert lighter.features != drawn["9"].features
 
 
 @pytest.mark.parametrize("e", [1.0, 0.8])
@@ -160,10 +126,12 @@ def test_forces_start_at_zero_and_end_with_the_contacts(bench):
     assert 0.0 < rise < fall < result.last_release[0]
 
 
-def test_gap_for_a_delay_gives_the_delay(bench):
-    drop = reversed_pair(bench, 0.0)
-    gap = gap_for_delay(bench, drop, 2e-3)
-    assert bench.simulate(reversed_pair(bench, gap)).first_touch[1] == pytest.approx(2e-3, rel=1e-9)
+def test_measured_delays_and_durations_set_the_gaps(bench):
+    gap = gap_for_delay(bench, reversed_pair(bench, 0.0), 2e-3)
+    delays = {2e-3: reversed_pair(bench, gap), 7e-3: late_pair(bench), 1e-3: early_twins(bench)}
+    for delay, drop in delays.items():
+        assert bench.simulate(drop).first_touch[1] == pytest.approx(delay, rel=1e-9)
+    assert bench.simulate(late_twins(bench)).last_release[0] == pytest.approx(12e-3, rel=1e-9)
 
 
 def test_the_hollow_ball_is_set_to_two_measurements_and_misses_the_others(bench):
@@ -184,10 +152,9 @@ def test_newton_tells_that_there_is_no_zero():
         newton(lambda x: [x[0] ** 2 + 1.0, x[1]], np.array([1.0, 1.0]))
 
 
-def test_measured_delays_and_durations_set_the_gaps(bench):
-    assert bench.simulate(late_pair(bench)).first_touch[1] == pytest.approx(7e-3, rel=1e-9)
-    assert bench.simulate(late_twins(bench)).last_release[0] == pytest.approx(12e-3, rel=1e-9)
-    assert bench.simulate(early_twins(bench)).first_touch[1] == pytest.approx(1e-3, rel=1e-9)
+def test_bisection_meets_a_jump_and_a_root():
+    assert bisect(lambda x: 1.0 if x > 0.3 else -1.0, 0.0, 1.0) == pytest.approx(0.3, abs=1e-15)
+    assert bisect(lambda x: 2.0 - x * x, 0.0, 2.0) == pytest.approx(2.0**0.5, abs=1e-15)
 
 
 def test_the_floor_force_shows_the_peaks_that_the_text_counts(bench):
@@ -197,26 +164,17 @@ def test_the_floor_force_shows_the_peaks_that_the_text_counts(bench):
     assert list(bench.simulate(late_twins(bench)).collisions) == [2, 1]
 
 
-def test_stiffening_keeps_the_contact_times(bench):
-    drop = twin_pair(bench, 0.0)
-    law = stiffen(bench, drop).contacts[0]
-    assert law.exponent == 1.5
-    assert law.restitution == 1.0
-
-
-def test_solved_meets_a_jump_and_a_root():
-    assert bisect(lambda x: 1.0 if x > 0.3 else -1.0, 0.0, 1.0) == pytest.approx(0.3, abs=1e-15)
-    assert bisect(lambda x: 2.0 - x * x, 0.0, 2.0) == pytest.approx(2.0**0.5, abs=1e-15)
+def test_stiffening_makes_the_contact_one_of_hertz(bench):
+    law = stiffen(bench, twin_pair(bench, 0.0)).contacts[0]
+    assert (law.exponent, law.restitution) == (1.5, 1.0)
 
 
 def test_table_one_carries_the_errors(bench):
     table = make_table_one(bench)
-    printed, computed = (table.head.index(f"dynamic k {what}") for what in PRINTED_AND_COMPUTED)
+    columns = ("printed (1e4 N/m)", "= m (π/time)²")
+    printed, computed = (table.head.index(f"dynamic k {column}") for column in columns)
     assert [row[printed] for row in table.rows] == ["5.4", "3.6", "2.3"]
     assert [row[computed] for row in table.rows] == ["5.39±0.25", "3.62±0.28", "2.32±0.24"]
-
-
-PRINTED_AND_COMPUTED = ("printed (1e4 N/m)", "= m (π/time)²")
 
 
 def test_table_two_has_printed_and_computed_values(bench):

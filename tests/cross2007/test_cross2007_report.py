@@ -26,22 +26,18 @@ class Page(HTMLParser):
     def __init__(self):
         super().__init__()
         self.open, self.ids, self.loads, self.links, self.text = [], [], [], [], []
+        self.handle_data = self.text.append
 
     def handle_starttag(self, tag, attrs):
-        attrs = dict(attrs)
-        if tag not in VOID:
-            self.open.append(tag)
-        if "id" in attrs:
-            self.ids.append(attrs["id"])
-        self.loads += [attrs[name] for name in ("src", "srcset", "data", "poster") if name in attrs]
-        if "href" in attrs:
-            (self.links if tag == "a" else self.loads).append(attrs["href"])
+        self.open += [tag] if tag not in VOID else []
+        for name, value in attrs:
+            if name == "id":
+                self.ids.append(value)
+            elif name in ("src", "srcset", "data", "poster", "href"):
+                (self.links if (tag, name) == ("a", "href") else self.loads).append(value)
 
     def handle_endtag(self, tag):
         assert self.open.pop() == tag
-
-    def handle_data(self, data):
-        self.text.append(data)
 
 
 @pytest.fixture(scope="module")
@@ -89,10 +85,8 @@ def test_another_process_writes_the_same_bytes(tmp_path, monkeypatch):
     monkeypatch.setattr(paper, "CLAIMS", paper.CLAIMS)
     exec(less, {"paper": paper})
     cross2007.write(tmp_path / "here")
-    code = (
-        f"import sys, pathlib; from stackbounce.cross2007 import paper, write; {less};"
-        "write(pathlib.Path(sys.argv[1]))"
-    )
+    code = f"import sys, pathlib; from stackbounce.cross2007 import paper, write; {less};"
+    code += "write(pathlib.Path(sys.argv[1]))"
     other = os.environ | {"PYTHONHASHSEED": "7", "TZ": "Asia/Tokyo"}
     subprocess.run([sys.executable, "-c", code, tmp_path / "there"], check=True, env=other)
     assert contents(tmp_path / "there") == contents(tmp_path / "here")
@@ -134,11 +128,10 @@ def test_json_has_rows_inputs_guesses_and_version(folder):
 
 
 def test_csv_has_the_same_rows(folder):
-    with (folder / "audit.csv").open(encoding="utf-8", newline="") as stream:
-        lines = list(csv.DictReader(stream))
     done = json.loads((folder / "audit.json").read_text(encoding="utf-8"))
-    assert [line["id"] for line in lines] == [row["id"] for row in done["rows"]]
-    assert [float(line["computed"]) for line in lines] == [row["computed"] for row in done["rows"]]
+    with (folder / "audit.csv").open(encoding="utf-8", newline="") as stream:
+        lines = [(line["id"], float(line["computed"])) for line in csv.DictReader(stream)]
+    assert lines == [(row["id"], row["computed"]) for row in done["rows"]]
 
 
 def test_a_file_in_the_way_is_told_before_any_work(tmp_path):
@@ -166,18 +159,13 @@ def test_foreign_files_are_not_replaced(tmp_path):
     ("text", "html"),
     [
         ("m1/m2 of B1", "m<sub>1</sub>/m<sub>2</sub> of B1"),
-        ("1.03e4 N/m", "1.03 × 10<sup>4</sup> N/m"),
-        ("1e4 N/m", "10<sup>4</sup> N/m"),
+        ("1.03e4 N/m, 1e4", "1.03 × 10<sup>4</sup> N/m, 10<sup>4</sup>"),
         ("5 - sqrt(20)", "5 − √20"),
         ("<b> & e1", "&lt;b&gt; &amp; e<sub>1</sub>"),
         ("1.040 x 101 g", "1.040 × 101 g"),
         ("2 mm, 30 ms, D (mm), h1/h0", "2 mm, 30 ms, D (mm), h<sub>1</sub>/h<sub>0</sub>"),
         ("r_k and r_m, k1", "r<sub>k</sub> and r<sub>m</sub>, k<sub>1</sub>"),
-        (
-            "the ball's 'about 20 cm', ('begins')",
-            "the ball\u2019s \u2018about 20 cm\u2019, (\u2018begins\u2019)",
-        ),
-        ("'begins to rise' of the balls' gap", "\u2018begins to rise\u2019 of the balls\u2019 gap"),
+        ("the balls' 'about', ('so')", "the balls\u2019 \u2018about\u2019, (\u2018so\u2019)"),
     ],
 )
 def test_signs_as_they_are_printed(text, html):

@@ -43,9 +43,8 @@ def test_the_page_by_itself_leads_to_no_explorer(tmp_path):
 def test_the_page_of_the_explorer_leads_back_and_plays_the_figures(tmp_path):
     links = written(tmp_path, explorer="../")
     assert links[0] == "../"
-    assert [address for address in links if "view=play" in address] == [
-        link_figures("../")["9"][0].address
-    ]
+    (played,) = [address for address in links if "view=play" in address]
+    assert played == link_figures("../")["9"][0].address
 
 
 def test_a_link_has_the_drop_of_its_figure():

@@ -4,6 +4,7 @@ import lmfit
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
+from scipy.stats import chi2
 
 import stackbounce as sb
 
@@ -29,27 +30,19 @@ PULLS = np.array([0.8, -0.5, 0.6])
 
 def ours(law, truth):
     target = predicted(law, truth) + PULLS * ERRORS
-    data = {
-        "rebound_ratios": list(zip(target[:2], ERRORS[:2], strict=True)),
-        "durations.0": (1e-3 * target[2], 1e-3 * ERRORS[2]),
-    }
+    ratios = list(zip(target[:2], ERRORS[:2], strict=True))
+    data = {"rebound_ratios": ratios, "durations.0": (1e-3 * target[2], 1e-3 * ERRORS[2])}
     drop = sb.Drop(BALLS, [law(k) for k in truth], impact_speed=3.5)
-    return target, sb.fit(
-        drop, data, {n: (k / 4, k * 4) for n, k in zip(NAMES, truth, strict=True)}
-    )
+    vary = {name: (k / 4, k * 4) for name, k in zip(NAMES, truth, strict=True)}
+    return target, sb.fit(drop, data, vary)
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_values_errors_and_correlations_are_those_of_scipy(case):
     law, truth = CASES[case]
     target, found = ours(law, truth)
-
-    def residuals(stiffnesses):
-        return (predicted(law, stiffnesses) - target) / ERRORS
-
-    plain = least_squares(
-        residuals, truth, x_scale=truth, diff_step=1e-5, jac="3-point", xtol=1e-12
-    )
+    options = {"x_scale": truth, "diff_step": 1e-5, "jac": "3-point", "xtol": 1e-12}
+    plain = least_squares(lambda one: (predicted(law, one) - target) / ERRORS, truth, **options)
     covariance = np.linalg.inv(plain.jac.T @ plain.jac)
     errors = np.sqrt(np.diag(covariance))
     assert list(found.best.values()) == pytest.approx(plain.x, abs=1e-4 * errors.min())
@@ -63,34 +56,23 @@ def test_values_errors_and_correlations_are_those_of_scipy(case):
 def test_intervals_are_those_of_lmfit():
     law, truth = CASES["springs"]
     target, found = ours(law, truth)
-
-    def residuals(parameters):
-        values = [one.value for one in parameters.values()]
-        return (predicted(law, values) - target) / ERRORS
-
     parameters = lmfit.Parameters()
     for k, value in enumerate(truth):
         parameters.add(f"k{k}", value=value, min=value / 4, max=value * 4)
-    minimizer = lmfit.Minimizer(residuals, parameters, scale_covar=False)
-    plain = minimizer.minimize()
-    # lmfit's default is an F test, without known errors; ours is a rise of chi squared
+    minimizer = lmfit.Minimizer(
+        lambda trial: (predicted(law, trial.valuesdict().values()) - target) / ERRORS,
+        parameters,
+        scale_covar=False,
+    )
     limits = lmfit.conf_interval(
         minimizer,
-        plain,
-        sigmas=[1, 2],
-        prob_func=lambda best, other: float(_within(other.chisqr - best.chisqr)),
+        minimizer.minimize(),
+        sigmas=[1, 2],  # lmfit's default is an F test; ours is a rise of chi squared
+        prob_func=lambda best, other: float(chi2.cdf(max(other.chisqr - best.chisqr, 0.0), 1)),
     )
     for sigma, (low, high) in {1.0: (1, 3), 2.0: (0, 4)}.items():
         own = found.intervals(sigma=sigma)
         for k, name in enumerate(NAMES):
             rows = [value for _, value in limits[f"k{k}"]]
-            spread = found[name].std_dev
-            assert own[name].low == pytest.approx(rows[low], abs=5e-3 * spread)
-            assert own[name].high == pytest.approx(rows[high], abs=5e-3 * spread)
-
-
-def _within(rise):
-    """Return which part of all cases lies within a rise of chi squared, for one number."""
-    from scipy.stats import chi2
-
-    return chi2.cdf(max(rise, 0.0), 1)
+            margin = 5e-3 * found[name].std_dev
+            assert own[name][:2] == pytest.approx((rows[low], rows[high]), abs=margin)

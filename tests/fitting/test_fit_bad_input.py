@@ -13,7 +13,7 @@ from stackbounce.errors import InvalidType, InvalidValue, UnitError
 STIFFNESS = "contacts.1.stiffness"
 DATA = {"rebound_ratios.1": (1.6, 0.02)}
 VARY = {STIFFNESS: (500.0, 2000.0)}
-NAN, INF = float("nan"), float("inf")
+NAN = float("nan")
 
 
 def refused(kind, message, drop=STACK, data=DATA, vary=VARY, **options):
@@ -29,39 +29,28 @@ def refused(kind, message, drop=STACK, data=DATA, vary=VARY, **options):
     ("data", "kind", "message"),
     [
         ({"rebound_ratio.1": (1, 0.1)}, InvalidValue, "did you mean rebound_ratios?"),
-        ({"rebound_ratios.2": (1, 0.1)}, InvalidValue, "number of a ball from 0 to 1"),
         ({"rebound_ratios.-1": (1, 0.1)}, InvalidValue, "number of a ball from 0 to 1"),
         ({"rebound_ratios.01": (1, 0.1)}, InvalidValue, "number of a ball from 0 to 1"),
         ({"rebound_ratios.\u0661": (1, 0.1)}, InvalidValue, "number of a ball from 0 to 1"),
         ({"durations." + "9" * 5000: (1, 0.1)}, InvalidValue, "number of a contact from 0 to 1"),
         ({"energy_retained.0": (1, 0.1)}, InvalidValue, "is of the whole stack"),
         ({"rebound_ratios.1": 1.6}, InvalidValue, "must be a number with its error, such as"),
-        ({"rebound_ratios.1": "1.6"}, InvalidValue, "must be a number with its error, such as"),
         ({"rebound_ratios.1": None}, InvalidValue, "must be a number with its error, such as"),
-        ({"rebound_ratios.1": (1.0, -0.1)}, InvalidValue, "error must be a positive number"),
         ({"rebound_ratios.1": (1.0, 0.0)}, InvalidValue, "error must be a positive number"),
         ({"rebound_ratios.1": (1.0, NAN)}, InvalidValue, "finite number, got nan"),
-        ({"rebound_ratios.1": (1.0, INF)}, InvalidValue, "finite number, got inf"),
         ({"rebound_ratios.1": (NAN, 0.1)}, InvalidValue, "finite number, got nan"),
-        ({"rebound_ratios.1": (-INF, 0.1)}, InvalidValue, "finite number, got -inf"),
-        ({"rebound_ratios.1": "1 ± -0.1"}, InvalidValue, "error must be a positive number"),
         ({"rebound_ratios.1": (1.0, 1e308)}, InvalidValue, "error must be at most 1e+100"),
         ({"rebound_ratios.1": (1e300, 1e-300)}, InvalidValue, "must be at most 1e+100 of its err"),
-        ({"rebound_ratios.1": "1 ± 0.1 ± 0.1"}, UnitError, "rebound_ratios.1 must be a pure"),
         ({"rebound_ratios.1": "a lot"}, UnitError, "rebound_ratios.1 must be a pure number"),
-        ({"rebound_ratios.1": "1 ± 0.1 m"}, UnitError, "rebound_ratios.1 must be a pure number"),
         ({"durations.0": "5 ± 1 kg"}, UnitError, "durations.0 must be"),
         ({"rebound_ratios.1": (1j, 0.1)}, InvalidType, "rebound_ratios.1 must be a pure number"),
         ({"rebound_ratios": [(1, 0.1)]}, InvalidValue, "must be a list of 2, one for each ball"),
-        ({"rebound_ratios": [(1, 0.1)] * 3}, InvalidValue, "must be a list of 2"),
         ({"rebound_ratios": (1.6, 0.1)}, InvalidValue, "rebound_ratios.0 must be a number with"),
-        ({"rebound_ratios": [None, None]}, InvalidValue, "1 number for 0 measured numbers"),
         ({"collisions.1": 1}, InvalidValue, "1 number for 0 measured numbers"),
         ({**DATA, "collisions.1": 1.5}, InvalidType, "collisions.1 must be a whole number"),
         ({**DATA, "collisions.1": -2}, InvalidValue, "collisions.1 must be a whole number"),
         ({**DATA, "rebound_ratios": [None, (1, 0.1)]}, InvalidValue, "is given twice"),
         (None, InvalidType, "data must map names to what was measured"),
-        ({}, InvalidType, "data must map names to what was measured"),
         ({1: (1, 0.1)}, InvalidType, "data must have names for keys, got 1"),
     ],
 )
@@ -73,10 +62,7 @@ def test_data_that_do_not_fit(data, kind, message):
     ("vary", "kind", "message"),
     [
         (None, InvalidType, "vary must name what may change"),
-        ({}, InvalidType, "vary must name what may change"),
         (STIFFNESS, InvalidType, "vary must name what may change"),
-        ({STIFFNESS}, InvalidType, "vary must name what may change"),
-        ([3], InvalidType, "vary must list names, got 3"),
         ([[STIFFNESS]], InvalidType, "vary must list names"),
         ({3: (1.0, 2.0)}, InvalidType, "vary must have names for keys, got 3"),
         (["contacts.5.stiffness"], InvalidValue, "did you mean contacts.1.stiffness?"),
@@ -85,20 +71,13 @@ def test_data_that_do_not_fit(data, kind, message):
         ({STIFFNESS: (2000.0, 500.0)}, InvalidValue, "lower bound below the upper one, got 2000"),
         ({STIFFNESS: (500.0, 500.0)}, InvalidValue, "lower bound below the upper one, got 500"),
         ({STIFFNESS: (-5.0, 500.0)}, InvalidValue, "cannot be varied to -5"),
-        ({STIFFNESS: (0.0, 500.0)}, InvalidValue, "cannot be varied to 0"),
         ({STIFFNESS: (NAN, 500.0)}, InvalidValue, "finite number"),
-        ({STIFFNESS: (1.0, INF)}, InvalidValue, "finite number"),
         ({STIFFNESS: "1 m : 2 m"}, UnitError, f"{STIFFNESS} must be a stiffness"),
-        ({STIFFNESS: "1 :"}, UnitError, f"{STIFFNESS} must be a stiffness"),
-        ({STIFFNESS: "1 : 2 : 3"}, UnitError, f"{STIFFNESS} must be a stiffness"),
-        ({STIFFNESS: (1, 2, 3)}, InvalidValue, "between two bounds"),
         ({STIFFNESS: 1000.0}, InvalidValue, "between two bounds"),
         ({STIFFNESS: "1000 ± 0"}, InvalidValue, "error must be a positive number"),
-        ({STIFFNESS: "1000 ± 1e308"}, InvalidValue, "'s error must be at most 1e+100, got 1e+308"),
         ({"gaps.0": (0.0, 1e308)}, InvalidValue, "at most 1e+100 apart, got 0 and 1e+308"),
         ({"gaps.0": (0.0, 1e-300)}, InvalidValue, "bounds above 1e-12 "),
         ({STIFFNESS: sb.Range(5.0, 9.0, prior=(7.0, -1.0))}, InvalidValue, "positive number"),
-        ({STIFFNESS: sb.Range(5.0, 9.0, prior="7")}, InvalidValue, "what is known of it"),
         ([STIFFNESS, "gaps.0"], InvalidValue, "2 numbers for 1 measured number"),
         (["balls.0.diameter"], InvalidValue, "balls.0.diameter is not given in the drop and"),
     ],
@@ -111,11 +90,8 @@ def test_bounds_that_do_not_fit(vary, kind, message):
     ("drop", "data", "kind", "message"),
     [
         (None, DATA, InvalidType, "drop must be a Drop or map names to Drops"),
-        ({}, DATA, InvalidType, "drop must be a Drop or map names to Drops"),
         ({"a": 5}, {"a": DATA}, InvalidType, "drop must be a Drop or map names to Drops, got 5"),
         ({0: STACK}, {0: DATA}, InvalidValue, "a drop's name must be letters, digits and _"),
-        ({"": STACK, "b": STACK}, {"": DATA}, InvalidValue, "a drop's name must be letters"),
-        ({"a b": STACK}, {"a b": DATA}, InvalidValue, "a drop's name must be letters"),
         ({"a.b": STACK}, {"a.b": DATA}, InvalidValue, "a drop's name must be letters"),
         ({"\u00e4": STACK}, {"\u00e4": DATA}, InvalidValue, "a drop's name must be letters"),
         ({"a": STACK}, {"b": DATA}, InvalidValue, "data of 'b': no drop; known: a"),
@@ -136,9 +112,7 @@ def test_drops_that_do_not_fit(drop, data, kind, message):
         ({"starts": 1.5}, InvalidType),
         ({"starts": 10**9}, InvalidValue),
         ({"seed": -1}, InvalidValue),
-        ({"seed": "x"}, InvalidType),
         ({"rtol": 1.0}, InvalidValue),
-        ({"rtol": "a"}, InvalidType),
         ({"tie": 5}, InvalidType),
     ],
 )
@@ -155,28 +129,18 @@ def test_an_interval_needs_a_width():
 
 def test_numbers_may_come_in_many_forms():
     forms = [(1.6, 0.02), "1.6 ± 0.02", "1.6 +/- 0.02", ufloat(1.6, 0.02), np.array([1.6, 0.02])]
-    found = [sb.fit(STACK, {"rebound_ratios.1": one}, VARY, starts=1).best for one in forms]
-    found += [
-        sb.fit(STACK, {"rebound_ratios": one}, VARY, starts=1).best
-        for one in ([None, (1.6, 0.02)], ["", "1.6 ± 0.02"])
-    ]
+    data = [{"rebound_ratios.1": form} for form in forms]
+    data += [{"rebound_ratios": form} for form in ([None, (1.6, 0.02)], ["", "1.6 ± 0.02"])]
+    found = [sb.fit(STACK, one, VARY, starts=1).best for one in data]
     assert all(one == found[0] for one in found)
-    both = [(0.64, 0.02), (1.6, 0.02)]
-    lists = [
-        sb.fit(STACK, {"rebound_ratios": one}, VARY, starts=1) for one in (both, np.array(both))
-    ]
-    assert lists[0].best == lists[1].best
+    data = [{"rebound_ratios": form([(0.64, 0.02), (1.6, 0.02)])} for form in (list, np.array)]
+    one, other = (sb.fit(STACK, both, VARY, starts=1).best for both in data)
+    assert one == other
 
 
 def test_bounds_may_come_in_many_forms():
-    forms = [
-        (500.0, 2000.0),
-        [500, 2000],
-        "500 : 2000",
-        "0.5 kN/m : 2 kN/m",
-        sb.Range("0.5 kN/m", 2e3),
-    ]
-    found = [sb.fit(STACK, DATA, {STIFFNESS: one}, starts=1).best for one in forms]
+    forms = [(500.0, 2000.0), [500, 2000], "0.5 kN/m : 2 kN/m", sb.Range("0.5 kN/m", 2e3)]
+    found = [sb.fit(STACK, DATA, {STIFFNESS: form}, starts=1).best for form in forms]
     assert all(one == found[0] for one in found)
 
 

@@ -56,9 +56,6 @@ def record(path, unit="N"):
     path.write_text(f"Time (s),Force ({unit})\n{rows}", encoding="ascii")
 
 
-# TOML
-
-
 def test_a_scenario_with_three_more_tables(write):
     asked = read_question(write(ONE + STACK))
     assert isinstance(asked, FitProblem)
@@ -81,6 +78,11 @@ def test_a_scenario_alone_asks_nothing_yet(write):
     assert (asked.data, asked.vary, asked.tie) == ({}, {}, {})
 
 
+def test_a_list_of_names_varies_around_the_drop(write):
+    asked = read_question(write("vary = ['contacts.1.stiffness']\nheight = 1.0\n" + STACK))
+    assert asked.vary == {"contacts.1.stiffness": None}
+
+
 def test_several_drops_share_what_stands_above_them(write):
     text = (
         "height = 0.3\n"
@@ -98,11 +100,6 @@ def test_several_drops_share_what_stands_above_them(write):
     found = asked.fit()
     assert [one.drop for one in found.residuals] == ["low", "fast"]
     assert found.drops["low"].gaps == (0.001,)
-
-
-def test_a_list_of_names_varies_around_the_drop(write):
-    asked = read_question(write("vary = ['contacts.1.stiffness']\nheight = 1.0\n" + STACK))
-    assert asked.vary == {"contacts.1.stiffness": None}
 
 
 def test_a_force_record_beside_the_file(write, tmp_path):
@@ -134,10 +131,7 @@ def test_a_force_record_beside_the_file(write, tmp_path):
         (('low = "0 mm", ', ""), "vary: gaps.0 must have both low and high, got"),
         (("3.53", "-1"), "impact_speed must be a positive number"),
         (("[measured]", "[measured]\nforce.0 = 7"), "force.0 must be the name of a file with a"),
-        (
-            ("[measured]", "[measured]\nforce.0 = {file = 'a.csv', unit = 'N'}"),
-            "force.0.unit is not a known key; did you mean units?",
-        ),
+        (("[measured]", "[measured]\nforce.0 = {file = 'a', unit = 'N'}"), "force.0.unit is not a"),
         (("[vary]", "[[drops]]\nname = 'a'\n[vary]"), "measured belongs to one of the drops"),
         (("gaps = [", "gaps = {"), "is not TOML"),
     ],
@@ -179,18 +173,16 @@ def test_a_record_without_a_force_is_refused(write):
         read_question(3)
 
 
-# Tables
+HEAD = "name,height (cm),gaps.0 (mm),rebound_ratios.1\n"
+BESIDE = "rebound_ratios.1,error of rebound_ratios.1\n"
 
 
 @pytest.mark.parametrize(
     "text",
     [
-        "name,height (cm),gaps.0 (mm),rebound_ratios.1\na,30,,1.61 ± 0.02\nb,63.5,2,1.55+/-0.03\n",
+        f"{HEAD}a,30,,1.61 ± 0.02\nb,63.5,2,1.55+/-0.03\n",
         "name;height (cm);gaps.0 (mm);rebound_ratios.1\na;30;;1,61 ± 0,02\nb;63,5;2;1,55 ± 0,03\n",
-        (
-            "name,height (cm),gaps.0 (mm),rebound_ratios.1\n"
-            'a,30,,"1,61 ± 0,02"\nb,"63,5",2,"1,55 ± 0,03"\n'
-        ),
+        f'{HEAD}a,30,,"1,61 ± 0,02"\nb,"63,5",2,"1,55 ± 0,03"\n',
         (
             "name\theight / m\tgaps.0\trebound_ratios.1\terror of rebound_ratios.1\n"
             "a\t0.3\t\t1.61\t0.02\n\n\nb\t635 mm\t2 mm\t1.55\t.03\n"
@@ -225,54 +217,26 @@ def test_a_table_has_counts_heights_and_forces(write, tmp_path):
     assert data["drop_2"]["force.0"].attrs["units"] == "V"
 
 
-def test_a_table_fits(write):
-    truth = 1480.0
-    rows = []
-    for height in (0.2, 0.63, 1.2):
-        drop = sb.Drop(
-            BASE.balls, [sb.Spring(2500.0), sb.Spring(truth)], gaps=[0.001], height=height
-        )
-        ratio = sb.simulate(drop).rebound_ratios[1]
-        rows.append(f"{height} m,1 mm,{ratio:.6f},0.01")
-    heading = "height,gaps.0,rebound_ratios.1,error of rebound_ratios.1\n"
-    drops, data = read_drops(BASE, write(heading + "\n".join(rows), "drops.csv"))
-    found = sb.fit(drops, data, {"contacts.1.stiffness": (700.0, 2500.0)})
-    assert found["contacts.1.stiffness"].nominal_value == pytest.approx(truth, rel=1e-3)
-    assert found.degrees_of_freedom == 2
-
-
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
         ("hight (cm),rebound_ratios.1\n1,2", "column 'hight (cm)' is neither a number of the drop"),
-        ("hight,rebound_ratios.1\n1,2", "did you mean height?"),
         ("gaps.1,rebound_ratios.1\n1,2", "did you mean gaps.0?"),
-        ("rebound_ratio.1,height\n1,2", "did you mean rebound_ratios.1?"),
-        ("rebound_ratios.2\n1", "must end in the number of a ball from 0 to 1"),
-        ("rebound_ratios\n1", "must end in the number of a ball from 0 to 1"),
-        ("error of height,rebound_ratios.1\n1,2", "'error of height' does not belong to a"),
         ("error of rebound_ratios.0,rebound_ratios.1\n1,2", "has no column rebound_ratios.0"),
         ("height,height (cm),rebound_ratios.1\n1,2,3", "column 'height' is there twice"),
         ("height,gaps.0\n1,2", "it has no column of what was measured; known: rebound_ratios.0"),
         ("rebound_ratios.1\n", "it has a heading but no drop below it"),
         ("\n\n", "it has no heading"),
         ("rebound_ratios.1\n1.64", "row 2, rebound_ratios.1 must have an error, in its cell"),
-        (
-            "rebound_ratios.1,error of rebound_ratios.1\n1.64 ± 0.01,0.02",
-            "row 2, rebound_ratios.1 has an error in its cell and one beside it",
-        ),
-        (
-            "rebound_ratios.1,error of rebound_ratios.1\n1.64,-1",
-            "row 2, error of rebound_ratios.1 must be a positive number, got -1",
-        ),
+        (f"{BESIDE}1.64 ± 0.01,0.02", "rebound_ratios.1 has an error in its cell and one beside"),
+        (f"{BESIDE}1.64,-1", "row 2, error of rebound_ratios.1 must be a positive number, got -1"),
         ("height,rebound_ratios.1\n1,1 ± 1\n\n2,x", "row 4, rebound_ratios.1 must be a pure"),
         ("height (kg),rebound_ratios.1\n1,1 ± 1", "row 2, height (kg) must be a length"),
-        ("height,rebound_ratios.1\n-1,1 ± 1", "row 2: height must be a positive number"),
-        ("balls.0.mass,rebound_ratios.1\n0,1 ± 1", "row 2: balls.0.mass must be a positive"),
         ("height,rebound_ratios.1\n1,", "row 2 has nothing that was measured"),
         ("height,rebound_ratios.1\n1,1 ± 1,7", "row 2 has more cells than the heading, 2"),
-        ("name,rebound_ratios.1\nB2 on B1,1 ± 1", "row 2, name must be a name of its own"),
         ("name,rebound_ratios.1\na,1 ± 1\na,1 ± 1", "row 3, name must be a name of its own"),
+        ("height,rebound_ratios.1\n-1,1 ± 1", "row 2: height must be a positive number"),
+        ("name,rebound_ratios.1\nB2 on B1,1 ± 1", "row 2, name must be a name of its own"),
         ("collisions.0\n1.5", "row 2, collisions.0 must be a whole number, got '1.5'"),
         ("contacts.1.stiffness;collisions.0\n22,500;1", "row 2, contacts.1.stiffness: 22,500 can"),
         ("height;gaps.0;collisions.0\n1,5;0.2;1", "row 2, height: 1,5 has a comma, but 0.2"),

@@ -1,10 +1,13 @@
 """Draws beside the posterior that is known exactly."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.stats import truncnorm
 
 import stackbounce as sb
+from drops import STACK
 from stackbounce.errors import InvalidType, InvalidValue
 
 BALL = sb.Drop([sb.Ball(0.1)], [sb.Rigid(0.6)], impact_speed=1.0)
@@ -56,9 +59,8 @@ def test_a_linear_case_has_the_exact_mean_spread_and_correlation():
 
 @pytest.mark.slow
 def test_between_the_bounds_every_value_is_as_probable():
-    found = sb.fit(
-        BALL, {"rebound_ratios.0": (0.9, 0.2)}, {"contacts.0.restitution": (0.5, 1.0)}
-    ).sample(DRAWS, seed=1)
+    fit = sb.fit(BALL, {"rebound_ratios.0": (0.9, 0.2)}, {"contacts.0.restitution": (0.5, 1.0)})
+    found = fit.sample(DRAWS, seed=1)
     exact = truncnorm((0.5 - 0.9) / 0.2, (1.0 - 0.9) / 0.2, loc=0.9, scale=0.2)
     assert found["contacts.0.restitution"].nominal_value == pytest.approx(exact.mean(), abs=0.006)
     assert found["contacts.0.restitution"].std_dev == pytest.approx(exact.std(), rel=0.04)
@@ -81,10 +83,8 @@ def test_between_wide_bounds_every_logarithm_is_as_probable():
 @pytest.mark.parametrize("bounds", [(0.02, 0.98), (0.2, 0.98)])
 def test_a_prior_is_all_that_is_known_beforehand(bounds):
     """Also where bounds are so wide that the number is searched by its logarithm."""
-    vary = {
-        "balls.0.mass": sb.Range(*bounds, prior=(0.5, 0.1)),
-        "contacts.0.restitution": (0.2, 0.9),
-    }
+    mass = sb.Range(*bounds, prior=(0.5, 0.1))
+    vary = {"balls.0.mass": mass, "contacts.0.restitution": (0.2, 0.9)}
     fit = sb.fit(BALL, {"rebound_ratios.0": (0.6, 0.05)}, vary)
     found = fit.sample(DRAWS, seed=2)
     assert fit.objective.parameters[0].logarithmic == (bounds[0] == 0.02)
@@ -138,10 +138,7 @@ def test_short_chains_are_noted_and_a_name_that_was_not_varied_is_refused():
 
 
 def test_other_minima_are_told():
-    stack = sb.Drop(
-        [sb.Ball(0.150), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(3000.0)], impact_speed=3.5
-    )
-    found = sb.fit(
-        stack, {"rebound_ratios.1": (1.12, 0.002)}, {"contacts.1.stiffness": (2800.0, 9500.0)}
-    )
+    stack = replace(STACK, contacts=[sb.Spring(2500.0), sb.Spring(3000.0)])
+    vary = {"contacts.1.stiffness": (2800.0, 9500.0)}
+    found = sb.fit(stack, {"rebound_ratios.1": (1.12, 0.002)}, vary)
     assert "the fit has other minima, which the draws may not reach" in found.sample(1280).notes

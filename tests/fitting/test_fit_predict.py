@@ -1,16 +1,14 @@
 """What follows of a fitted drop, with the errors of the fit."""
 
+from dataclasses import replace
+
 import pytest
 
 import stackbounce as sb
+from drops import STACK
 from stackbounce.errors import InvalidValue
 
-PAIR = sb.Drop(
-    [sb.Ball(0.15), sb.Ball(0.057)],
-    [sb.Spring(2500.0), sb.Spring(1000.0)],
-    gaps=[0.003],
-    height=0.6,
-)
+PAIR = replace(STACK, gaps=[0.003], height=0.6, impact_speed=None)
 DATA = {"rebound_ratios.1": "1.90 ± 0.02", "durations.0": "20.0 ± 0.5 ms"}
 
 
@@ -20,9 +18,8 @@ def test_a_fitted_quantity_has_the_error_of_its_datum():
     found = sb.fit(drop, {"durations.0": "5.0 ± 0.1 ms"}, ["contacts.0.stiffness"])
     normal = found.predict()
     assert normal["durations.0"].std_dev == pytest.approx(1e-4, rel=1e-3)
-    assert normal.errors["contacts.0.stiffness"].std_dev == pytest.approx(
-        found["contacts.0.stiffness"].std_dev, rel=1e-6
-    )
+    error = pytest.approx(found["contacts.0.stiffness"].std_dev, rel=1e-6)
+    assert normal.errors["contacts.0.stiffness"].std_dev == error
     drawn = found.predict(posterior=found.sample(6400, seed=1))
     assert drawn.how == "errors by 4800 draws: draws were given"
     assert drawn["durations.0"].std_dev == pytest.approx(1e-4, rel=0.1)

@@ -9,7 +9,8 @@ from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fitting.formula import read_formula
 
 DATA = {"rebound_ratios": [(0.39, 0.01), (1.80, 0.01)], "durations.0": (30e-3, 1e-3)}
-UPPER = "contacts.1.stiffness"
+LOWER, UPPER = "contacts.0.stiffness", "contacts.1.stiffness"
+INFINITE = ("9**9**9 * k", "(9**9999)**9999 + k", "k / 0", "log(-k)", "exp(k)")
 
 
 def fitted(tie, vary=None):
@@ -41,58 +42,12 @@ def test_a_formula_computes(text, expected):
 @pytest.mark.parametrize(
     "text",
     [
-        "().__class__",
-        "k.__class__",
-        "k.real",
-        "(1,2)*1000000000",
-        "((1,),)*99999999",
-        "k, k",
-        "[k]*9",
-        "{k}",
-        "'k'*9",
-        "f'{k}'",
-        "k if k else k",
-        "k or k",
-        "lambda: k",
-        "(x := k)",
-        "k = 1",
-        "k; k",
-        "k == k",
-        "k // 2",
-        "k % 2",
-        "k << 9",
-        "k @ k",
-        "~k",
-        "k\nk",
-        "k[0]",
-        "k(k)",
-        "sqrt",
-        "sqrt(k, k)",
-        "sqrt()",
-        "sqrt(x=k)",
-        "maximum(*k)",
-        "maximum(k, 1, k)",
-        "open(k)",
-        "__import__(k)",
-        "print(k)",
-        "eval(k)",
-        "import os",
-        "await k",
-        "1j * k",
-        "0x10 * k",
-        "1_000 * k",
-        "True * k",
-        "None",
-        "...",
-        "*",
-        "1 2",
-        "k\0",
+        *("().__class__", "k.__class__", "(1,2)*1000000000", "[k]*9", "'k'*9", "k if k else k"),
+        *("lambda: k", "k = 1", "k == k", "k // 2", "k @ k", "~k", "k\nk", "k[0]", "k(k)"),
+        *("sqrt", "sqrt(k, k)", "sqrt(x=k)", "maximum(*k)", "open(k)", "__import__(k)"),
+        *("import os", "1j * k", "0x10 * k", "1_000 * k", "True * k", "*", "k\0", "k\u00b2"),
         "\u212a",  # the sign of the kelvin, which Python reads as K
-        "k\u00b2",
-        "(" * 240 + "k" + ")" * 240,
-        "-" * 100_000 + "k",
-        "k" + "+k" * 100_000,
-        "k" * 100_000,
+        *("(" * 240 + "k" + ")" * 240, "-" * 100_000 + "k", "k" * 100_000),
     ],
 )
 def test_what_is_no_formula_is_refused(text):
@@ -102,18 +57,26 @@ def test_what_is_no_formula_is_refused(text):
     assert len(str(caught.value)) < 1500
 
 
+def fails(*_):
+    raise KeyError("mass")
+
+
 @pytest.mark.parametrize(
-    "text", ["9**9**9 * k", "(9**9999)**9999 + k", "k / 0", "log(-k)", "exp(k)"]
+    ("ties", "message"),
+    [
+        *(({UPPER: text}, "= .* is not always a finite number$") for text in INFINITE),
+        *(({UPPER: text}, "= .* gives no drop: ") for text in ("-k", "0 * k", "k - 1000")),
+        ({UPPER: "contacts.1.stiffness * k"}, "these depend on each other in a circle: "),
+        ({UPPER: f"{LOWER} * k", LOWER: UPPER}, "these depend on each other in a circle: "),
+        ({UPPER: fails}, "= .* fails: 'mass'"),
+        ({UPPER: lambda _: "a lot"}, "= .* fails: could not convert"),
+        ({UPPER: lambda _: np.ones(77)}, "= .* fails: "),
+        ({UPPER: lambda _: np.nan}, "= .* is not always a finite number"),
+    ],
 )
-def test_what_is_not_finite_is_refused_at_once(text):
-    with pytest.raises(InvalidValue, match=r"^tie: .* is not always a finite number$"):
-        fitted({UPPER: text})
-
-
-@pytest.mark.parametrize("text", ["-k", "0 * k", "k - 1000"])
-def test_what_makes_no_drop_is_refused_with_its_formula(text):
-    with pytest.raises(InvalidValue, match=r"^tie: contacts\.1\.stiffness = .* gives no drop: "):
-        fitted({UPPER: text})
+def test_what_is_not_finite_no_drop_or_a_circle_or_fails_is_refused(ties, message):
+    with pytest.raises(InvalidValue, match=rf"^tie: .*{message}"):
+        fitted(ties)
 
 
 @pytest.mark.parametrize("formula", ["", "  ", 3.0, None, b"k", ["k"]])
@@ -133,45 +96,16 @@ def test_ties_may_use_each_other_in_any_order():
     assert above.stiffness == pytest.approx(0.4 * law.stiffness, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    "ties",
-    [
-        {UPPER: "contacts.1.stiffness * k"},
-        {UPPER: "contacts.0.stiffness * k", "contacts.0.stiffness": "contacts.1.stiffness"},
-    ],
-)
-def test_ties_that_go_round_are_refused(ties):
-    with pytest.raises(InvalidValue, match=r"^tie: these depend on each other in a circle: "):
-        fitted(ties)
-
-
 def test_a_function_of_python_is_a_tie():
-    found = fitted({UPPER: lambda values: 0.4 * values["contacts.0.stiffness"]},
-                   {"contacts.0.stiffness": (500.0, 5000.0)})  # fmt: skip
-    text = fitted({UPPER: "0.4 * contacts.0.stiffness"}, {"contacts.0.stiffness": (500.0, 5000.0)})
-    assert found.best == text.best
-
-
-@pytest.mark.parametrize(
-    ("function", "message"),
-    [
-        (lambda _: 1.0 / 0.0, "fails: "),
-        (lambda values: values["mass"], "fails: 'mass'"),
-        (lambda _: "a lot", "fails: could not convert"),
-        (lambda _: np.ones(77), "fails: "),
-        (lambda _: np.nan, "is not always a finite number"),
-    ],
-)
-def test_a_function_that_fails_is_told(function, message):
-    with pytest.raises(InvalidValue, match=rf"^tie: contacts\.1\.stiffness = .* {message}"):
-        fitted({UPPER: function})
+    vary = {"contacts.0.stiffness": (500.0, 5000.0)}
+    found = fitted({UPPER: lambda values: 0.4 * values["contacts.0.stiffness"]}, vary)
+    assert found.best == fitted({UPPER: "0.4 * contacts.0.stiffness"}, vary).best
 
 
 @pytest.mark.parametrize(
     ("tie", "vary", "message"),
     [
         ({"contacts.9.stiffness": "k"}, None, "is not a parameter of the drop"),
-        ({3: "k"}, None, "is not a parameter of the drop"),
         ({UPPER: "k"}, {"k": (1.0, 2.0), UPPER: (1.0, 2.0)}, "both varied and tied"),
         ({UPPER: "2.0 * m"}, None, "has m, which is neither varied nor a number of the drop"),
         ({UPPER: "2.0 * pi"}, None, "k is neither a number of the drop nor used by a tie"),
@@ -181,7 +115,6 @@ def test_a_function_that_fails_is_told(function, message):
         ({UPPER: "k"}, {"k": None}, "k needs bounds"),
         ({UPPER: f"k * {'9' * 400}"}, None, "cannot be read: it may have numbers up to 1e308"),
         ({UPPER: f"-{'9' * 400} + k"}, None, "cannot be read: it may have numbers up to 1e308"),
-        ({UPPER: "k * 1e400"}, None, "cannot be read: it may have numbers up to 1e308"),
         ({UPPER: "k"}, {"k": ("1 kN/m", "2 kN/m")}, "^k must be a pure number"),
     ],
 )
@@ -192,9 +125,8 @@ def test_names_that_do_not_fit(tie, vary, message):
 
 def test_a_diameter_that_is_varied_can_be_used():
     found = fitted({UPPER: "1e4 * balls.0.diameter"}, {"balls.0.diameter": (0.05, 0.3)})
-    assert found.drop.contacts[1].stiffness == pytest.approx(
-        1e4 * found.best["balls.0.diameter"], rel=1e-12
-    )
+    stiffness = pytest.approx(1e4 * found.best["balls.0.diameter"], rel=1e-12)
+    assert found.drop.contacts[1].stiffness == stiffness
 
 
 def test_shared_and_own_numbers_of_several_drops():

@@ -5,7 +5,6 @@ import pytest
 
 import stackbounce as sb
 from drops import STACK
-from stackbounce.errors import InvalidValue
 
 BOTH = ["contacts.0.stiffness", "contacts.1.stiffness"]
 RATIOS = {"rebound_ratios": [(0.39, 0.01), (1.80, 0.01)]}
@@ -22,9 +21,8 @@ def test_ratios_at_no_gap_tell_the_stiffness_ratio_alone():
     ratio = found[BOTH[0]] / found[BOTH[1]]
     alone = sb.fit(STACK, RATIOS, [BOTH[1]])[BOTH[1]]
     assert ratio.nominal_value == pytest.approx(2500.0 / alone.nominal_value, rel=1e-5)
-    assert ratio.std_dev / ratio.nominal_value == pytest.approx(
-        alone.std_dev / alone.nominal_value, rel=1e-2
-    )
+    relative = alone.std_dev / alone.nominal_value
+    assert ratio.std_dev / ratio.nominal_value == pytest.approx(relative, rel=1e-2)
     for name in BOTH:  # along the open direction: even between bounds a factor of 10,000 apart
         spread = np.log(1e4) * ANYWHERE / np.sqrt(2.0)
         assert found[name].std_dev / found.best[name] == pytest.approx(spread, rel=1e-2)
@@ -56,11 +54,15 @@ def test_a_duration_decides():
     assert sb.fit(STACK, data, BOTH).undetermined == ()
 
 
+def test_what_is_known_counts_as_a_datum():
+    known = {BOTH[0]: "2500 ± 25", BOTH[1]: None}
+    assert sb.fit(STACK, {"rebound_ratios.1": (1.6, 0.02)}, known).undetermined == ()
+
+
 def test_a_number_that_plays_no_part():
     found = sb.fit(STACK, RATIOS, {"balls.0.diameter": (0.1, 0.2), BOTH[1]: None})
-    assert found.undetermined == (
-        "the data do not determine balls.0.diameter: nothing changes within its bounds",
-    )
+    (sentence,) = found.undetermined
+    assert sentence.endswith("balls.0.diameter: nothing changes within its bounds")
     assert found["balls.0.diameter"].std_dev == pytest.approx(0.1 * ANYWHERE, rel=1e-9)
     assert found.intervals()["balls.0.diameter"] == (0.1, 0.2, True, True)
     alone = sb.fit(STACK, RATIOS, [BOTH[1]])[BOTH[1]]
@@ -76,10 +78,3 @@ def test_no_error_is_larger_than_that_of_the_bounds(error):
     spread = found["contacts.0.restitution"].std_dev
     assert spread == pytest.approx(min(error, ANYWHERE), rel=1e-6)
     assert bool(found.undetermined) == (error >= 1.0)
-
-
-def test_more_numbers_than_data_are_refused():
-    with pytest.raises(InvalidValue, match=r"^vary has 2 numbers for 1 measured number: fix some"):
-        sb.fit(STACK, {"rebound_ratios.1": (1.6, 0.02)}, BOTH)
-    known = {BOTH[0]: "2500 ± 25", BOTH[1]: None}
-    assert sb.fit(STACK, {"rebound_ratios.1": (1.6, 0.02)}, known).undetermined == ()

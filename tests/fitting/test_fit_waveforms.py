@@ -83,7 +83,7 @@ def test_samples_that_are_no_numbers_are_left_out(bad):
     assert within(found, "contacts.0.stiffness", 2500.0)
 
 
-def test_two_records_of_one_drop_with_other_sampling():
+def test_two_records_of_one_drop_have_one_clock():
     record = waveform(STACK, rate=1e4, noise=0.5, seed=2, before=0.01, contacts=[0, 1])
     vary = {**VARY, "contacts.1.stiffness": (700.0, 1500.0)}
     data = {"force.0": record.force, "force.1": record.force_2[1::3]}
@@ -92,10 +92,6 @@ def test_two_records_of_one_drop_with_other_sampling():
     assert within(found, "contacts.1.stiffness", 1000.0)
     assert found.names[-1] == "touch"
     assert found.probability > 0.01
-
-
-def test_records_whose_clocks_differ_do_not_fit():
-    record = waveform(STACK, rate=1e4, noise=0.5, seed=2, before=0.01, contacts=[0, 1])
     later = (record.time.values + 5.0, record.force_2.values)
     found = sb.fit(STACK, {"force.0": record.force, "force.1": later}, VARY, starts=4)
     assert found.notes[0].startswith("the model does not describe the data")
@@ -103,13 +99,17 @@ def test_records_whose_clocks_differ_do_not_fit():
 
 def test_two_drops_have_a_clock_each():
     other = waveform(ONE, rate=1e4, noise=0.5, seed=3, before=0.02).force
-    found = sb.fit(
-        {"a": ONE, "b": ONE}, {"a": {"force.0": RECORD}, "b": {"force.0": other}}, VARY, starts=4
-    )
+    data = {"a": {"force.0": RECORD}, "b": {"force.0": other}}
+    found = sb.fit({"a": ONE, "b": ONE}, data, VARY, starts=4)
     assert found.names == ["contacts.0.stiffness", "a.touch", "b.touch"]
     assert found.best["a.touch"] == pytest.approx(0.01, abs=2e-4)
     assert found.best["b.touch"] == pytest.approx(0.02, abs=2e-4)
     assert within(found, "contacts.0.stiffness", 2500.0)
+
+
+def test_a_clock_is_no_name_for_something_else():
+    with pytest.raises(InvalidValue, match=r"^touch is the time of first touch in a force record"):
+        sb.fit(ONE, {"force.0": RECORD}, {"touch": (0.1, 1.0)}, tie={"gravity": "touch"})
 
 
 BEFORE = TIMES < 0.005
@@ -125,14 +125,10 @@ QUIET = np.random.default_rng(1).normal(0.0, 0.5, len(TIMES))
         ((TIMES, FORCE * np.nan), InvalidValue, "must"),
         ((TIMES[1:], FORCE), InvalidValue, "must hold time and force of one length"),
         (([], []), InvalidValue, "must hold at least 8 samples"),
-        (([1.0], [1.0]), InvalidValue, "must hold at least 8 samples"),
         (None, InvalidType, "must be a DataArray over time, or times, forces and their error"),
-        ("a table", InvalidType, "must be a DataArray over time"),
         (5.0, InvalidType, "must be a DataArray over time"),
-        ((TIMES,), InvalidType, "must be a DataArray over time"),
         ((TIMES, FORCE, 0.5, 1.0), InvalidType, "must be a DataArray over time"),
         ((TIMES, FORCE, 0.0), InvalidValue, "'s error must be a positive number, got 0"),
-        ((TIMES, FORCE, -1.0), InvalidValue, "'s error must be a positive number, got -1"),
         ((TIMES, FORCE, np.nan), InvalidValue, "'s error must be a positive number, got nan"),
         (xr.DataArray(np.ones((3, 3)), dims=("time", "x")), InvalidValue, "dimension time alone"),
     ],
@@ -143,13 +139,10 @@ def test_records_that_cannot_be_used(value, kind, message):
     assert "\n" not in str(caught.value)
 
 
-def test_a_contact_that_is_not_there():
-    with pytest.raises(InvalidValue, match=r"^force\.1 must end in the number of a contact"):
-        sb.fit(ONE, {"force.1": RECORD}, VARY)
-    with pytest.raises(InvalidValue, match=r"did you mean force\.0\?|force\.0$"):
-        sb.fit(ONE, {"force": RECORD}, VARY)
-
-
-def test_a_clock_is_no_name_for_something_else():
-    with pytest.raises(InvalidValue, match=r"^touch is the time of first touch in a force record"):
-        sb.fit(ONE, {"force.0": RECORD}, {"touch": (0.1, 1.0)}, tie={"gravity": "touch"})
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [("force.1", r"^force\.1 must end in the number of a contact"), ("force", r"force\.0(\?|$)")],
+)
+def test_a_contact_that_is_not_there(name, message):
+    with pytest.raises(InvalidValue, match=message):
+        sb.fit(ONE, {name: RECORD}, VARY)

@@ -21,10 +21,8 @@ def test_the_drag_is_corrected_where_mass_and_diameter_are_known():
     speeds = [4.0, drag.landing_speed(k, 0.8 * 4.0, g)]
     falls = [drag.fall_height(k, speed, g) for speed in speeds]
     rises = [drag.risen(k, 0.8 * speed, g) for speed in speeds]
-    flights = [
-        drag.rise_time(k, 0.8 * speed, g) + drag.fall_time(k, height, g)
-        for speed, height in zip(speeds, rises, strict=True)
-    ]
+    pairs = zip(speeds, rises, strict=True)
+    flights = [drag.rise_time(k, 0.8 * v, g) + drag.fall_time(k, h, g) for v, h in pairs]
     knocks = table(drop_height=falls[:1] * 3, knock_time=np.cumsum([0.0, *flights]))
     for data in (table(drop_height=falls, rebound_height=rises), knocks):
         in_air = data.assign_attrs(mass=0.0027, diameter=0.04)
@@ -35,19 +33,6 @@ def test_the_drag_is_corrected_where_mass_and_diameter_are_known():
         for plain in (make_series(in_air, air=False), make_series(data)):
             assert plain.drag == 0.0
             assert (plain.values < 0.77).all()
-
-
-def test_the_knocks_of_the_superball_are_two_restitutions():
-    series = make_series(datasets.load("superball-knocks"))
-    assert series.values == pytest.approx([0.9356, 0.9364], abs=1e-4)
-    assert series.speeds == pytest.approx([3.705, 3.467], abs=1e-3)
-
-
-def test_the_basketball_loses_as_a_power_of_its_speed_if_the_air_is_left_out():
-    series = make_series(datasets.load("leather-basketball"), air=False)
-    assert series.values == pytest.approx([0.81, 0.85])
-    loss, speed = np.log(1.0 - series.values), np.log(series.speeds)
-    assert np.diff(loss) / np.diff(speed) == pytest.approx(0.43, abs=0.005)
 
 
 @pytest.mark.parametrize("name", ["rubber-ball-bounces", "steel-on-metallic-glass"])
@@ -99,6 +84,19 @@ def test_contact_times_at_several_heights_are_a_series():
     assert (series.quantity, series.restitution) == (CONTACT_TIME, 0.9)
     assert series.values.tolist() == [9e-3, 8e-3]
     assert series.speeds == pytest.approx(np.sqrt(2.0 * STANDARD_GRAVITY * np.array([0.4, 1.6])))
+
+
+def test_the_knocks_of_the_superball_are_two_restitutions():
+    series = make_series(datasets.load("superball-knocks"))
+    assert series.values == pytest.approx([0.9356, 0.9364], abs=1e-4)
+    assert series.speeds == pytest.approx([3.705, 3.467], abs=1e-3)
+
+
+def test_the_basketball_loses_as_a_power_of_its_speed_if_the_air_is_left_out():
+    series = make_series(datasets.load("leather-basketball"), air=False)
+    assert series.values == pytest.approx([0.81, 0.85])
+    loss, speed = np.log(1.0 - series.values), np.log(series.speeds)
+    assert np.diff(loss) / np.diff(speed) == pytest.approx(0.43, abs=0.005)
 
 
 def test_errors_have_the_degrees_of_freedom_of_their_scatter():

@@ -37,6 +37,15 @@ def test_the_tools_have_the_versions_of_the_constraints():
     assert set(needs) - {"hatchling"} <= set(pinned)
 
 
+def test_the_metadata_have_the_licence_of_all_that_is_vendored():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    named = {path for pattern in project["license-files"] for path in ROOT.glob(pattern)}
+    vendored = [path for path in (ROOT / "src").rglob("vendor/*") if path.is_dir()]
+    assert vendored
+    assert {ROOT / "LICENSE", *(path / "LICENSE" for path in vendored)} == named
+    assert project["license"] == "BSD-3-Clause AND MIT"
+
+
 @pytest.mark.usefixtures("quick")
 def test_a_build_is_up_to_date_until_something_changes(tmp_path, monkeypatch):
     assert not builder.is_up_to_date(tmp_path, NAMES)
@@ -83,11 +92,7 @@ def test_what_cannot_be_compiled_is_said_in_a_line(monkeypatch, tmp_path, capsys
 
 
 class Aborted(Exception):
-    """What hatchling's abort does here."""
-
-
-def abort(message):
-    raise Aborted(message)
+    """What hatchling's abort raises here."""
 
 
 def hook_with(monkeypatch, status, platform=""):
@@ -104,9 +109,13 @@ def hook_with(monkeypatch, status, platform=""):
     monkeypatch.setattr(hatch_build.subprocess, "run", run)
     monkeypatch.setenv("STACKBOUNCE_PLATFORM", platform)
     monkeypatch.setattr(sys, "path", [*sys.path])
+
+    def abort_with(message):
+        raise Aborted(message)
+
     hook = object.__new__(hatch_build.KernelHook)
     monkeypatch.setattr(hatch_build.KernelHook, "root", str(ROOT))
-    monkeypatch.setattr(hatch_build.KernelHook, "app", SimpleNamespace(abort=abort))
+    monkeypatch.setattr(hatch_build.KernelHook, "app", SimpleNamespace(abort=abort_with))
     return hook, commands
 
 
@@ -145,8 +154,7 @@ def test_a_wheel_of_another_platform_leaves_the_sources_alone(monkeypatch, tmp_p
 
 def test_an_installation_of_the_sources_takes_their_folder(monkeypatch):
     hook, commands = hook_with(monkeypatch, 0, "macos-aarch64")
-    data, _ = put(hook, "editable")
-    assert data == {"force_include": {}}
+    assert put(hook, "editable")[0] == {"force_include": {}}
     assert commands[0][-1] == native.FOLDER
     assert commands[0][-3] == native.platform_name()
 
@@ -161,12 +169,3 @@ def test_a_failure_ends_the_build(status, platform, monkeypatch):
     hook, _ = hook_with(monkeypatch, status, platform)
     with pytest.raises(Aborted, match="the kernels could not be compiled for"):
         put(hook)
-
-
-def test_the_metadata_have_the_licence_of_all_that_is_vendored():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    named = {path for pattern in project["license-files"] for path in ROOT.glob(pattern)}
-    vendored = [path for path in (ROOT / "src").rglob("vendor/*") if path.is_dir()]
-    assert vendored
-    assert {ROOT / "LICENSE", *(path / "LICENSE" for path in vendored)} == named
-    assert project["license"] == "BSD-3-Clause AND MIT"

@@ -10,9 +10,8 @@ import pytest
 from stackbounce.errors import MissingExtra
 from stackbounce.extras import EXTRAS, need
 
-PROJECT = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text("utf-8"))[
-    "project"
-]
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
 CORE = {"pandas", "pydantic"}  # which xarray and typer bring
 BROUGHT = sorted({module for modules in EXTRAS.values() for module in modules} - CORE)
 COMPILERS = ["numba", "llvmlite"]  # for developers and benchmarks only
@@ -45,11 +44,20 @@ def test_an_extra_brings_what_it_says(extra):
 
 
 def test_everything_is_in_all():
-    others = set(PROJECT["optional-dependencies"]) - {"all", "dev", "bench"}
-    assert others == set(EXTRAS)
+    assert set(PROJECT["optional-dependencies"]) == {*EXTRAS, "all", "dev", "bench"}
 
 
-def test_a_missing_extra_is_named(monkeypatch):
+@pytest.mark.parametrize("extra", EXTRAS)
+def test_a_missing_extra_is_named(extra, monkeypatch):
+    for module in EXTRAS[extra]:
+        monkeypatch.setitem(sys.modules, module, None)
+    with pytest.raises(MissingExtra) as caught:
+        need(extra, "a task")
+    names = ", ".join(EXTRAS[extra])
+    assert str(caught.value) == f"a task needs {names}: pip install 'stackbounce[{extra}]'"
+
+
+def test_what_is_installed_of_an_extra_is_not_named(monkeypatch):
     need("fit", "stackbounce fit")
     monkeypatch.setitem(sys.modules, "lmfit", None)
     with pytest.raises(MissingExtra, match=r"^a fit needs lmfit: pip install 'stackbounce\[fit\]'"):
@@ -109,13 +117,12 @@ def test_a_command_names_the_extra_it_needs(arguments, extra, what, tmp_path):
     assert (run.returncode, run.stdout, list(tmp_path.iterdir())) == (2, "", [])
 
 
-@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("code", "extra"),
     [
         ("import stackbounce as sb; sb.read('sound.wav')", "measure"),
-        ("from stackbounce.plots import bounce", "plots"),
-        ("from stackbounce.explorer.serve import serve", "web"),
+        pytest.param("from stackbounce.plots import bounce", "plots", marks=pytest.mark.slow),
+        pytest.param("import stackbounce.explorer.serve", "web", marks=pytest.mark.slow),
     ],
 )
 def test_a_function_names_the_extra_it_needs(code, extra):

@@ -46,26 +46,15 @@ def inexact(tree):
                 yield f"{function.name}: {what}"
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_kernels_ask_no_library(path):
-    assert list(inexact(ast.parse(path.read_text("utf-8")))) == []
-
-
-def test_there_are_kernels():
-    assert sum(len(list(kernels(ast.parse(path.read_text("utf-8"))))) for path in FILES) > 100
+def test_kernels_ask_no_library():
+    trees = [ast.parse(path.read_text("utf-8")) for path in FILES]
+    assert sum(len(list(kernels(tree))) for tree in trees) > 100
+    assert [what for tree in trees for what in inexact(tree)] == []
 
 
 @pytest.mark.parametrize(
     ("code", "what"),
-    [
-        ("x ** 2", "**"),
-        ("x % 2", "%"),
-        ("pow(x, y)", "pow"),
-        ("round(x)", "round"),
-        ("math.sin(x)", "math.sin"),
-        ("np.exp(x)", "np.exp"),
-        ("tangent(x)", "tangent"),
-    ],
+    [("x ** 2", "**"), ("pow(x, y)", "pow"), ("np.exp(x)", "np.exp"), ("tangent(x)", "tangent")],
 )
 def test_what_is_refused(code, what):
     top = "import math\nimport numpy as np\nfrom math import tan as tangent\n"

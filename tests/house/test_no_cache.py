@@ -54,12 +54,8 @@ def test_nothing_else_is_written_and_nothing_is_unpickled(tmp_path, command):
     temporary = tmp_path / "temporary"  # Python tries whether it can write there
     temporary.mkdir()
     nowhere = "/proc/none"  # in which not even root can write
-    own = {
-        **dict.fromkeys(("HOME", "XDG_CACHE_HOME", "XDG_CONFIG_HOME"), nowhere),
-        "MPLCONFIGDIR": str(fonts),
-        "TMPDIR": str(temporary),
-        "PYTHONDONTWRITEBYTECODE": "1",
-    }
+    own = dict.fromkeys(("HOME", "XDG_CACHE_HOME", "XDG_CONFIG_HOME"), nowhere)
+    own |= {"MPLCONFIGDIR": str(fonts), "TMPDIR": str(temporary), "PYTHONDONTWRITEBYTECODE": "1"}
     done = subprocess.run(
         [sys.executable, "-c", WATCHED, str(report), *command],
         env=os.environ | own, cwd=work, capture_output=True, text=True, timeout=300, check=False,

@@ -19,21 +19,8 @@ TREES = {
 LAWS = {"Dashpot", "HuntCrossley", "Viscoelastic"}  # those that nothing else builds upon
 AT_HOME = ("model/laws/", "model/__init__.py", "__init__.py", "cross2007/")
 
-WRITERS = {
-    "write_text",
-    "write_bytes",
-    "to_csv",
-    "to_netcdf",
-    "to_zarr",
-    "dump",
-    "savefig",
-    "tofile",
-}
-HOMES = {
-    "files.py",  # the one writer
-    "plots/style.py",  # a picture, into memory
-    "cross2007/style.py",
-}
+WRITERS = set("write_text write_bytes to_csv to_netcdf to_zarr dump savefig tofile".split())
+HOMES = {"files.py", "plots/style.py", "cross2007/style.py"}  # the writer; pictures into memory
 UNSAFE = {"pickle", "cPickle", "marshal", "shelve", "dill", "cloudpickle", "joblib", "platformdirs"}
 
 

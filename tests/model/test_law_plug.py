@@ -3,7 +3,6 @@
 import dataclasses
 import json
 import math
-import re
 from typing import Annotated, ClassVar
 
 import numpy as np
@@ -115,6 +114,15 @@ def is_told_by_a_force_record(law, result):
 
 
 @pytest.mark.parametrize("name", list(LAWS))
+def test_every_law_says_what_people_are_shown(name):
+    kind = LAWS[name]
+    assert kind.says.endswith(".")
+    assert kind.source in " ".join(kind.__doc__.split())
+    sliders = [quantity.slider for quantity in kind.quantities().values()]
+    assert all(low <= start <= high for start, low, high in sliders)
+
+
+@pytest.mark.parametrize("name", list(LAWS))
 def test_every_law_goes_through_every_face(name, tmp_path, capfd):
     law, result = goes_through_every_face(LAWS[name], tmp_path, capfd)
     if law.rigid:
@@ -123,18 +131,6 @@ def test_every_law_goes_through_every_face(name, tmp_path, capfd):
     is_told_by_a_force_record(law, result)
     both = sb.series(law, law)
     assert both.stiffness == pytest.approx(law.stiffness * 0.5**law.exponent)
-
-
-@pytest.mark.parametrize("name", list(LAWS))
-def test_every_law_says_what_people_are_shown(name):
-    kind = LAWS[name]
-    assert kind.says.endswith(".")
-    assert kind.source in " ".join(kind.__doc__.split())
-    assert all(low <= start <= high for start, low, high in sliders(kind))
-
-
-def sliders(kind):
-    return [one.slider for one in kind.quantities().values()]
 
 
 def test_the_usual_models_are_those_that_laws_offer():
@@ -177,26 +173,16 @@ def test_a_law_without_closed_forms_is_measured_by_a_run():
     assert math.isclose(lasts, sb.simulate(alone(closed)).last_release[0], rel_tol=1e-9)
 
 
-def test_an_incomplete_law_is_refused():
-    class Silent(ContactLaw):
-        says = "Nothing."
-
-    with pytest.raises(TypeError, match="Silent must set formula, source, form"):
-        register(Silent)
-    assert "Silent" not in LAWS
-
-
-def test_a_law_of_an_unknown_form_is_refused():
-    class Clay(SharpCone):
-        form = "POWERS"
-
-    words = "Clay has the form of force POWERS; did you mean POWER?"
-    with pytest.raises(TypeError, match=re.escape(words)):
-        register(Clay)
-    assert "Clay" not in LAWS
-
-
-def test_a_name_belongs_to_one_law():
-    with pytest.raises(TypeError, match=r"Spring is the name of a law in stackbounce\.model"):
-        register(type("Spring", (SharpCone,), {}))
-    assert LAWS["Spring"] is sb.Spring
+@pytest.mark.parametrize(
+    ("name", "bases", "own", "words"),
+    [
+        ("Silent", (ContactLaw,), {"says": "No."}, "Silent must set formula, source, form"),
+        ("Clay", (SharpCone,), {"form": "POWERS"}, "Clay has the form of force POWERS; did you"),
+        ("Spring", (SharpCone,), {}, r"Spring is the name of a law in stackbounce\.model"),
+    ],
+)
+def test_a_law_that_is_incomplete_or_has_another_ones_name_is_refused(name, bases, own, words):
+    known = dict(LAWS)
+    with pytest.raises(TypeError, match=words):
+        register(type(name, bases, own))
+    assert known == LAWS

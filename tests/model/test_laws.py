@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import stackbounce as sb
+from refusals import refusal
 from stackbounce import errors
 from stackbounce.model import LAWS
 
@@ -19,18 +20,8 @@ positive = st.floats(1e-3, 1e9)
 exponents = st.floats(1.0, 5.0)
 
 
-def message(error, make, *arguments, **parameters):
-    with pytest.raises(error) as caught:
-        make(*arguments, **parameters)
-    assert "\n" not in str(caught.value)
-    return str(caught.value)
-
-
-RIGID = [
-    sb.Rigid(0.5),
-    sb.RigidBySpeed(0.5, 2.0),
-    sb.RigidLossBySpeed(0.5, 2.0, 0.43, scatter=0.1, seed=3),
-]
+SCATTERED = sb.RigidLossBySpeed(0.5, 2.0, 0.43, scatter=0.1, seed=3)
+RIGID = [sb.Rigid(0.5), sb.RigidBySpeed(0.5, 2.0), SCATTERED]
 FINITE = [
     sb.Spring(2.0),
     sb.Hertz(2.0),
@@ -50,6 +41,11 @@ def test_every_law_is_named():
     assert all(getattr(sb, name) is law for name, law in LAWS.items())
 
 
+def test_numbers_become_floats():
+    law = sb.HuntCrossley(np.float32(2), 1, np.int64(0))
+    assert [type(value) for value in vars(law).values()] == [float] * 3
+
+
 @pytest.mark.parametrize("law", [*EXAMPLES, sb.Hysteretic(1.0, unloading_exponent=3.3)], ids=repr)
 def test_a_law_is_a_frozen_value(law):
     assert eval(repr(law), vars(sb).copy()) == law
@@ -61,17 +57,12 @@ def test_a_law_is_a_frozen_value(law):
     assert all(type(getattr(law, one)) is float for one in numbers)
 
 
-def test_numbers_become_floats():
-    law = sb.HuntCrossley(np.float32(2), 1, np.int64(0))
-    assert [type(value) for value in vars(law).values()] == [float] * 3
-
-
 @pytest.mark.parametrize("law", FINITE, ids=lambda law: type(law).__name__)
 @pytest.mark.parametrize("value", [-1.0, 0.0, math.nan, math.inf])
 def test_stiffness_is_positive_and_finite(law, value):
-    got = message(errors.InvalidValue, dataclasses.replace, law, stiffness=value)
+    got = refusal(errors.InvalidValue, dataclasses.replace, law, stiffness=value)
     assert got.startswith("stiffness must be a positive number of N/m")
-    assert message(errors.InvalidType, dataclasses.replace, law, stiffness="1").endswith("got '1'")
+    assert refusal(errors.InvalidType, dataclasses.replace, law, stiffness="1").endswith("got '1'")
 
 
 @pytest.mark.parametrize(
@@ -85,7 +76,7 @@ def test_stiffness_is_positive_and_finite(law, value):
 )
 def test_losses_are_not_negative(law, field, unit):
     for value in (-1e-300, math.nan, math.inf):
-        got = message(errors.InvalidValue, dataclasses.replace, law, **{field: value})
+        got = refusal(errors.InvalidValue, dataclasses.replace, law, **{field: value})
         assert got == f"{field} must be a number{unit}, 0 or above, got {value}"
     assert getattr(dataclasses.replace(law, **{field: 0}), field) == 0.0
 
@@ -93,19 +84,18 @@ def test_losses_are_not_negative(law, field, unit):
 @pytest.mark.parametrize("law", [FINITE[2], FINITE[6]])
 def test_exponents_lie_from_1_to_the_steepest(law):
     for value in (0.99, 1.1e6, math.nan):
-        got = message(errors.InvalidValue, dataclasses.replace, law, exponent=value)
+        got = refusal(errors.InvalidValue, dataclasses.replace, law, exponent=value)
         assert got == f"exponent must be a number from 1 to 1e+06, got {value}"
     assert dataclasses.replace(law, exponent=1e6).exponent == 1e6
 
 
-def test_fixed_exponents_can_be_read_and_not_set():
-    fixed = dict.fromkeys([sb.Spring, sb.Dashpot, sb.StandardLinearSolid], 1.0)
-    fixed |= {sb.Hertz: 1.5, sb.Viscoelastic: 1.5}
-    for law in EXAMPLES:
-        if type(law) in fixed:
-            assert law.exponent == fixed[type(law)]
-            with pytest.raises(dataclasses.FrozenInstanceError):
-                law.exponent = 2.0
+@pytest.mark.parametrize(
+    ("law", "exponent"), [(FINITE[0], 1.0), (FINITE[1], 1.5), (FINITE[5], 1.5)]
+)
+def test_fixed_exponents_can_be_read_and_not_set(law, exponent):
+    assert law.exponent == exponent
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        law.exponent = 2.0
 
 
 @pytest.mark.parametrize("law", FINITE, ids=lambda law: type(law).__name__)
@@ -113,9 +103,6 @@ def test_extreme_stacks_are_not_refused(law):
     balls = [sb.Ball(1e12), sb.Ball(1.0), sb.Ball(1e12)]
     contacts = [law, dataclasses.replace(law, stiffness=2e12), law]
     assert sb.Drop(balls, contacts, impact_speed=1.0).contacts[1].stiffness == 2e12
-
-
-# Hertz's stiffness from sizes and materials
 
 
 def test_steel_balls_on_each_other():
@@ -137,39 +124,28 @@ def test_two_materials():
     assert sb.Hertz.between(b, a) == sb.Hertz.between(a, b)
 
 
-def test_a_large_ball_is_a_flat_floor():
-    ball = sb.Ball(1.0, 0.06, **STEEL)
-    floor = sb.Ball(1.0, 1e30, young_modulus=1e30, poisson_ratio=0.0)
-    assert sb.Hertz.between(ball, floor).stiffness == pytest.approx(
-        sb.Hertz.between(ball).stiffness, rel=1e-14
-    )
-
-
 def test_what_a_ball_lacks_is_named():
     ball = sb.Ball(1.0, 0.06, **STEEL)
     for name in ("diameter", "young_modulus", "poisson_ratio"):
         bare = dataclasses.replace(ball, **{name: None})
-        got = message(errors.InvalidValue, sb.Hertz.between, bare)
+        got = refusal(errors.InvalidValue, sb.Hertz.between, bare)
         assert got == f"ball_a.{name} must be given for a Hertz contact, got None"
-        got = message(errors.InvalidValue, sb.Hertz.between, ball, bare)
+        got = refusal(errors.InvalidValue, sb.Hertz.between, ball, bare)
         assert got == f"ball_b.{name} must be given for a Hertz contact, got None"
-    got = message(errors.InvalidValue, sb.Hertz.between, sb.Ball(1.0))
+    got = refusal(errors.InvalidValue, sb.Hertz.between, sb.Ball(1.0))
     assert got.startswith("ball_a.diameter, ball_a.young_modulus, ball_a.poisson_ratio must be")
-    assert message(errors.InvalidType, sb.Hertz.between, 3) == "ball_a must be a Ball, got 3"
+    assert refusal(errors.InvalidType, sb.Hertz.between, 3) == "ball_a must be a Ball, got 3"
 
 
 def test_materials_are_checked():
-    got = message(errors.InvalidValue, sb.Ball, 1.0, young_modulus=0.0)
+    got = refusal(errors.InvalidValue, sb.Ball, 1.0, young_modulus=0.0)
     assert got == "young_modulus must be a positive number of pascals, got 0.0"
     for value in (-1.1, 0.51, math.nan):
-        got = message(errors.InvalidValue, sb.Ball, 1.0, poisson_ratio=value)
+        got = refusal(errors.InvalidValue, sb.Ball, 1.0, poisson_ratio=value)
         assert got == f"poisson_ratio must be a number from -1 to 0.5, got {value}"
-    got = message(errors.InvalidValue, sb.Ball, 1.0, poisson_ratio=-1)
+    got = refusal(errors.InvalidValue, sb.Ball, 1.0, poisson_ratio=-1)
     assert got == "poisson_ratio must be above -1, got -1"
     assert sb.Ball(1.0, poisson_ratio=0.5).poisson_ratio == 0.5
-
-
-# two contacts in series
 
 
 def force(law, c, rate):
@@ -237,55 +213,40 @@ def test_series_of_springs_and_power_laws():
 def test_hertz_contacts_with_a_rigid_floor_are_not_in_series_as_spheres():
     lower, upper = sb.Ball(1.0, 0.06, **STEEL), sb.Ball(1.0, 0.06, **STEEL)
     alone = sb.Hertz.between(lower)
-    assert sb.series(alone, alone).stiffness == pytest.approx(
-        sb.Hertz.between(lower, upper).stiffness, rel=1e-14
-    )
+    both = sb.Hertz.between(lower, upper)
+    assert sb.series(alone, alone).stiffness == pytest.approx(both.stiffness, rel=1e-14)
     small = sb.Ball(1.0, 0.01, **STEEL)
     both = sb.series(alone, sb.Hertz.between(small)).stiffness
     assert both != pytest.approx(sb.Hertz.between(lower, small).stiffness, rel=1e-2)
 
 
+def test_rigid_contacts_and_others_are_not_in_series():
+    got = refusal(errors.InvalidValue, sb.series, sb.Spring(1), sb.Rigid(1))
+    assert got == "law_b must be a law with a compression, got Rigid(restitution=1.0)"
+    got = refusal(errors.InvalidType, sb.series, 3, sb.Rigid(1))
+    assert got == "law_a must be a contact law, got 3"
+
+
+SOLID, DAMPED = sb.StandardLinearSolid, sb.HuntCrossley
+
+
 @pytest.mark.parametrize(
     ("a", "b", "expected"),
     [
+        (sb.Spring(1), sb.Hertz(1), "be of one class, got Spring and Hertz: if both are powers"),
+        (sb.PowerLaw(1, 2), sb.PowerLaw(1, 3), "have the same exponent, got 2.0 and 3.0: "),
+        (sb.Dashpot(1, 1), sb.Dashpot(2, 1), "have the same damping/stiffness, got 1.0 and 0.5"),
+        (SOLID(1, 1, 1), SOLID(1, 2, 1), "have the same relaxation_strength, got 1.0 and 2.0"),
+        (SOLID(1, 1, 1), SOLID(2, 1, 3), "have the same relaxation_time, got 1.0 and 3.0"),
+        (sb.Viscoelastic(1, 1), sb.Viscoelastic(1, 0), "have the same dissipative_time, got 1.0"),
+        (DAMPED(1, 1, 1), DAMPED(2, 1, 1), "have the same dissipation/stiffness**(1/exponent)"),
         (
-            sb.Spring(1), sb.Hertz(1),
-            "must be of one class, got Spring and Hertz: if both are powers with one exponent",
-        ),
-        (sb.PowerLaw(1, 2), sb.PowerLaw(1, 3), "must have the same exponent, got 2.0 and 3.0: "),
-        (
-            sb.Dashpot(1, 1), sb.Dashpot(2, 1),
-            "must have the same damping/stiffness, got 1.0 and 0.5",
-        ),
-        (
-            sb.StandardLinearSolid(1, 1, 1), sb.StandardLinearSolid(1, 2, 1),
-            "must have the same relaxation_strength, got 1.0 and 2.0",
-        ),
-        (
-            sb.StandardLinearSolid(1, 1, 1), sb.StandardLinearSolid(2, 1, 3),
-            "must have the same relaxation_time, got 1.0 and 3.0",
-        ),
-        (
-            sb.Viscoelastic(1, 1), sb.Viscoelastic(1, 0),
-            "must have the same dissipative_time, got 1.0 and 0.0",
-        ),
-        (
-            sb.HuntCrossley(1, 1, 1), sb.HuntCrossley(2, 1, 1),
-            "must have the same dissipation/stiffness**(1/exponent), got 1.0 and 0.5",
-        ),
-        (
-            sb.Hysteretic(1, restitution=0.5), sb.Hysteretic(1, restitution=0.6),
-            "must have the same unloading_exponent, got 7.0 and ",
+            sb.Hysteretic(1, restitution=0.5),
+            sb.Hysteretic(1, restitution=0.6),
+            "have the same unloading_exponent, got 7.0 and ",
         ),
     ],
-)  # fmt: skip
+)
 def test_contacts_that_make_no_law_in_series(a, b, expected):
-    assert message(errors.InvalidValue, sb.series, a, b).startswith(f"law_a and law_b {expected}")
-
-
-def test_rigid_contacts_and_others_are_not_in_series():
-    got = message(errors.InvalidValue, sb.series, sb.Spring(1), sb.Rigid(1))
-    assert got == "law_b must be a law with a compression, got Rigid(restitution=1.0)"
-    assert message(errors.InvalidType, sb.series, 3, sb.Rigid(1)) == (
-        "law_a must be a contact law, got 3"
-    )
+    got = refusal(errors.InvalidValue, sb.series, a, b)
+    assert got.startswith(f"law_a and law_b must {expected}")

@@ -63,26 +63,6 @@ def test_calibration_takes_the_usual_exponent(kind):
         sb.restitution(law, mass=0.1)
 
 
-def test_scatter_is_described_where_there_is_some():
-    law = sb.RigidBySpeed(0.8, 3.0)
-    assert law.described() == "RigidBySpeed, restitution 0.8, speed 3 m/s, speed exponent 0.25"
-    told = sb.RigidBySpeed(0.8, 3.0, scatter=0.05, seed=2).described()
-    assert told.endswith("exponent 0.25, scatter 0.05, seed 2")
-
-
-def test_a_file_with_units(tmp_path):
-    file = tmp_path / "ice.toml"
-    file.write_text(
-        'impact_speed = "2 cm/s"\n[[balls]]\nmass = 0.2\n[[contacts]]\nlaw = "RigidBySpeed"\n'
-        'restitution = 0.32\nspeed = "1 cm/s"\nspeed_exponent = 0.234\nscatter = 0.02\nseed = 4\n',
-        encoding="utf-8",
-    )
-    drop = sb.Drop.from_toml(file)
-    assert drop.contacts == (sb.RigidBySpeed(0.32, 0.01, 0.234, 0.02, 4.0),)
-    file.write_text(drop.to_toml(), encoding="utf-8")
-    assert sb.Drop.from_toml(file) == drop
-
-
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_sweep_of_all_its_numbers_has_the_bits_of_single_runs(kind):
     random = np.random.default_rng(4)
@@ -100,12 +80,11 @@ def test_a_sweep_of_all_its_numbers_has_the_bits_of_single_runs(kind):
     assert swept.rebound_ratio.values.tolist() == single
 
 
-def test_separate_collisions_take_the_restitution_at_the_first_speed():
-    law = sb.RigidLossBySpeed(0.8, speed=2.0, speed_exponent=1.0)
-    balls = [sb.Ball(3.0), sb.Ball(1.0)]
-    floor, between = sb.separate(sb.Drop(balls, [law, law], impact_speed=2.0)).contacts
-    assert floor == sb.Rigid(0.8)
-    assert between.restitution == pytest.approx(1.0 - 0.1 * (2.0 + 0.8 * 2.0), rel=1e-14)
+def test_scatter_is_described_where_there_is_some():
+    law = sb.RigidBySpeed(0.8, 3.0)
+    assert law.described() == "RigidBySpeed, restitution 0.8, speed 3 m/s, speed exponent 0.25"
+    told = sb.RigidBySpeed(0.8, 3.0, scatter=0.05, seed=2).described()
+    assert told.endswith("exponent 0.25, scatter 0.05, seed 2")
 
 
 def test_rigid_laws_stand_together_and_not_with_others():
@@ -115,6 +94,27 @@ def test_rigid_laws_stand_together_and_not_with_others():
     with pytest.raises(errors.InvalidValue, match=r"contacts.0 is RigidBySpeed and contacts.1 is"):
         sb.Drop(balls, [law, sb.Spring(1.0)], impact_speed=1.0)
     assert usual_laws()[:2] == ["Rigid", "Spring"]
+
+
+def test_a_file_with_units(tmp_path):
+    file = tmp_path / "ice.toml"
+    file.write_text(
+        'impact_speed = "2 cm/s"\n[[balls]]\nmass = 0.2\n[[contacts]]\nlaw = "RigidBySpeed"\n'
+        'restitution = 0.32\nspeed = "1 cm/s"\nspeed_exponent = 0.234\nscatter = 0.02\nseed = 4\n',
+        encoding="utf-8",
+    )
+    drop = sb.Drop.from_toml(file)
+    assert drop.contacts == (sb.RigidBySpeed(0.32, 0.01, 0.234, 0.02, 4.0),)
+    file.write_text(drop.to_toml(), encoding="utf-8")
+    assert sb.Drop.from_toml(file) == drop
+
+
+def test_separate_collisions_take_the_restitution_at_the_first_speed():
+    law = sb.RigidLossBySpeed(0.8, speed=2.0, speed_exponent=1.0)
+    balls = [sb.Ball(3.0), sb.Ball(1.0)]
+    floor, between = sb.separate(sb.Drop(balls, [law, law], impact_speed=2.0)).contacts
+    assert floor == sb.Rigid(0.8)
+    assert between.restitution == pytest.approx(1.0 - 0.1 * (2.0 + 0.8 * 2.0), rel=1e-14)
 
 
 @pytest.mark.parametrize("exponent", [0.2, 4.0])

@@ -58,7 +58,6 @@ def test_a_spline_converges_to_a_smooth_curve():
         ({"force": [0.0, 1.0]}, "force must have 4 points, as compression, got 2"),
         ({"force": [1.0, 2.0, 3.0, 4.0]}, "force.0 must be 0, where the ball is just touched"),
         ({"force": [0.0, 2.0, 2.0, 4.0]}, "force.2 must be above force.1, 2.0, got 2.0"),
-        ({"compression": [0.0, 2.0, 1.0, 4.0]}, "compression.2 must be above compression.1"),
         ({"compression": [0.0, 1.0, 1.0005, 4.0]}, "compression.2 must be at least 0.1 % above"),
         ({"compression": [0.0]}, "compression must have from 2 to 16 points, got 1"),
         ({"unloading": [0.0, 1.0, 2.0, 3.0]}, "unloading must end with the last force, 60.0"),
@@ -92,6 +91,12 @@ def test_a_sequence_may_be_endless():
         sb.Drop(itertools.repeat(sb.Ball(1.0)), [sb.Spring(1.0)], impact_speed=1.0)
 
 
+def test_tables_are_not_pressed_in_series():
+    law = sb.Tabulated(X, Y)
+    with pytest.raises(errors.InvalidValue, match="give the table of both together"):
+        sb.series(law, law)
+
+
 @pytest.mark.parametrize("own", [{}, {"unloading": BACK}, {"restitution": 0.7}])
 def test_a_table_is_a_value_that_files_keep(own, tmp_path, capfd):
     law = sb.Tabulated(X, Y, **own)
@@ -105,13 +110,6 @@ def test_a_table_is_a_value_that_files_keep(own, tmp_path, capfd):
     assert told["drop"]["contacts"] == [law.to_mapping()]
 
 
-def test_units_of_a_file_are_read():
-    given = {"law": "tabulated", "compression": ["0 mm", "2 mm"], "force": ["0 N", "0.03 kN"]}
-    drop = {"balls": [{"mass": 0.1}], "contacts": [given], "gaps": [], "impact_speed": 1.0}
-    (law,) = sb.Drop.from_mapping(drop).contacts
-    assert law == sb.Tabulated([0.0, 2e-3], [0.0, 30.0])
-
-
 def test_a_drop_beyond_the_table_says_so(tmp_path, capfd):
     for speed, beyond, before in ((0.6, False, False), (5.0, True, False), (0.01, False, True)):
         drop = sb.Drop([sb.Ball(0.1)], [sb.Tabulated(X, Y)], impact_speed=speed)
@@ -123,12 +121,6 @@ def test_a_drop_beyond_the_table_says_so(tmp_path, capfd):
         assert ("but its table begins at 1.000 mm: how the force rises" in told) == before
 
 
-def test_tables_are_not_pressed_in_series():
-    law = sb.Tabulated(X, Y)
-    with pytest.raises(errors.InvalidValue, match="give the table of both together"):
-        sb.series(law, law)
-
-
 @pytest.mark.parametrize(("exponent", "e"), [(1.0, 0.77), (1.5, 0.9), (1.3, 0.6)])
 def test_a_press_curve_becomes_its_table(exponent, e):
     """Its forces are within the noise of one reading, 0.2 N, of the true ones."""
@@ -136,15 +128,13 @@ def test_a_press_curve_becomes_its_table(exponent, e):
     found = press(press_record(true, peak=5e-3, slack=1e-3, noise=0.2, seed=2))
     law = found.table()
     x = np.linspace(0.2e-3, 4.8e-3, 50)
-    assert at(monotone_spline(law.compression, law.force), x)[0] == pytest.approx(
-        4e4 * x**exponent, abs=0.2
-    )
+    force, _ = at(monotone_spline(law.compression, law.force), x)
+    assert force == pytest.approx(4e4 * x**exponent, abs=0.2)
     mass = 0.1
     speed = (2.0 * 4e4 * 5e-3 ** (exponent + 1.0) / (exponent + 1.0) / mass) ** 0.5
     assert law.restitution_at(mass, speed) == pytest.approx(e, abs=0.01)
-    assert found.table(points=8).compression == pytest.approx(
-        np.linspace(0.0, law.compression[-1], 8)
-    )
+    fewer = np.linspace(0.0, law.compression[-1], 8)
+    assert found.table(points=8).compression == pytest.approx(fewer)
 
 
 def test_a_press_without_a_way_back_makes_a_lossless_table():
@@ -152,6 +142,13 @@ def test_a_press_without_a_way_back_makes_a_lossless_table():
     law = press((x, 2e4 * x)).table(points=5)
     assert law.unloading is None
     assert law.force == pytest.approx(2e4 * np.array(law.compression), rel=1e-3)
+
+
+def test_units_of_a_file_are_read():
+    given = {"law": "tabulated", "compression": ["0 mm", "2 mm"], "force": ["0 N", "0.03 kN"]}
+    drop = {"balls": [{"mass": 0.1}], "contacts": [given], "gaps": [], "impact_speed": 1.0}
+    (law,) = sb.Drop.from_mapping(drop).contacts
+    assert law == sb.Tabulated([0.0, 2e-3], [0.0, 30.0])
 
 
 def test_the_command_saves_a_table_and_a_bounce_gives_its_loss(tmp_path, capfd):

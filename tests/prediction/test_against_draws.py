@@ -16,6 +16,8 @@ HEAVY = [sb.Ball(0.6), sb.Ball(0.06)]
 SUPER = [sb.Ball(0.105), sb.Ball(0.0248)]
 LOSSY = [sb.Hysteretic(5.6e4, restitution=0.78), sb.Spring(1.6e4)]
 
+HUNT = [sb.HuntCrossley(2e6, 1.5, 0.1), sb.HuntCrossley(1e5, 1.2, 0.2)]
+
 STACKS = {
     "springs": (
         sb.Drop(HEAVY, [sb.Spring(2e4), sb.Spring(1e4)], gaps=[2e-3], height=0.63),
@@ -46,12 +48,7 @@ STACKS = {
         {"contacts.0.dissipative_time": (2e-5, 2e-6), "contacts.1.stiffness": (1e6, 3e4)},
     ),
     "hunt and crossley": (
-        sb.Drop(
-            HEAVY,
-            [sb.HuntCrossley(2e6, 1.5, 0.1), sb.HuntCrossley(1e5, 1.2, 0.2)],
-            gaps=[1e-3],
-            height=0.63,
-        ),
+        sb.Drop(HEAVY, HUNT, gaps=[1e-3], height=0.63),
         {"height": (0.63, 0.01), "contacts.1.dissipation": (0.2, 0.02)},
     ),
     "hysteretic": (

@@ -61,8 +61,7 @@ def test_a_mistyped_unit_is_answered_soon():
 
 @pytest.mark.slow
 def test_draws_that_all_meet_the_limit_are_refused_after_a_few():
-    light = sb.Drop(
-        [sb.Ball(1e-12), sb.Ball(1.0)], [sb.HuntCrossley(1e4, 1.5, 0.2)] * 2, height=0.63
-    )
+    laws = [sb.HuntCrossley(1e4, 1.5, 0.2)] * 2
+    light = sb.Drop([sb.Ball(1e-12), sb.Ball(1.0)], laws, height=0.63)
     with pytest.raises(InvalidValue, match=r"only 4 could be run \(4 met a limit, the first with"):
         sb.predict(light, {"balls.1.mass": (1.0, 0.1)})

@@ -38,9 +38,8 @@ def test_what_is_written_is_read(tmp_path, seed):
     read, found = read_scenario(path)
     assert read == drop
     known = read_inputs(read, found)
-    assert dict(
-        zip(known.paths, zip(known.values, known.deviations, strict=True), strict=True)
-    ) == (errors)
+    numbers = zip(known.values, known.deviations, strict=True)
+    assert dict(zip(known.paths, numbers, strict=True)) == errors
 
 
 def test_numbers_have_their_units_and_places():

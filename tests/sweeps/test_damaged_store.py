@@ -40,9 +40,7 @@ def test_a_damaged_store_beside_one_that_is_not_complete(tmp_path):
     shutil.move(kept, out)
     (out / "status" / "0.0").unlink()
     before = content(tmp_path)
-    with pytest.raises(
-        FileError, match=r"map\.zarr has lost blocks, and .*partial is a second one"
-    ):
+    with pytest.raises(FileError, match=r"map\.zarr has lost blocks, and .*partial is a second"):
         write(out, DROP, VALUES, block=64)
     assert content(tmp_path) == before
     shutil.rmtree(out)
@@ -58,6 +56,13 @@ def test_files_of_others_in_a_store_are_kept(tmp_path):
     assert (out / "status" / "notes.partial").read_text() == "mine"
 
 
+def test_a_log_that_is_no_file_is_refused(tmp_path):
+    out = tmp_path / "map.zarr"
+    os.mkfifo(tmp_path / "map.zarr.progress")
+    with pytest.raises(FileError, match="is no ordinary file"):
+        write(out, DROP, VALUES, block=64)
+
+
 def harmed(text):
     """Return what replaces a file by a text."""
     return lambda path: path.write_text(text)
@@ -67,10 +72,8 @@ def harmed(text):
     ("name", "harm"),
     [
         (".zmetadata", Path.unlink),
-        (".zmetadata", harmed("{")),
         ("status/.zarray", Path.unlink),
         ("status/.zarray", harmed('{"zarr_format": 2}')),
-        ("balls.0.mass/.zattrs", harmed("{")),
         ("balls.0.mass/.zattrs", harmed('{"zarr_format": 2}')),
         ("status", shutil.rmtree),
     ],
@@ -105,20 +108,11 @@ def test_another_sweep_leaves_no_log_behind(whole, out):
     assert list(out.parent.iterdir()) == [out]
 
 
-def test_a_log_that_is_no_file_is_refused(tmp_path):
-    out = tmp_path / "map.zarr"
-    os.mkfifo(tmp_path / "map.zarr.progress")
-    with pytest.raises(FileError, match="is no ordinary file"):
-        write(out, DROP, VALUES, block=64)
-
-
-@pytest.mark.parametrize(
-    "junk", [b"junk\n", b"my own notes", b"3 2\n", b"# w\nready\n7\n", b"\0\xff\n", 2**40]
-)
+@pytest.mark.parametrize("junk", [b"my own notes", b"3 2\n", b"# w\nready\n7\n", b"\0\xff\n", None])
 def test_a_damaged_log_is_named_and_kept(out, junk):
-    log_of(out).write_bytes(b"" if isinstance(junk, int) else junk)
-    if isinstance(junk, int):  # a file without an end
-        os.truncate(log_of(out), junk)
+    log_of(out).write_bytes(junk or b"")
+    if junk is None:  # a file without an end
+        os.truncate(log_of(out), 2**40)
     before = log_of(out).stat()
     with pytest.raises(FileError, match=r"map\.zarr\.progress is damaged"):
         write(out, DROP, VALUES, block=64)

@@ -93,12 +93,9 @@ def test_velocities_of_a_cradle():
     drop = sb.Drop([sb.Ball(0.03)] * 3, row, velocities=[1.0, 0.0, 0.0])
     ds = sb.sweep(drop, {"velocities.1": np.linspace(-1.0, 1.0, 5)})
     for k, velocity in enumerate(np.linspace(-1.0, 1.0, 5)):
-        assert_same(
-            ds[{"velocities.1": k}], sb.Drop(drop.balls, row, velocities=[1.0, velocity, 0.0])
-        )
-    with pytest.raises(
-        sb.StackbounceError, match=r"must not all be 0.*velocities.0 1: velocities.0"
-    ):
+        one = sb.Drop(drop.balls, row, velocities=[1.0, velocity, 0.0])
+        assert_same(ds[{"velocities.1": k}], one)
+    with pytest.raises(sb.StackbounceError, match=r"must not all be 0.*velocities.0 1: velociti"):
         sb.sweep(drop, {"velocities.0": [1.0, 0.0]})
 
 
@@ -106,9 +103,8 @@ def test_arrays_broadcast_by_dimension_name():
     drop = sb.Drop(TWO, LAWS["springs"], impact_speed=3.53)
     mass = xr.DataArray([0.1, 0.2, 0.3], dims="run")
     gap = xr.DataArray([0.0, 0.001, 0.002], dims="run")
-    stiffness = xr.DataArray(
-        [1.0, 2.0], dims="soft", coords={"soft": ["a", "b"]}, attrs={"units": "kN/m"}
-    )
+    options = {"coords": {"soft": ["a", "b"]}, "attrs": {"units": "kN/m"}}
+    stiffness = xr.DataArray([1.0, 2.0], dims="soft", **options)
     ds = sb.sweep(drop, {"balls.0.mass": mass, "gaps.0": gap, "contacts.0.stiffness": stiffness})
     assert ds.status.dims == ("run", "soft")
     assert ds["contacts.0.stiffness"].values.tolist() == [1000.0, 2000.0]
@@ -133,9 +129,8 @@ def test_provenance_and_units():
     assert ds.attrs["rtol"] == 1e-6
     assert ds["balls.0.mass"].attrs["units"] == "kg"
     assert ds.first_touch.attrs["units"] == "s"
-    names = dict(
-        zip(ds.status.attrs["flag_values"], ds.status.attrs["flag_meanings"].split(), strict=True)
-    )
+    flags = ds.status.attrs
+    names = dict(zip(flags["flag_values"], flags["flag_meanings"].split(), strict=True))
     assert names == {int(status): status.name for status in sb.Status}
 
 
@@ -147,18 +142,22 @@ def test_an_unfinished_drop_is_marked_and_the_others_are_not():
     assert np.isfinite(ds.rebound_ratio).all()
 
 
+def test_an_error_has_all_numbers_of_the_element():
+    drop = sb.Drop(TWO, LAWS["losses"], impact_speed=3.53)
+    values = {"contacts.1.exponent": [1.0, 3.0], "contacts.1.unloading_exponent": [2.0, 5.0]}
+    with pytest.raises(sb.StackbounceError) as caught:
+        sb.sweep(drop, values)
+    assert "contacts.1.exponent = 3, contacts.1.unloading_exponent = 2" in str(caught.value)
+    with pytest.raises(sb.StackbounceError, match="only one of the two can vary"):
+        sb.sweep(drop, {"contacts.1.restitution": [0.5], "contacts.1.unloading_exponent": [5.0]})
+
+
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        (
-            {"balls.0.mas": [1.0]},
-            r"balls.0.mas is not a parameter of this drop; did you mean balls.0.mass\?",
-        ),
+        ({"balls.0.mas": [1.0]}, r"balls.0.mas is not a parameter .*; did you mean balls.0.mass\?"),
         ({"contacts.0.restitution": [1.0]}, "contacts.0.restitution is not a parameter of this"),
-        (
-            {"balls.0.mass": [1.0, -1.0]},
-            r"balls.0.mass must be a positive .*, got -1.0 \(at balls.0.mass 1: ",
-        ),
+        ({"balls.0.mass": [1, -1]}, r"balls.0.mass must be a .*, got -1.0 \(at balls.0.mass 1: "),
         ({"gaps.0": [0.0, np.nan]}, r"gaps.0 must be .*, got nan \(at gaps.0 1: gaps.0 = nan\)"),
         ({"balls.0.mass": ["a"]}, "balls.0.mass must be numbers"),
         ({"balls.0.mass": [[1.0], [2.0]]}, "or a DataArray with named dimensions, got 2"),
@@ -173,24 +172,13 @@ def test_errors_name_what_was_wrong(values, message):
         sb.sweep(drop, values)
 
 
-def test_an_error_has_all_numbers_of_the_element():
-    drop = sb.Drop(TWO, LAWS["losses"], impact_speed=3.53)
-    values = {"contacts.1.exponent": [1.0, 3.0], "contacts.1.unloading_exponent": [2.0, 5.0]}
-    with pytest.raises(sb.StackbounceError) as caught:
-        sb.sweep(drop, values)
-    assert "contacts.1.exponent = 3, contacts.1.unloading_exponent = 2" in str(caught.value)
-    with pytest.raises(sb.StackbounceError, match="only one of the two can vary"):
-        sb.sweep(drop, {"contacts.1.restitution": [0.5], "contacts.1.unloading_exponent": [5.0]})
-
-
 @pytest.mark.parametrize("laws", [LAWS["springs"], LAWS["losses"]], ids=["springs", "losses"])
 def test_order_and_number_of_rows_change_no_bit(laws):
     drop = sb.Drop(TWO, laws, [0.001], impact_speed=3.53)
     mass = np.random.default_rng(1).uniform(0.05, 1.0, 5000)
     ds = sb.sweep(drop, {"balls.0.mass": mass}, rtol=1e-6)
-    back = sb.sweep(drop, {"balls.0.mass": mass[::-1]}, rtol=1e-6).isel(
-        {"balls.0.mass": slice(None, None, -1)}
-    )
+    back = sb.sweep(drop, {"balls.0.mass": mass[::-1]}, rtol=1e-6)
+    back = back.isel({"balls.0.mass": slice(None, None, -1)})
     part = sb.sweep(drop, {"balls.0.mass": mass[1000:1040]}, rtol=1e-6)
     few = sb.sweep(drop, {"balls.0.mass": mass[1000:1005]}, rtol=1e-6)
     for name in ds.data_vars:
@@ -217,22 +205,18 @@ def test_a_grid_is_cut_into_blocks_that_fit_together(shape):
     axes = [np.linspace(1e-4, 2e-3, size) for size in shape]
     ds = sb.sweep(drop, dict(zip(paths, axes, strict=True)))
     everywhere = np.meshgrid(*axes, indexing="ij")
-    flat = {
-        path: xr.DataArray(values.ravel(), dims="run")
-        for path, values in zip(paths, everywhere, strict=True)
-    }
-    rows = sb.sweep(drop, flat)
+    rows = [xr.DataArray(values.ravel(), dims="run") for values in everywhere]
+    rows = sb.sweep(drop, dict(zip(paths, rows, strict=True)))
     for name in ds.data_vars:
         assert np.array_equal(ds[name].values.reshape(rows[name].shape), rows[name]), name
 
 
-def test_tall_stacks_keep_the_energy_that_simulate_says():
+def test_tall_stacks_are_as_simulated():
     balls = [sb.Ball(0.01 * (1 + k % 7)) for k in range(12)]
     drop = sb.Drop(balls, [sb.Rigid(0.9)] * 12, impact_speed=3.53)
     ds = sb.sweep(drop, {"balls.3.mass": np.linspace(0.01, 0.5, 30)})
     for k in (0, 17, 29):
-        mass = float(ds["balls.3.mass"][k])
-        one = sb.Drop([*balls[:3], sb.Ball(mass), *balls[4:]], drop.contacts, impact_speed=3.53)
+        one = drop_at(drop, {number_at(drop, "balls.3.mass"): float(ds["balls.3.mass"][k])})
         assert_same(ds[{"balls.3.mass": k}], one)
 
 

@@ -38,9 +38,7 @@ def test_a_store_holds_what_sweep_returns(whole):
     with opened(whole[0]) as data:
         stored, eager = data.load(), sb.sweep(DROP, VALUES)
     assert set(stored) == set(eager)
-    assert {name: one.dims for name, one in stored.items()} == {
-        name: one.dims for name, one in eager.items()
-    }
+    assert all(stored[name].dims == eager[name].dims for name in eager)
     assert all(stored[name].dtype == eager[name].dtype for name in eager)
     assert all(np.array_equal(stored[name], eager[name]) for name in eager)
     assert all(np.array_equal(stored[name], eager[name]) for name in eager.coords)
@@ -49,6 +47,14 @@ def test_a_store_holds_what_sweep_returns(whole):
         assert stored[name].attrs.keys() == eager[name].attrs.keys()
         assert all(np.all(eager[name].attrs[k] == v) for k, v in stored[name].attrs.items())
     assert not [path for path in whole[0].parent.iterdir() if path != whole[0]]
+
+
+def test_a_complete_file_is_read_where_nothing_can_be_written(whole, monkeypatch):
+    def refuse(*_, **__):
+        raise PermissionError
+
+    monkeypatch.setattr(os, "open", refuse)
+    assert write(whole[0], DROP, VALUES, block=64) == whole[0]
 
 
 PAIRED = {
@@ -75,18 +81,13 @@ def test_numbers_that_vary_together_are_resumed_to_the_same_bytes(tmp_path):
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        (
-            {"gaps.0": ("draw", [0.0]), "impact_speed": ("draw", [1.0, 2.0])},
-            "as many values along draw",
-        ),
+        ({"gaps.0": ("x", [0.0]), "impact_speed": ("x", [1.0, 2.0])}, "as many values along x"),
         ({"gaps.0": ("a/b", [0.0])}, "must have one dimension in a file, with a name of letters"),
         ({"gaps.0": 0.0}, "gaps.0 must have one dimension in a file"),
         ({"gaps.0": ("draw", [0.0, -1.0]), "impact_speed": ("draw", [1.0, 2.0])}, r"\(at draw 1\)"),
         ({"gaps.0": ("status", [0.0])}, "a dimension named status, as results are"),
-        (
-            {"gaps.0": ("impact_speed", [0.0]), "impact_speed": ("x", [1.0])},
-            "impact_speed must do so too, got x",
-        ),
+        ({"gaps.0": ("gravity", [0.0]), "gravity": ("x", [1.0])}, "gravity must do so too, got x"),
+        ({"balls.0.mass": np.array([0.0, 1.0])}, r"balls.0.mass must be .* \(at balls.0.mass 0\)"),
     ],
 )
 def test_values_that_cannot_be_in_a_file(tmp_path, values, message):
@@ -98,12 +99,8 @@ def test_values_that_cannot_be_in_a_file(tmp_path, values, message):
 @pytest.mark.slow
 def test_two_workers_and_the_loss_of_one(whole, tmp_path):
     distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
-    options = {
-        "n_workers": 2,
-        "threads_per_worker": 1,
-        "processes": True,
-        "dashboard_address": "127.0.0.1:0",  # any free port: None would ask for 8787
-    }
+    options = {"n_workers": 2, "threads_per_worker": 1, "processes": True}
+    options["dashboard_address"] = "127.0.0.1:0"  # any free port: None would ask for 8787
     killed = []
     with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
 
@@ -120,10 +117,8 @@ def test_two_workers_and_the_loss_of_one(whole, tmp_path):
 
 
 def test_chunks_of_dask_make_it_lazy():
-    lazy = {
-        path: xr.DataArray(da.from_array(axis, chunks=7), dims=path)
-        for path, axis in VALUES.items()
-    }
+    chunked = {path: da.from_array(axis, chunks=7) for path, axis in VALUES.items()}
+    lazy = {path: xr.DataArray(axis, dims=path) for path, axis in chunked.items()}
     ds = sb.sweep(DROP, lazy)
     assert ds.rebound_ratio.chunks[:2] == ((7, 7, 7, 7, 2), (7, 7, 6))
     eager = sb.sweep(DROP, VALUES)
@@ -206,18 +201,9 @@ def test_chunks_of_one_value_are_there(tmp_path):
     out, calls = tmp_path / "map.zarr", []
     for _ in range(2):
         calls.clear()
-        write(
-            out, drop, {"gaps.0": [0.5, 1.0]}, until=0.01, progress=lambda *now: calls.append(now)
-        )
+        values = {"gaps.0": [0.5, 1.0]}
+        write(out, drop, values, until=0.01, progress=lambda *now: calls.append(now))
     assert calls == [(2, 2)]
-
-
-def test_a_complete_file_is_read_where_nothing_can_be_written(whole, monkeypatch):
-    def refuse(*_, **__):
-        raise PermissionError
-
-    monkeypatch.setattr(os, "open", refuse)
-    assert write(whole[0], DROP, VALUES, block=64) == whole[0]
 
 
 def test_a_tall_stack_and_no_number_that_varies(tmp_path):
@@ -242,17 +228,11 @@ def test_a_cluster_that_is_lost_says_so_and_nothing_is_lost(whole, tmp_path):
         worker += ["--scheduler-file", str(tmp_path / "at"), "--nthreads", "1", "--no-nanny"]
         with subprocess.Popen([*worker, "--local-directory", str(tmp_path)], **quiet) as second:
             try:
+                kill = {"progress": lambda done, _: scheduler.kill() if done else None}
                 client = distributed.Client(scheduler_file=str(tmp_path / "at"), timeout="30s")
                 client.wait_for_workers(1, timeout=30)
                 with pytest.raises(sb.StackbounceError, match="cluster failed; the blocks done"):
-                    write(
-                        out,
-                        DROP,
-                        VALUES,
-                        client=client,
-                        block=32,
-                        progress=lambda done, _: scheduler.kill() if done else None,
-                    )
+                    write(out, DROP, VALUES, client=client, block=32, **kill)
                 client.close(timeout=1)
             finally:
                 scheduler.kill()
@@ -260,12 +240,6 @@ def test_a_cluster_that_is_lost_says_so_and_nothing_is_lost(whole, tmp_path):
     begun = []
     write(out, DROP, VALUES, progress=lambda done, _: begun.append(done))
     assert begun[0] > 0
-
-
-def test_a_wrong_value_is_told_before_anything_is_written(tmp_path):
-    with pytest.raises(sb.StackbounceError, match=r"balls.0.mass must be .* \(at balls.0.mass 0\)"):
-        write(tmp_path / "map.zarr", DROP, {"balls.0.mass": np.array([0.0, 1.0])})
-    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize(
@@ -286,13 +260,10 @@ def test_over_is_read(text, values):
     ("texts", "message"),
     [
         (["balls.0.mass"], "--over must be PATH="),
-        (["balls.0.mass=1:2"], "--over must be PATH="),
         (["balls.0.mass=1:2:x"], "--over must be PATH="),
-        (["balls.0.mass=1:2:3:cubic"], "--over must be PATH="),
         (["balls.0.mass=1:2:0"], "must have from 1 to"),
         (["gaps.0=0:1:3:log"], "numbers of one sign for :log"),
         (["balls.0.mass=1m:2m:3"], "balls.0.mass must be a mass"),
-        (["balls.9.mass=1:2:3"], "is not a parameter of this drop"),
         (["gaps.0=0:1:3", "gaps.0=1"], "gaps.0 twice"),
     ],
 )

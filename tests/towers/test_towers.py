@@ -38,9 +38,6 @@ SLOW = {  # a restitution that does
 }
 
 
-# from touching to separate
-
-
 @pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("drop", (FAST | SLOW).values(), ids=FAST | SLOW)
 def test_nothing_changes_from_there_on_and_something_just_before(drop):
@@ -80,6 +77,13 @@ def test_collisions_without_end_are_never_separate():
     assert sb.separation_limit(pair(1.0, 10.0, laws)) == math.inf
 
 
+def test_touches_of_round_off_do_not_count():
+    """The cannon's lower balls come to rest but for round-off: they touch again, much later."""
+    balls = [sb.Ball(m) for m in (0.3, 0.1, 0.05)]
+    drop = sb.Drop(balls, [sb.Hertz(1e9)] * 3, impact_speed=1.0)
+    assert 0.0 < sb.separation_limit(drop) < 1e-2
+
+
 def test_one_gap_varies_and_the_others_stay():
     balls = [sb.Ball(m) for m in (3.0, 1.0, 0.5)]
     drop = sb.Drop(balls, [sb.Spring(1.0)] * 3, [0.3, 0.2], impact_speed=1.0)
@@ -90,13 +94,6 @@ def test_one_gap_varies_and_the_others_stay():
     ]
     assert ratios[1] == pytest.approx(ratios[2], abs=1e-9)
     assert ratios[0] != pytest.approx(ratios[2], abs=1e-9)
-
-
-def test_touches_of_round_off_do_not_count():
-    """The cannon's lower balls come to rest but for round-off: they touch again, much later."""
-    balls = [sb.Ball(m) for m in (0.3, 0.1, 0.05)]
-    drop = sb.Drop(balls, [sb.Hertz(1e9)] * 3, impact_speed=1.0)
-    assert 0.0 < sb.separation_limit(drop) < 1e-2
 
 
 @pytest.mark.parametrize(
@@ -115,9 +112,6 @@ def test_what_has_no_limit_is_refused(drop, options, message):
         sb.separation_limit(drop, **options)
 
 
-# stacks in order
-
-
 def test_stacks_are_as_simulated_and_in_order():
     ds = sb.highest(["tennis", "B1", "B2"], 2, gaps=[0.001, 0.0], law=sb.Spring, impact_speed=3.0)
     assert ds.sizes == {"stack": 6, "gap": 2, "ball": 2, "contact": 2}
@@ -127,12 +121,8 @@ def test_stacks_are_as_simulated_and_in_order():
             sb.calibrate(sb.Spring, mass=one.ball.mass, contact_time=one.contact_time)
             for one in (lower, upper)
         ]
-        drop = sb.Drop(
-            [lower.ball, upper.ball],
-            [floors[0], between(*floors)],
-            [float(ds.gap[gap])],
-            impact_speed=3.0,
-        )
+        laws = [floors[0], between(*floors)]
+        drop = sb.Drop([lower.ball, upper.ball], laws, [float(ds.gap[gap])], impact_speed=3.0)
         result = sb.simulate(drop)
         row = ds.isel(stack=i, gap=gap)
         assert row.rebound_ratio.values == pytest.approx(result.rebound_ratios, abs=1e-12)
@@ -157,6 +147,12 @@ def test_the_best_stack_is_a_scenario():
     assert result.drop.gaps == (0.002, 0.002)
 
 
+def test_how_many_stacks_there_are():
+    assert sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0]).sizes["stack"] == 6
+    assert sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0], repeat=True).sizes["stack"] == 9
+    assert sb.highest(["B1", "B1", "B2"], 2, gaps=[0.0]).sizes["stack"] == 3  # equal ones once
+
+
 def test_balls_of_ones_own_and_of_different_laws():
     heavy = sb.Drop([sb.Ball(0.5, name="heavy")], [sb.Hysteretic(5e4, restitution=0.9)], height=1.0)
     light = sb.Drop([sb.Ball(0.05)], [sb.Spring(2e4)], height=1.0)
@@ -172,30 +168,19 @@ def test_balls_of_ones_own_and_of_different_laws():
     assert row.rebound_ratio.values[0] == pytest.approx(sb.simulate(drop).rebound_ratios, abs=1e-12)
 
 
-def test_how_many_stacks_there_are():
-    assert sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0]).sizes["stack"] == 6
-    assert sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0], repeat=True).sizes["stack"] == 9
-    assert sb.highest(["B1", "B1", "B2"], 2, gaps=[0.0]).sizes["stack"] == 3  # equal ones once
-
-
 @pytest.mark.parametrize(
     ("arguments", "error", "message"),
     [
         ({"balls": ["B1", "B2"], "count": 3}, InvalidValue, "whole number from 2 to 2, got 3"),
         ({"balls": ["B1"]}, InvalidValue, "balls must be two or more, or repeat be True, got 1"),
         ({"count": 1}, InvalidValue, "count must be a whole number from 2 to 5, got 1"),
-        ({"balls": ["B1", "B9"]}, InvalidValue, "one of the catalogue, got 'B9'"),
-        ({"balls": "B1"}, InvalidType, "balls must be a list, got 'B1'"),
         ({"balls": ["B1", 3]}, InvalidType, "balls.1 must be a name of the catalogue or a Drop"),
         ({"balls": [FAST["springs"]]}, InvalidValue, "balls.0 must be a drop of one ball"),
         ({"law": sb.Rigid}, InvalidValue, "law must be one with a stiffness"),
         ({"law": sb.HuntCrossley}, InvalidValue, "basketball and tennis: .*dissipation"),
         ({"count": 8, "repeat": True}, InvalidValue, "at most 100000 drops, got 390625 of 5 balls"),
-        ({"gaps": []}, InvalidValue, "gaps must be different ones, at least one"),
         ({"gaps": [0.0, 0.0]}, InvalidValue, "gaps must be different ones"),
-        ({"gaps": [-1.0]}, InvalidValue, "gaps.0 must be a number of metres, 0 or above"),
         ({"gaps": 0.0}, InvalidType, "gaps must be a list"),
-        ({"impact_speed": 0.0}, InvalidValue, "impact_speed must be a positive number"),
     ],
 )
 def test_what_makes_no_stacks_is_refused(arguments, error, message):
@@ -211,12 +196,8 @@ def test_many_drops_of_several_kinds_keep_their_order():
         pair(1.0, 0.5, [sb.Hysteretic(1.0, unloading_exponent=3.0), sb.Spring(1.0)]),
         pair(1.0, 0.5, [sb.Hysteretic(1.0, restitution=0.5), sb.Spring(1.0)]),
     ]
-    ratios = solve_drops(drops).rebound_ratio.values
-    for row, drop in zip(ratios, drops, strict=True):
+    for row, drop in zip(solve_drops(drops).rebound_ratio.values, drops, strict=True):
         assert row == pytest.approx(sb.simulate(drop).rebound_ratios, abs=1e-12)
-
-
-# the masses in between
 
 
 @pytest.mark.fast_cases(2)
@@ -228,9 +209,8 @@ def test_rigid_balls_are_best_with_geometric_means(count, restitution):
     masses = [ball.mass for ball in best.balls]
     assert masses == pytest.approx(np.geomspace(1.0, 0.01, count), rel=1e-5)
     gained = np.prod([(1.0 + restitution) / (1.0 + b / a) for a, b in itertools.pairwise(masses)])
-    assert sb.simulate(best).rebound_ratios[-1] == pytest.approx(
-        (1.0 + restitution) * gained - 1.0, abs=1e-9
-    )
+    top = (1.0 + restitution) * gained - 1.0
+    assert sb.simulate(best).rebound_ratios[-1] == pytest.approx(top, abs=1e-9)
 
 
 @pytest.mark.fast_cases(1)
@@ -297,7 +277,6 @@ def test_masses_are_best_at_the_first_gap():
         ([1.0, 0.1], {}, InvalidValue, "balls must be three or more, got 2"),
         ([1.0, 0.1, 1.0], {}, InvalidValue, "outer masses that differ, unless within is given"),
         ([1.0, 0.1, 0.1], {"within": (2.0, 1.0)}, InvalidValue, "the smaller first, got 2.0 and"),
-        ([1.0, 0.1, 0.1], {"within": (-2.0, 1.0)}, InvalidValue, "within must be a positive"),
         ([1.0, 0.1, 0.1], {"within": 3.0}, InvalidType, "within must be a list, got 3.0"),
         ([1.0, 0.1, 0.1], {"contacts": [1]}, InvalidType, "contacts must be a function"),
     ],
@@ -307,9 +286,6 @@ def test_masses_that_make_no_search_are_refused(masses, options, error, message)
     drop = sb.Drop(balls, [sb.Spring(1e4)] * len(balls), impact_speed=1.0)
     with pytest.raises(error, match=message):
         sb.best_masses(drop, **options)
-
-
-# pictures
 
 
 def test_the_picture_of_stacks_shows_the_best_above():
