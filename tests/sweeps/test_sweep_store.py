@@ -164,6 +164,7 @@ def test_killed_before_the_file_was_all_there_it_begins_anew(whole, tmp_path):
     begun = out.with_name(f"{out.name}.begun")
     begun.mkdir()
     (begun / ".zattrs").write_text("{")
+    out.with_name(f"{out.name}.progress").write_text("# process 1 on here since yesterday\n")
     assert digest(write(out, DROP, VALUES, block=64)) == whole[1]
     assert list(tmp_path.iterdir()) == [out]
 
@@ -176,6 +177,10 @@ def test_what_this_program_did_not_make_is_left_alone(whole, tmp_path):
     with pytest.raises(sb.StackbounceError, match=r"partial exists, and cannot be read"):
         write(out, DROP, VALUES, block=64)
     assert sorted(tmp_path.rglob("*")) == [partial, partial / ".zattrs"]
+    begun = partial.rename(out.with_name(f"{out.name}.begun"))
+    with pytest.raises(sb.StackbounceError, match=r"begun exists, and is not of a sweep"):
+        write(out, DROP, VALUES, block=64)
+    assert sorted(tmp_path.rglob("*")) == [begun, begun / ".zattrs"]
 
 
 def damaged(chunk):

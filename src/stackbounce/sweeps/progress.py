@@ -19,8 +19,8 @@ _WRITER = b"# process "
 
 
 @contextlib.contextmanager
-def only_writer(out: Path) -> Iterator[None]:
-    """Be the only process that writes a sweep, for as long as the context lasts.
+def only_writer(out: Path) -> Iterator[bool]:
+    """Be the only process that writes a sweep, and yield whether an earlier one was killed.
 
     Raises
     ------
@@ -40,7 +40,7 @@ def only_writer(out: Path) -> Iterator[None]:
         file.truncate()
         file.write(_WRITER + f"{os.getpid()} on {host} since {now}\n".encode("ascii", "replace"))
         try:
-            yield
+            yield bool(content)
         finally:
             with contextlib.suppress(PermissionError):  # of Windows, while it is open
                 path.unlink(missing_ok=True)

@@ -109,11 +109,11 @@ def write(
         if _is_complete(out, form):
             report(total, total)
             return out
-        with only_writer(out):
+        with only_writer(out) as killed:
             if _is_complete(out, form):  # by another process, since then
                 report(total, total)
                 return out
-            partial = _begin(out, form)
+            partial = _begin(out, form, killed)
             todo, _ = files.lost(partial, form)
             finished = total - sum(map(size, todo))
             report(finished, total)
@@ -165,8 +165,11 @@ def _is_complete(out: Path, form: Form) -> bool:
     return not files.lost(out, form)[0]
 
 
-def _begin(out: Path, form: Form) -> Path:
-    """Return the file to go on with: a part of this sweep, one with lost blocks, or a new one."""
+def _begin(out: Path, form: Form, killed: bool) -> Path:
+    """Return the file to go on with: a part of this sweep, or one with lost blocks, or a new one.
+
+    `killed` says whether an earlier writer was killed, which may have left ``NAME.begun``.
+    """
     partial = out.with_name(f"{out.name}.partial")
     if partial.exists() and out.exists():
         raise FileError(
@@ -187,7 +190,9 @@ def _begin(out: Path, form: Form) -> Path:
         out.rename(partial)
     else:
         begun = out.with_name(f"{out.name}.begun")
-        shutil.rmtree(begun, ignore_errors=True)  # of a writer that was killed
+        if begun.exists() and not killed:
+            raise FileError(f"{begun} exists, and is not of a sweep: move it away")
+        shutil.rmtree(begun, ignore_errors=True)
         files.create(begun, form)
         begun.rename(partial)
     return partial
