@@ -14,29 +14,16 @@ from stackbounce.explorer.framing import read_origin
 SITE = "https://moodle.school.example"
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "",
-        "moodle.school.example",
-        "https://",
-        f"{SITE}/",
-        f"{SITE}/course?id=1",
-        f"{SITE}:0",
-        f"{SITE}:65536",
-        f"{SITE}; script-src *",
-        f"{SITE} https://other.example",
-        f"{SITE}\n",
-        "https://*.school.example",
-        "https://user@school.example",
-        "https://-school.example",
-        "https://schüle.example",
-        "file://school",
-        "'self'",
-        "**",
-        f"https://{'a.' * 130}example",
-    ],
-)
+NONE = [
+    *("", "moodle.school.example", "https://", "file://school", "'self'", "**"),
+    *(f"{SITE}{more}" for more in ("/", "/course?id=1", ":0", ":65536", "; script-src *", "\n")),
+    f"{SITE} https://other.example",
+    *("https://*.school.example", "https://user@school.example", "https://-school.example"),
+    *("https://schüle.example", f"https://{'a.' * 130}example"),
+]
+
+
+@pytest.mark.parametrize("text", NONE)
 def test_what_is_no_origin_is_refused(capsys, text):
     with pytest.raises(InvalidValue, match="--embed must be the origin of a site"):
         read_origin(text)
@@ -69,4 +56,5 @@ def test_the_page_names_the_sites_that_may_frame_it():
 def test_an_export_says_which_header_its_server_must_send(capsys, tmp_path, name):
     assert main(["app", "--export", str(tmp_path / name), "--embed", SITE]) == 0
     told = capsys.readouterr().out.splitlines()
+    assert told[0].startswith(f"{tmp_path / name}: the explorer")
     assert told[-1] == f"Content-Security-Policy: frame-ancestors {SITE}"
