@@ -244,11 +244,3 @@ def test_a_line_is_saved(visit):
     for row in rows[:: len(rows) // 5]:
         ratio, lower, _, upper, _ = map(float, row)
         assert [lower, upper] == pytest.approx(ratios(visit, ratio), rel=1e-9)
-
-
-def test_a_screen_reader_is_told(page):
-    board = page.locator(".line-board")
-    assert board.get_attribute("role") == "application"
-    assert board.get_attribute("aria-label").startswith("Line: Rebound speeds over v₀; across, gap")
-    for described in board.get_attribute("aria-describedby").split():
-        assert len(page.locator(f"#{described}").text_content()) > 40
