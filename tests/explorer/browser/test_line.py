@@ -114,7 +114,7 @@ def test_the_point_can_be_dragged_and_its_drop_follows(visit):
     assert float(dot.get_attribute("cx")) == pytest.approx(end["x"], abs=1.5)
 
 
-def test_a_curve_follows_while_a_number_changes(visit):
+def test_a_curve_follows_while_a_number_changes(visit, page):
     """Many changes in a row: curves are drawn in between, and the last one wins."""
     seen = page.evaluate(
         """async () => {
