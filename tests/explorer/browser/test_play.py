@@ -81,7 +81,8 @@ def test_playing_follows_the_clock_with_no_request(visit, page):
 WATCH_THE_LAYOUT = """() => {
   window.shifts = [];
   new PerformanceObserver((list) => {
-    for (const { value } of list.getEntries()) window.shifts.push(value);
+    const moved = ({ node }) => node?.outerHTML?.slice(0, 80);
+    for (const one of list.getEntries()) window.shifts.push([one.value, one.sources.map(moved)]);
   }).observe({ type: "layout-shift" });
 }"""
 
