@@ -1,5 +1,7 @@
 """A server of the explorer, as `stackbounce app` runs it."""
 
+import contextlib
+import copy
 import subprocess
 import sys
 
@@ -13,17 +15,21 @@ DROP = {
 }
 
 
-@pytest.fixture(scope="session")
-def address_of_server():
+@contextlib.contextmanager
+def served(*options):
     """Serve the explorer at a free port; yield its address."""
-    command = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--port", "0"]
-    with subprocess.Popen(
-        [*command, "--workers", "2"], stdout=subprocess.PIPE, text=True
-    ) as process:
+    command = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--port", "0", *options]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         try:
             yield process.stdout.readline().split()[2]
         finally:
             process.terminate()
+
+
+@pytest.fixture(scope="session")
+def address_of_server():
+    with served("--workers", "2") as address:
+        yield address
 
 
 @pytest.fixture(scope="session")
@@ -34,7 +40,6 @@ def address(address_of_server):
 
 @pytest.fixture(scope="session")
 def server(address_of_server):
-    """Return a client of the server."""
     with httpx.Client(base_url=address_of_server, timeout=120.0) as client:
         yield client
 
@@ -42,7 +47,4 @@ def server(address_of_server):
 @pytest.fixture
 def drop():
     """Return a drop, as a page sends it."""
-    return {
-        key: [dict(one) for one in value] if isinstance(value, list) else value
-        for key, value in DROP.items()
-    }
+    return copy.deepcopy(DROP)

@@ -34,14 +34,6 @@ def bits(numbers):
     return np.where(np.isnan(numbers), np.nan, numbers).view(np.uint64)
 
 
-def run_node(jobs, folder):
-    """Let the page's engine do jobs, lists of numbers, and write its answers to a file."""
-    asked = folder / "asked"
-    asked.write_bytes(np.concatenate(jobs).astype("<f8").tobytes())
-    command = ["node", RUN, str(ENGINE), native.FOLDER, asked, folder / "answered"]
-    return subprocess.run(command, capture_output=True, text=True, check=False)
-
-
 def job(kind, drops, rigid, options, times=()):
     """Return the numbers that tell node what to run."""
     head = [kind, *drops.mass.shape, rigid, options.rtol, options.until, options.event_limit]
@@ -88,7 +80,11 @@ def swept(drops, rigid, options, springs=False):
 
 
 def compare(jobs, expected, folder):
-    done = run_node(jobs, folder)
+    """Let the page's engine do jobs, lists of numbers, and compare its answers."""
+    asked = folder / "asked"
+    asked.write_bytes(np.concatenate(jobs).astype("<f8").tobytes())
+    command = ["node", RUN, str(ENGINE), native.FOLDER, asked, folder / "answered"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
     found, wanted = np.fromfile(folder / "answered", dtype="<f8"), np.concatenate(expected)
     assert len(found) == len(wanted)
@@ -116,13 +112,12 @@ def compare_random_drops(batches, count, folder):
     compare(jobs, expected, folder)
 
 
-def test_random_drops(tmp_path):
-    compare_random_drops(BATCHES, 25, tmp_path)
-
-
-@pytest.mark.slow
-def test_many_random_drops(tmp_path):
-    compare_random_drops(len(draw.BALLS), 400, tmp_path)
+@pytest.mark.parametrize(
+    ("batches", "count"),
+    [(BATCHES, 25), pytest.param(len(draw.BALLS), 400, marks=pytest.mark.slow)],
+)
+def test_random_drops(tmp_path, batches, count):
+    compare_random_drops(batches, count, tmp_path)
 
 
 def two_springs(count):
@@ -150,10 +145,9 @@ def test_two_springs(tmp_path, count):
 
 
 def test_memory_grows_while_stacks_are_kept(tmp_path):
-    small, large = two_springs(5), two_springs(4000)
-    options = Options(math.inf, 1e-12, 1_000_000)
-    jobs = [job(SWEEP, drops, False, options) for drops in (small, large, small)]
-    outs = [swept(drops, rigid=False, options=options) for drops in (small, large, small)]
+    options, stacks = Options(math.inf, 1e-12, 1_000_000), [two_springs(n) for n in (5, 4000, 5)]
+    outs = [swept(drops, rigid=False, options=options) for drops in stacks]
+    jobs = [job(SWEEP, drops, False, options) for drops in stacks]
     compare(jobs, [np.ravel(array) for out in outs for array in out], tmp_path)
 
 

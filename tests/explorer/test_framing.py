@@ -67,4 +67,5 @@ def test_the_page_names_the_sites_that_may_frame_it():
 def test_an_export_says_which_header_its_server_must_send(capsys, tmp_path, name):
     assert main(["app", "--export", str(tmp_path / name), "--embed", SITE]) == 0
     told = capsys.readouterr().out.splitlines()
+    assert told[0].startswith(f"{tmp_path / name}: the explorer")
     assert told[-1] == f"Content-Security-Policy: frame-ancestors {SITE}"

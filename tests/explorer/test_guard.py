@@ -7,26 +7,23 @@ import pytest
 from stackbounce.explorer import LIMITS, guard
 from stackbounce.explorer.addresses import Place
 
-FOREIGN = [
-    ({"host": "evil.example"}, 400),
-    ({"host": "127.0.0.1.evil.example"}, 400),
-    ({"host": "evil.example:8050"}, 400),
-    ({"host": ""}, 400),
-    ({"host": "[::1"}, 400),
-    ({"host": "evil.example@localhost"}, 400),
-    ({"host": "localhost/evil.example"}, 400),
-    ({"host": "localhost:8050, evil.example"}, 400),
-    ({"origin": "http://["}, 403),
-    ({"origin": "https://127.0.0.1"}, 403),
-    ({"origin": "http://evil.example"}, 403),
-    ({"origin": "null"}, 403),
-    ({"origin": "http://127.0.0.1:1"}, 403),
+HOSTS = [
+    "evil.example",
+    "127.0.0.1.evil.example",
+    "evil.example:8050",
+    "",
+    "[::1",
+    "evil.example@localhost",
+    "localhost/evil.example",
+    "localhost:8050, evil.example",
 ]
+ORIGINS = ["http://[", "https://127.0.0.1", "http://evil.example", "null", "http://127.0.0.1:1"]
 
 
-@pytest.mark.parametrize(("headers", "status"), FOREIGN)
-def test_other_sites_are_kept_out(server, headers, status):
-    assert server.get("/api/places", headers=headers).status_code == status
+def test_other_sites_are_kept_out(server):
+    for name, values, status in (("host", HOSTS, 400), ("origin", ORIGINS, 403)):
+        for value in values:
+            assert server.get("/api/places", headers={name: value}).status_code == status, value
 
 
 def test_the_page_itself_may_ask_by_each_name_of_this_machine(server, address, drop):
@@ -45,27 +42,26 @@ def test_a_class_may_use_the_full_name_of_this_machine(monkeypatch):
     assert {"desk", "desk.local", "desk.school.example", "[fd00::2]"} <= set(hosts)
 
 
+FIXED = {
+    "x-content-type-options": "nosniff",
+    "permissions-policy": "camera=(), geolocation=(), microphone=(self)",
+    "cross-origin-resource-policy": "same-origin",
+    "referrer-policy": "no-referrer",
+}
+
+
 @pytest.mark.parametrize("path", ["/", "/api/places", "/none", "/api/openapi.json"])
 def test_every_answer_has_the_headers(server, path):
     headers = server.get(path).headers
     assert "default-src 'none'" in headers["content-security-policy"]
     assert "frame-ancestors 'none'" in headers["content-security-policy"]
-    assert headers["x-content-type-options"] == "nosniff"
-    assert headers["permissions-policy"] == "camera=(), geolocation=(), microphone=(self)"
-    assert headers["cross-origin-resource-policy"] == "same-origin"
-    assert headers["referrer-policy"] == "no-referrer"
-    assert "set-cookie" not in headers
-    assert "server" not in headers
+    assert headers.items() >= FIXED.items()
+    assert not {"set-cookie", "server"} & set(headers)
 
 
 def test_no_file_beside_the_page_is_served(server):
-    for path in (
-        "/../app.py",
-        "/%2e%2e/app.py",
-        "/..%2fapp.py",
-        "/js/../../app.py",
-        "//etc/passwd",
-    ):
+    outside = ("/../app.py", "/%2e%2e/app.py", "/..%2fapp.py", "/js/../../app.py", "//etc/passwd")
+    for path in outside:
         response = server.get(path)
         assert response.status_code in (400, 404)
         assert "import" not in response.text

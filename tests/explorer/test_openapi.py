@@ -33,10 +33,8 @@ def description(address):
 
 
 def test_the_list_above_is_whole(description):
-    described = [
-        (one.ok().method.upper(), one.ok().path) for one in description.get_all_operations()
-    ]
-    assert sorted(described) == sorted(OPERATIONS)
+    described = [operation.ok() for operation in description.get_all_operations()]
+    assert sorted((one.method.upper(), one.path) for one in described) == sorted(OPERATIONS)
 
 
 @pytest.mark.parametrize(
@@ -49,9 +47,9 @@ def test_the_list_above_is_whole(description):
     ],
 )
 def test_every_request_gets_an_answer_as_described(description, method, path, mode):
-    @settings(
-        max_examples=15, deadline=None, suppress_health_check=list(HealthCheck), database=None
-    )
+    checks = list(HealthCheck)
+
+    @settings(max_examples=15, deadline=None, suppress_health_check=checks, database=None)
     @given(case=description[path][method].as_strategy(generation_mode=mode))
     def ask(case):
         response = case.call()

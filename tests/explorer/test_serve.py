@@ -16,7 +16,7 @@ from pathlib import Path
 import httpx
 import pytest
 
-from adversary.server import LONG_RUN, serving
+from adversary.server import LONG_RUN, Server, serving
 from explorer.conftest import DROP
 from stackbounce.cli import main
 from stackbounce.errors import FileError
@@ -55,11 +55,6 @@ def test_a_port_that_is_taken(capsys):
     assert f"127.0.0.1, port {port} cannot be used" in capsys.readouterr().err
 
 
-def children(process):
-    tasks = Path(f"/proc/{process.pid}/task").glob("*/children")
-    return [int(child) for task in tasks for child in task.read_text().split()]
-
-
 def runs(pid):
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
@@ -78,13 +73,11 @@ def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
         assert told["others"] == []
         answer = httpx.post(f"{address}api/simulate", json={"drop": DROP}, timeout=60.0)
         assert answer.status_code == 200
-        workers = children(process)
+        workers = Server(address, process).children()
         assert workers
         os.kill(process.pid, how)
-        out, err = process.communicate(timeout=30)
+        assert process.communicate(timeout=30) == ("", "")
     assert process.returncode == 0
-    assert out == ""
-    assert err == ""
     assert not left_of(workers)
 
 
@@ -130,11 +123,8 @@ def test_open_requests_do_not_keep_it_from_ending(how):
 def test_without_a_port_the_first_free_one_is_taken():
     with socket.socket() as first:
         first.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
+        with contextlib.suppress(OSError):  # somebody else has it, which does as well
             first.bind(("127.0.0.1", PORT))
-        except OSError:
-            pass  # somebody else has it, which does as well
-        else:
             first.listen()
         with subprocess.Popen(APP, stdout=subprocess.PIPE, text=True) as process:
             try:
@@ -184,10 +174,7 @@ def pages(stub, folder, names):
     async def ask():
         answers = []
         for name in names:
-            try:
-                answers.append(await made.page(name, scope))
-            except Exception as error:
-                answers.append(error)
+            answers += await asyncio.gather(made.page(name, scope), return_exceptions=True)
             await asyncio.sleep(0.01)
         return answers
 
@@ -198,8 +185,8 @@ def test_pages_of_the_paper(tmp_path):
     (tmp_path / "secret").write_text("secret")
     folder = tmp_path / "pages"
     folder.mkdir()
-    names = ["", "", "index.html", "none.html", "../secret", "../pages/../secret", "figures"]
-    names += ["\0", "a" * 5000, "/etc/passwd", "."]
+    others = ["none.html", "../secret", "../pages/../secret", "figures", "\0", "a" * 5000, "."]
+    names = ["", "", "index.html", "/etc/passwd", *others]
     waiting, lead, page, *others = pages(Stub(LIMITS), folder, names)
     assert b"is being recomputed" in Path(waiting.path).read_bytes()
     assert waiting.headers["refresh"] == "2"

@@ -1,16 +1,18 @@
 """What the explorer's server answers is what the library gives, and what is wrong it says."""
 
+import io
 import json
 import re
-import struct
 from importlib.resources import files
 from pathlib import Path
 from urllib.parse import unquote
 
 import numpy as np
 import pytest
+from scipy.io import wavfile
 
 import stackbounce as sb
+from explorer.conftest import DROP
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.explorer import LIMITS
 from stackbounce.explorer.page.catalogue import list_choices
@@ -80,9 +82,8 @@ def test_the_whole_story_begins_at_rest(server, drop):
     del drop["impact_speed"]
     whole = drop | {"height": 0.5, "gravity": 9.80665}
     frames = answer(server, "simulate", drop=whole, until=1.0)["frames"]
-    assert frames["position"][0][0] == pytest.approx(0.5, abs=1e-9)
-    assert frames["velocity"][1][0] == pytest.approx(0.0, abs=1e-6)
-    assert frames["time"][-1] == 1.0
+    begin = frames["position"][0][0], frames["velocity"][1][0], frames["time"][-1]
+    assert begin == pytest.approx((0.5, 0.0, 1.0), abs=1e-6)
 
 
 def test_separate_collisions_stand_beside(server, drop):
@@ -101,15 +102,11 @@ def test_separate_collisions_stand_beside(server, drop):
 def test_errors_are_carried_as_by_predict(server, drop):
     asked = {"impact_speed": "5 cm/s", "balls.1.mass": 0.001}
     found = answer(server, "predict", drop=drop, errors=asked)
-    plain = sb.Drop.from_mapping(drop)
-    exact = sb.predict(
-        plain,
-        {"impact_speed": (plain.impact_speed, 0.05), "balls.1.mass": (plain.balls[1].mass, 0.001)},
-    )
+    inputs = {"impact_speed": (drop["impact_speed"], 0.05), "balls.1.mass": (0.057, 0.001)}
+    exact = sb.predict(sb.Drop.from_mapping(drop), inputs)
     for name in ("rebound_speeds.1", "energy_retained", "last_release.0"):
-        assert found["values"][name]["error"] == pytest.approx(
-            exact[name].std_dev, rel=1e-4, abs=1e-9
-        )
+        error = exact[name].std_dev
+        assert found["values"][name]["error"] == pytest.approx(error, rel=1e-4, abs=1e-9)
     band = found["band"]
     assert found["method"] == exact.method
     low, high = exact.band(band["time"])
@@ -117,34 +114,19 @@ def test_errors_are_carried_as_by_predict(server, drop):
     assert np.array(band["force"]).shape == (2, 2, len(band["time"]))
 
 
+RIGID = {"contacts": [{"law": "Rigid", "restitution": 0.8}] * 2}
+
+
 def test_errors_of_rigid_balls_have_no_force(server, drop):
-    rigid = drop | {"contacts": [{"law": "Rigid", "restitution": 0.8}] * len(drop["balls"])}
-    found = answer(server, "predict", drop=rigid, errors={"contacts.0.restitution": 0.01})
+    found = answer(server, "predict", drop=drop | RIGID, errors={"contacts.0.restitution": 0.01})
     assert set(found["band"]) == {"time", "position"}
-    whole = rigid | {"gravity": 9.81}
+    whole = drop | RIGID | {"gravity": 9.81}
     found = answer(server, "predict", drop=whole, errors={"balls.0.mass": "1 g"}, until=0.4)
     assert found["band"]["time"][-1] == 0.4
 
 
-@pytest.mark.parametrize(
-    ("errors", "message"),
-    [
-        ({"balls.9.mass": 1}, "balls.9.mass is not a parameter of this drop"),
-        ({"balls.0.mass": "1 cm"}, "error of balls.0.mass must be a mass"),
-        ({"balls.0.mass": -1}, "balls.0.mass's error must be 0 or above, got -1"),
-        ({"balls.0.mass": 0}, "errors must have a number with an error above 0, got none"),
-        ({}, "errors"),
-    ],
-)
-def test_errors_that_are_none(server, drop, errors, message):
-    response = post(server, "predict", drop=drop, errors=errors)
-    assert response.status_code == 422
-    assert message in response.json()["detail"]
-
-
 def test_a_rigid_drop_has_no_other(server, drop):
-    rigid = drop | {"contacts": [{"law": "Rigid", "restitution": 0.8}] * 2}
-    got = answer(server, "simulate", drop=rigid)
+    got = answer(server, "simulate", drop=drop | RIGID)
     assert got["separate"] is None
     assert got["intervals"][0]["peak_force"] is None
     assert got["impact"] == [0.0, 0.0]
@@ -164,31 +146,167 @@ def test_presets_are_the_papers(name, ratios):
     assert sb.simulate(drop).rebound_ratios == pytest.approx(ratios, abs=0.006)
 
 
-def test_the_page_knows_every_number_of_every_law():
-    laws = {law["law"]: law for law in list_choices()["laws"]}
-    assert list(laws) == list(sb.model.LAWS)
-    hunt = {field["name"]: field for field in laws["HuntCrossley"]["fields"]}
-    expected = {"stiffness": "N/m**exponent", "exponent": "", "dissipation": "s/m"}
-    assert {name: field["unit"] for name, field in hunt.items()} == expected
-    for law in laws.values():
-        assert law["formula"]
-        assert law["says"]
-        assert law["source"]
-        given = {field["name"]: field["default"] for field in law["fields"]}
-        given.pop("unloading_exponent", None)  # or the restitution
-        assert sb.model.LAWS[law["law"]](**given)
-
-
-def test_the_page_knows_what_sets_the_loss_of_every_law():
+def test_the_page_knows_the_numbers_of_every_law_and_which_set_its_loss():
     choices = list_choices()
-    lossy = {law["law"]: law["loss_fields"] for law in choices["laws"]}
-    assert lossy["Spring"] == []
-    assert lossy["Dashpot"] == ["damping"]
-    assert lossy["Hysteretic"] == ["restitution", "unloading_exponent"]
-    for name, fields in lossy.items():
-        assert set(fields) <= set(sb.model.LAWS[name].quantities())
-        assert bool(fields) == bool(sb.model.LAWS[name].loss)
-    assert lossy[choices["lossy_law"]]
+    laws = {law["law"]: law for law in choices["laws"]}
+    assert list(laws) == list(sb.model.LAWS)
+    units = {field["name"]: field["unit"] for field in laws["HuntCrossley"]["fields"]}
+    assert units == {"stiffness": "N/m**exponent", "exponent": "", "dissipation": "s/m"}
+    for name, law in laws.items():
+        given = {field["name"]: field["default"] for field in law["fields"]}
+        assert law["formula"]
+        assert set(law["loss_fields"]) <= set(given)
+        assert bool(law["loss_fields"]) == bool(sb.model.LAWS[name].loss)
+        given.pop("unloading_exponent", None)  # or the restitution
+        assert sb.model.LAWS[name](**given)
+    assert laws["Hysteretic"]["loss_fields"] == ["restitution", "unloading_exponent"]
+    assert laws[choices["lossy_law"]]["loss_fields"]
+
+
+@pytest.mark.parametrize(
+    ("path", "asked", "message"),
+    [
+        ("simulate", {}, "drop: field required"),
+        ("simulate", {"drop": {}}, "balls is missing"),
+        ("simulate", {"drop": 3}, "the scenario must be a table"),
+        (
+            "simulate",
+            {"drop": DROP | {"balls": DROP["balls"] * LIMITS.balls}},
+            "balls must be at most 6 in the explorer, got 12",
+        ),
+        (
+            "simulate",
+            {"drop": DROP, "frames": 10**6},
+            "frames: input should be less than or equal to 3000",
+        ),
+        ("simulate", {"drop": DROP, "until": -1}, "until: input should be greater than 0, got -1"),
+        ("simulate", {"drop": DROP, "till": 1}, "till: extra inputs are not permitted"),
+        (
+            "predict",
+            {"drop": DROP, "errors": {"balls.9.mass": 1}},
+            "balls.9.mass is not a parameter of this drop",
+        ),
+        (
+            "predict",
+            {"drop": DROP, "errors": {"balls.0.mass": 0}},
+            "errors must have a number with an error above 0, got none",
+        ),
+        ("predict", {"drop": DROP, "errors": {}}, "errors"),
+    ],
+)
+def test_what_is_wrong_is_told(server, path, asked, message):
+    response = post(server, path, **asked)
+    assert response.status_code == 422
+    assert message in response.json()["detail"]
+
+
+def test_a_run_without_end_says_so(server, drop):
+    endless = drop | {"contacts": [{"law": "Spring", "stiffness": 1e6}] * 2, "gravity": 9.81}
+    got = answer(server, "simulate", drop=endless, until=LIMITS.duration, frames=50)
+    assert got["status"] in ("TIME_REACHED", "EVENT_LIMIT")
+    assert got["frames"]["time"][-1] <= LIMITS.duration
+
+
+@pytest.mark.parametrize("body", [b"", b"[", b"nonsense", b"\xff", b"[" * 60_000, b"1e999"])
+def test_a_body_that_is_no_request(server, body):
+    headers = {"content-type": "application/json"}
+    response = server.post("/api/simulate", content=body, headers=headers)
+    assert response.status_code in (400, 422)
+    assert "\n" not in response.json()["detail"]
+
+
+def test_the_icon_in_the_page_is_that_of_the_file(server):
+    """Chromium asks for an icon in a file again after each change of the address."""
+    inside = re.search(r'rel="icon" href="data:image/svg\+xml,([^"]*)"', server.get("/").text)[1]
+    assert unquote(inside) == server.get("/icon.svg").text.strip()
+
+
+EXAMPLES = files("stackbounce.explorer") / "static/examples"
+RECORD = (EXAMPLES / "floor-force.csv").read_bytes()
+
+
+def test_a_record_is_recognised_and_fitted(server, drop):
+    file = {"file": ("force.csv", RECORD)}
+    seen = server.post("/api/measure", files=file, data={"options": '{"mass": "150 g"}'})
+    assert seen.status_code == 200, seen.text
+    seen = seen.json()
+    assert seen["holds"] == "waveform"
+    assert seen["measured"] == {"force.0": "force"}
+    assert [curve["what"] for curve in seen["series"]] == ["force"]
+    asked = {
+        "drop": json.dumps(drop),
+        "vary": '["contacts.0.stiffness", "contacts.1.stiffness"]',
+        "measured": json.dumps(seen["measured"]),
+    }
+    found = server.post("/api/fit", files=file, data=asked)
+    assert found.status_code == 200, found.text
+    found = found.json()
+    for value, true in zip(found["values"], (2700.0, 1350.0), strict=False):
+        assert abs(value["value"] - true) < 4 * value["error"]
+    assert 0.8 < found["chi_squared"] / found["degrees_of_freedom"] < 1.2
+    begin = seen["series"][0]["time"][0] - seen["zero"]  # from the touch, as the drop's times
+    assert found["series"][0]["time"][0] == pytest.approx(begin, abs=2e-4)
+
+
+def test_typed_numbers_are_fitted(server, drop):
+    vary, measured = ["contacts.1.stiffness"], {"rebound_ratios.1": "1.64 ± 0.02"}
+    asked = {"drop": drop, "vary": vary, "measured": measured}
+    asked = {name: json.dumps(value) for name, value in asked.items()}
+    found = server.post("/api/fit", data=asked).json()
+    expected = sb.fit(sb.Drop.from_mapping(drop), measured, vary)
+    assert found["values"][0]["value"] == expected["contacts.1.stiffness"].nominal_value
+    assert found["residuals"][0]["name"] == "rebound_ratios.1"
+
+
+TRACK = (EXAMPLES / "two-tracks.csv").read_bytes()
+NOISE = np.random.default_rng(1).integers(-9000, 9000, 20_000).astype("<i2")
+EARLY = b"time (s),force (N)\n" + b"".join(b"%de-320,%d\n" % (i, i % 7) for i in range(60))
+FORCE = b"Time (s),Force (N)\n" + b"".join(b"%d,0.1\n" % i for i in range(40))
+
+
+def wav_of(samples, rate):
+    file = io.BytesIO()
+    wavfile.write(file, rate, samples)
+    return file.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("content", "asked", "message"),
+    [
+        (b"%PDF-1.7", {}, "a.csv: it is a PDF document"),
+        (EARLY, {}, ""),
+        (wav_of(NOISE, rate=1), {}, "a.csv"),
+        (TRACK, {"options": '{"gravity": 1e-320}'}, "a.csv"),
+        (FORCE, {"options": "3"}, "options: input should be a valid dictionary, got 3"),
+        (FORCE, {"options": "["}, "options: invalid JSON: EOF while parsing a list"),
+        (FORCE, {"options": '{"mass": ' + "[" * 500 + "]" * 500 + "}"}, "recursion limit exceeded"),
+        (FORCE, {"options": '{"path": "/etc/passwd"}'}, "'path' is no option"),
+        (FORCE, {"options": '{"mass": "57 m"}'}, "“Ball's mass” must be a mass"),
+        (FORCE, {"options": '{"holds": "gold"}'}, "“Kind of measurement” must be what"),
+    ],
+)
+def test_a_file_that_is_none(server, content, asked, message):
+    response = server.post("/api/measure", files={"file": ("dir/a.csv", content)}, data=asked)
+    assert response.status_code == 422
+    assert message in response.json()["detail"]
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        ({"vary": "3"}, "vary: input should be a valid list, got 3"),
+        ({"drop": "{"}, "drop: invalid JSON: EOF while parsing an object"),
+        ({"measured": '{"force.0": "force"}'}, "force.0 needs a file with a force over time"),
+        ({"measured": '{"collisions.0": "%s"}' % ("9" * 5000)}, "collisions.0"),
+        ({"measured": '{"\\ud800": "1"}'}, "measured: invalid JSON"),
+        ({"measured": "{}"}, "measured: dictionary should have at least 1 item"),
+    ],
+)
+def test_a_fit_that_is_none(server, drop, asked, message):
+    whole = {"drop": json.dumps(drop), "vary": '["gaps.0"]'} | asked
+    response = server.post("/api/fit", data=whole)
+    assert response.status_code == 422
+    assert message in response.json()["detail"]
 
 
 def test_the_page_names_no_law_or_its_loss():
@@ -204,158 +322,3 @@ def test_the_page_names_no_law_or_its_loss():
         if word in words
     }
     assert not named
-
-
-@pytest.mark.parametrize(
-    ("asked", "message"),
-    [
-        ({"drop": {}}, "balls is missing"),
-        ({"drop": 3}, "the scenario must be a table"),
-        ({"frames": 10**6}, "frames: input should be less than or equal to 3000"),
-        ({"until": -1}, "until: input should be greater than 0, got -1"),
-        ({"till": 1}, "till: extra inputs are not permitted"),
-    ],
-)
-def test_what_is_wrong_is_told(server, drop, asked, message):
-    response = post(server, "simulate", **{"drop": drop} | asked)
-    assert response.status_code == 422
-    assert message in response.json()["detail"]
-
-
-def test_a_tower_is_at_most_so_high(server, drop):
-    drop["balls"] *= LIMITS.balls
-    response = post(server, "simulate", drop=drop)
-    assert response.json()["detail"] == "balls must be at most 6 in the explorer, got 12"
-
-
-def test_a_run_without_end_says_so(server, drop):
-    drop["contacts"] = [{"law": "Spring", "stiffness": 1e6}] * 2
-    until = LIMITS.duration
-    got = answer(server, "simulate", drop=drop | {"gravity": 9.81}, until=until, frames=50)
-    assert got["status"] in ("TIME_REACHED", "EVENT_LIMIT")
-    assert got["frames"]["time"][-1] <= until
-
-
-@pytest.mark.parametrize("body", [b"", b"[", b"nonsense", b"\xff", b"[" * 60_000, b"1e999"])
-def test_a_body_that_is_no_request(server, body):
-    headers = {"content-type": "application/json"}
-    response = server.post("/api/simulate", content=body, headers=headers)
-    assert response.status_code in (400, 422)
-    assert "\n" not in response.json()["detail"]
-
-
-def test_a_request_without_a_drop(server):
-    assert post(server, "simulate").json()["detail"] == "drop: field required"
-
-
-def test_the_icon_in_the_page_is_that_of_the_file(server):
-    """Chromium asks for an icon in a file again after each change of the address."""
-    inside = re.search(r'rel="icon" href="data:image/svg\+xml,([^"]*)"', server.get("/").text)[1]
-    assert unquote(inside) == server.get("/icon.svg").text.strip()
-
-
-def record(drop, noise=0.3):
-    """Return a force record of both contacts, as CSV, its clock 0.5 s late."""
-    result = library(drop)
-    times = np.arange(-0.02, 0.08, 1e-4)
-    forces = result.sample(np.maximum(times, 0.0)).force.values * (times > 0.0)
-    forces += np.random.default_rng(1).normal(0.0, noise, forces.shape)
-    rows = [f"{t + 0.5:.5f},{a:.3f},{b:.3f}" for t, a, b in zip(times, *forces, strict=True)]
-    return "\n".join(["Time (s),Force (N),Force 2 (N)", *rows]).encode()
-
-
-def test_a_record_is_recognised_and_fitted(server, drop):
-    file = {"file": ("force.csv", record(drop))}
-    seen = server.post("/api/measure", files=file, data={"options": '{"mass": "150 g"}'})
-    assert seen.status_code == 200, seen.text
-    seen = seen.json()
-    assert seen["holds"] == "waveform"
-    assert seen["zero"] == pytest.approx(0.5, abs=2e-4)
-    assert seen["measured"] == {"force.0": "force", "force.1": "force_2"}
-    assert [curve["what"] for curve in seen["series"]] == ["force", "force"]
-    drop["contacts"][1]["stiffness"] = 1300.0
-    asked = {
-        "drop": json.dumps(drop),
-        "vary": '["contacts.0.stiffness", "contacts.1.stiffness"]',
-        "measured": json.dumps(seen["measured"]),
-    }
-    found = server.post("/api/fit", files=file, data=asked)
-    assert found.status_code == 200, found.text
-    found = found.json()
-    for value, true in zip(found["values"], (2500.0, 1000.0), strict=False):
-        assert abs(value["value"] - true) < 4 * value["error"]
-    assert 0.8 < found["chi_squared"] / found["degrees_of_freedom"] < 1.2
-    assert found["series"][1]["time"][0] == pytest.approx(-0.02, abs=2e-4)
-
-
-def test_typed_numbers_are_fitted(server, drop):
-    asked = {
-        "drop": json.dumps(drop),
-        "vary": '["contacts.1.stiffness"]',
-        "measured": '{"rebound_ratios.1": "1.64 ± 0.02"}',
-    }
-    found = server.post("/api/fit", data=asked).json()
-    expected = sb.fit(
-        sb.Drop.from_mapping(drop), {"rebound_ratios.1": "1.64 ± 0.02"}, ["contacts.1.stiffness"]
-    )
-    assert found["values"][0]["value"] == expected["contacts.1.stiffness"].nominal_value
-    assert found["residuals"][0]["name"] == "rebound_ratios.1"
-
-
-WAV = (
-    b"RIFF\xa4\x9c\x00\x00WAVEfmt \x10\x00\x00\x00\x01\x00\x01\x00"
-    + struct.pack("<IIHH4sI", 1, 2, 2, 16, b"data", 40_000)
-    + np.random.default_rng(1).integers(-9000, 9000, 20_000).astype("<i2").tobytes()
-)
-TRACK = (files("stackbounce.explorer") / "static" / "examples" / "two-tracks.csv").read_bytes()
-FORCE = b"Time (s),Force (N)\n" + b"".join(b"%d,0.1\n" % i for i in range(40))
-
-
-@pytest.mark.fast_cases(3)
-@pytest.mark.parametrize(
-    ("content", "asked", "message"),
-    [
-        (b"", {}, "a.csv is empty"),
-        (b"\x00" * 100, {}, "a.csv"),
-        (b"PK\x03\x04nonsense", {}, "a.csv"),
-        (b"%PDF-1.7", {}, "it is a PDF document"),
-        (
-            b"time (s),force (N)\n" + b"".join(b"%de-320,%d\n" % (i, i % 7) for i in range(60)),
-            {},
-            "",
-        ),
-        (WAV, {}, "a.csv"),
-        (TRACK, {"options": '{"gravity": 1e-320}'}, "a.csv"),
-        (FORCE, {"options": "3"}, "options: input should be a valid dictionary, got 3"),
-        (FORCE, {"options": "["}, "options: invalid JSON: EOF while parsing a list"),
-        (FORCE, {"options": '{"mass": ' + "[" * 500 + "]" * 500 + "}"}, "recursion limit exceeded"),
-        (FORCE, {"options": '{"path": "/etc/passwd"}'}, "'path' is no option"),
-        (FORCE, {"options": '{"mass": "57 m"}'}, "“Ball's mass” must be a mass"),
-        (FORCE, {"options": '{"law": "sprung"}'}, "did you mean Spring?"),
-        (FORCE, {"options": '{"holds": "gold"}'}, "“Kind of measurement” must be what"),
-    ],
-)
-def test_a_file_that_is_none(server, content, asked, message):
-    response = server.post("/api/measure", files={"file": ("dir/a.csv", content)}, data=asked)
-    assert response.status_code == 422
-    assert message in response.json()["detail"]
-
-
-@pytest.mark.parametrize(
-    ("asked", "message"),
-    [
-        ({"vary": "3"}, "vary: input should be a valid list, got 3"),
-        ({"vary": "[]"}, "vary: list should have at least 1 item"),
-        ({"drop": "{"}, "drop: invalid JSON: EOF while parsing an object"),
-        ({"measured": '{"force.0": "force"}'}, "force.0 needs a file with a force over time"),
-        ({"measured": '{"rebound_ratios.0": 1}'}, "input should be a valid string, got 1"),
-        ({"measured": '{"collisions.0": "%s"}' % ("9" * 5000)}, "collisions.0"),
-        ({"measured": '{"\\ud800": "1"}'}, "measured: invalid JSON"),
-        ({"measured": "{}"}, "measured: dictionary should have at least 1 item"),
-    ],
-)
-def test_a_fit_that_is_none(server, drop, asked, message):
-    whole = {"drop": json.dumps(drop), "vary": '["gaps.0"]'} | asked
-    response = server.post("/api/fit", data=whole)
-    assert response.status_code == 422
-    assert message in response.json()["detail"]

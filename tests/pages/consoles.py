@@ -2,12 +2,25 @@
 
 import re
 import shlex
+from pathlib import Path
 
 from stackbounce.cli import main
 
-__all__ = ["run_all", "steps"]
+__all__ = ["DOCS", "read_page", "run_all", "steps", "write_files"]
 
+DOCS = Path(__file__).parents[2] / "docs"
 FENCE = re.compile(r"^```console\n(.*?)^```", re.MULTILINE | re.DOTALL)
+TOML = re.compile(r"^```toml\n# (\S+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+def read_page(name):
+    return (DOCS / f"{name}.md").read_text(encoding="utf-8")
+
+
+def write_files(text, folder):
+    """Write the scenarios of a page to files, by the names that it gives them."""
+    for name, content in TOML.findall(text):
+        (folder / name).write_text(content, encoding="utf-8")
 
 
 def steps(text):
@@ -16,14 +29,18 @@ def steps(text):
     for fence in FENCE.findall(text):
         for block in fence.replace("\\\n", " ").split("$ ")[1:]:
             command, *lines = block.splitlines()
-            found.append((shlex.split(command)[1:], [" ".join(line.split()) for line in lines]))
+            found.append((shlex.split(command)[1:], lines))
     return found
 
 
-def run_all(text, capsys):
-    """Run the commands of a page in turn; each line that it shows begins one that is printed."""
-    for command, shown in steps(text):
+def run_all(steps, capsys, whole=False):
+    """Run commands in turn; each line shown begins one that is printed, or all are shown."""
+    for command, shown in steps:
         assert main(command) == 0, command
-        printed = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
+        printed = capsys.readouterr().out.strip().splitlines()
+        if whole:
+            assert [line.rstrip() for line in printed] == shown, command
+        printed = [" ".join(line.split()) for line in printed]
         for line in shown:
-            assert any(own.startswith(line) for own in printed), (command, line, printed)
+            own = " ".join(line.split())
+            assert any(one.startswith(own) for one in printed), (command, line, printed)

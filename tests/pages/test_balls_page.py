@@ -1,11 +1,11 @@
 """The page on balls: its table is the catalogue's."""
 
 import re
-from pathlib import Path
 
+from pages.consoles import read_page
 from stackbounce.model.catalogue import CLASS_BALLS
 
-TEXT = (Path(__file__).parents[2] / "docs" / "balls.md").read_text(encoding="utf-8")
+TEXT = read_page("balls")
 MARKS = {"measured": "", "rule": " (r)", "estimate": " (e)"}
 
 

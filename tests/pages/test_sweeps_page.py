@@ -3,23 +3,22 @@
 import re
 import runpy
 import shlex
-from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
 
 import stackbounce as sb
+from pages.consoles import DOCS, FENCE, read_page, write_files
 from stackbounce.cli import main
 from stackbounce.cross2007 import PAPER
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.curves import after_collision, rebound_by_mass, rebound_by_stiffness
 
-DOCS = Path(__file__).parents[2] / "docs"
-TEXT = (DOCS / "sweeps.md").read_text(encoding="utf-8")
-FENCES = re.findall(r"^```console\n\$ (stackbounce .*?)^```", TEXT, re.MULTILINE | re.DOTALL)
+TEXT = read_page("sweeps")
 WORDS = [
-    [shlex.split(one)[1:] for one in fence.replace("\\\n", " ").split("\n$ ")] for fence in FENCES
+    [shlex.split(line)[1:] for line in fence.replace("\\\n", " ")[2:].split("\n$ ")]
+    for fence in FENCE.findall(TEXT)
 ]
 COMMANDS = [words for (words, *_) in WORDS if "--plot" in words]
 (OF_DRAWS,) = (commands for commands in WORDS if len(commands) > 1)
@@ -34,9 +33,7 @@ def sweeps():
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("page")
-    files = re.findall(r"^```toml\n# (\S+)\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)
-    for name, text in files:
-        (folder / name).write_text(text, encoding="utf-8")
+    write_files(TEXT, folder)
     return folder
 
 
@@ -68,19 +65,13 @@ def test_every_picture_has_its_command():
     assert len(COMMANDS) == len(shown) == len(set(shown)) > 0
 
 
-def test_lines_are_those_of_figure_4a(sweeps, bench):
-    ds = sweeps["mass"]
-    masses, ratios = ds["balls.0.mass"].values[::20], ds.rebound_ratio.values[::20]
-    own = rebound_by_mass(bench, masses, bench("models.stiffness_ratio"))
-    assert ratios == pytest.approx(own.T, abs=1e-11)
-
-
-def test_lines_are_those_of_figure_6(sweeps, bench):
-    ds = sweeps["stiffness"]
-    mass_ratio = bench("basketball.mass") / bench("tennis.mass")
+def test_lines_are_those_of_figures_4a_and_6(sweeps, bench):
+    of_mass, of_stiffness = sweeps["mass"], sweeps["stiffness"]
+    masses, mass_ratio = of_mass["balls.0.mass"], bench("basketball.mass") / bench("tennis.mass")
+    own = rebound_by_mass(bench, masses.values[::20], bench("models.stiffness_ratio"))
+    assert of_mass.rebound_ratio.values[::20] == pytest.approx(own.T, abs=1e-11)
     own = rebound_by_stiffness(bench, mass_ratio, np.geomspace(0.1, 100.0, 241)[::20])
-    ratios = ds.rebound_ratio.values[::20]
-    assert ratios == pytest.approx(own.T, abs=1e-11)
+    assert of_stiffness.rebound_ratio.values[::20] == pytest.approx(own.T, abs=1e-11)
 
 
 def test_lines_are_those_of_figure_2_where_they_meet_once_or_twice(sweeps, bench):

@@ -1,15 +1,18 @@
 """A page of the explorer in Chromium and in Firefox; a page that complains fails."""
 
+import functools
+import http.server
 import os
 import shutil
-import subprocess
-import sys
+import threading
 import time
 import zlib
-from pathlib import Path
 
 import pytest
 from playwright.sync_api import sync_playwright
+
+import stackbounce as sb
+from stackbounce.cli import main
 
 BROWSERS = {
     "chromium": ("chromium", "chromium-browser", "google-chrome"),
@@ -18,9 +21,8 @@ BROWSERS = {
 ASKED = os.environ.get("STACKBOUNCE_BROWSERS", "").split()
 IN_BOTH = (
     "test_one_file",
-)  # the others take long in Firefox: `make browsers` runs them there, too
+)  # `make browsers` runs the others, too, in Firefox, where they are slow
 FORMS = ("served", "one file")
-PICTURES = Path("build/screenshots")
 LAPTOP = {"width": 1366, "height": 768}
 
 
@@ -31,6 +33,25 @@ def path_of(name):
     if found is None:
         pytest.skip(f"there is no {name} on this machine")
     return found
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """Serve an empty folder, as `python -m http.server` does, at another address."""
+    folder = tmp_path_factory.mktemp("site")
+    handler = functools.partial(Quiet, directory=folder)
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        server.folder = folder
+        thread = threading.Thread(target=server.serve_forever, args=(0.05,))
+        thread.start()
+        yield server
+        server.shutdown()
+        thread.join()
 
 
 @pytest.fixture(scope="module")
@@ -80,20 +101,17 @@ def in_firefox(browser):
 def one_file(tmp_path_factory):
     """Write the explorer as one file; return its path."""
     path = tmp_path_factory.mktemp("one file") / "explorer ä.html"
-    command = [sys.executable, "-m", "stackbounce", "app", "--export", path]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert done.stdout.startswith(f"{path}: the explorer, ")
+    assert main(["app", "--export", str(path)]) == 0
     return path
 
 
 @pytest.fixture
 def address(request):
     """Return the address of the page in one of its forms."""
-    if request.param == "served":
-        return request.getfixturevalue("address_of_server")
-    if request.param == "folder":
-        return request.getfixturevalue("folder")
-    return request.getfixturevalue("one_file").as_uri()
+    if request.param == "one file":
+        return request.getfixturevalue("one_file").as_uri()
+    name = {"served": "address_of_server", "folder": "folder"}[request.param]
+    return request.getfixturevalue(name)
 
 
 SHORT = """for (const name of ["store", "clock", "whole"]) {
@@ -140,16 +158,17 @@ class Visit:
         field.press("Enter")
         return field
 
-    def note(self, name, text):
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        (PICTURES / f"{name}.txt").write_text(f"{text}\n")
+    def drop(self):
+        return sb.Drop.from_mapping(self.state("drop"))
 
-    def picture(self, name, **options):
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        heard = len(self.complaints)
-        path = PICTURES / f"{name}-{self.page.context.browser.browser_type.name}.png"
-        self.page.screenshot(path=path, **options)
-        del self.complaints[heard:]  # in Firefox it adds a style, which the page's policy forbids
+    def script_is_refused(self):
+        """Return whether a script that somebody adds does nothing; the browser complains of it."""
+        self.page.evaluate(
+            """() => { const script = document.createElement('script');
+                 script.textContent = 'window.hit = true'; document.body.append(script); }"""
+        )
+        self.complaints.clear()
+        return self.page.evaluate("() => window.hit") is None
 
     def saved(self, act):
         """Return the content of the file that the page saves when something is done."""
@@ -194,3 +213,9 @@ def visits(browser, address, downloads):
 def visit(visits):
     """Open a page as a laptop shows it."""
     return visits()
+
+
+@pytest.fixture
+def page(visit):
+    """Open the page as a laptop shows it, with its first drop."""
+    return visit.open()

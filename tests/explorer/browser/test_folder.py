@@ -1,14 +1,12 @@
 """The explorer as a folder on a web server: it plays, after a visit without a network too."""
 
-import functools
-import http.server
 import shutil
-import threading
 from pathlib import Path
 
 import pytest
 
 import stackbounce as sb
+from stackbounce.cli import main
 from stackbounce.explorer.page import assembly
 from stackbounce.explorer.page.folder import folder_files
 from stackbounce.files import write_folder
@@ -19,22 +17,11 @@ FORMS = ("folder",)
 KEPT = "() => navigator.serviceWorker.ready.then(() => caches.keys())"
 
 
-class Quiet(http.server.SimpleHTTPRequestHandler):
-    def log_message(self, *_):
-        pass
-
-
 @pytest.fixture
-def site(tmp_path):
-    """Serve a folder, as `python -m http.server` does, in which the explorer lies further down."""
-    write_new(tmp_path)
-    handler = functools.partial(Quiet, directory=tmp_path)
-    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
-        thread = threading.Thread(target=server.serve_forever, args=(0.05,))
-        thread.start()
-        yield server
-        server.shutdown()
-        thread.join()
+def folder(site):
+    """Return the address of a folder with the explorer, further down on a server."""
+    write_new(site.folder)
+    return f"http://127.0.0.1:{site.server_port}/class/explorer/"
 
 
 def write_new(folder):
@@ -43,49 +30,36 @@ def write_new(folder):
     write_folder(place, folder_files())
 
 
-@pytest.fixture
-def folder(site):
-    return f"http://127.0.0.1:{site.server_port}/class/explorer/"
-
-
-def change_speed(page, speed):
-    page.evaluate(
-        """(speed) => { store.set({ drop: { ...store.get().drop, impact_speed: speed } }); }""",
-        speed,
-    )
-    page.wait_for_function("(speed) => state.result.drop.impact_speed === speed", arg=speed)
-
-
-def test_it_plays_without_a_network_after_a_visit(visit, site):
-    page = visit.open()
+def test_it_plays_without_a_network_after_a_visit(visit, page, site):
     assert "1.803" in page.locator("#numbers").inner_text()
     (kept,) = page.evaluate(KEPT)
     assert kept.startswith(f"stackbounce {visit.address} ")
-    site.shutdown()
-    site.server_close()
     page.goto("about:blank")
+    (site.folder / "class").rename(site.folder / "away")
     for address in ("", "index.html"):
         page.goto(f"{visit.address}{address}#view=map&height=1")
         visit.ready()
         page.wait_for_function(
             "() => /largest/.test(document.querySelector('#map-summary')?.textContent)"
         )
-        change_speed(page, 2.5)
-        drop = sb.Drop.from_mapping(visit.state("drop"))
-        assert visit.state("result.rebound_speeds") == sb.simulate(drop).rebound_speeds.tolist()
+        page.evaluate("() => store.set({ drop: { ...store.get().drop, impact_speed: 2.5 } })")
+        page.wait_for_function("() => state.result.drop.impact_speed === 2.5")
+        speeds = sb.simulate(visit.drop()).rebound_speeds
+        assert visit.state("result.rebound_speeds") == speeds.tolist()
     assert visit.state("error") is None
+    (site.folder / "away").rename(site.folder / "class")
 
 
-def test_a_newer_version_takes_the_place_of_an_older_one(visits, in_firefox, tmp_path, monkeypatch):
-    visit = visits()
-    page = visit.open()
+def test_a_newer_version_takes_the_place_of_an_older_one(
+    visit, page, site, in_firefox, tmp_path, monkeypatch
+):
     (old,) = page.evaluate(KEPT)
     newer = tmp_path / "static"
     shutil.copytree(assembly._STATIC, newer)
     text = (newer / "index.html").read_text("utf-8")
     (newer / "index.html").write_text(text.replace("the explorer</title>", "newer</title>"))
     monkeypatch.setattr(assembly, "_STATIC", newer)
-    write_new(tmp_path)
+    write_new(site.folder)
     page.reload()  # the page is still the older one, and the browser looks for a newer
     assert page.title() == "stackbounce: the explorer"
     # Without a window Chromium looks for it in its second minute, but at a new address at once.
@@ -112,17 +86,11 @@ def test_nothing_in_it_has_an_absolute_address():
             assert 'href="/' not in text
 
 
-def test_its_policy_is_in_the_page(visit):
-    page = visit.open()
+def test_its_policy_is_in_the_page(visit, page):
     policy = page.locator("meta[http-equiv]").get_attribute("content")
     assert policy.startswith("default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; ")
     assert "unsafe-inline" not in policy
-    page.evaluate(
-        """() => { const script = document.createElement('script');
-             script.textContent = 'window.hit = true'; document.body.append(script); }"""
-    )
-    assert page.evaluate("() => window.hit") is None
-    visit.complaints.clear()  # the browser logs what the policy forbids, which is the point here
+    assert visit.script_is_refused()
 
 
 def test_the_page_of_the_server_has_no_service_worker(visit, address_of_server):
@@ -143,8 +111,6 @@ def test_a_folder_that_is_opened_from_a_disk_says_what_it_needs(visit, tmp_path)
 
 
 def test_a_folder_of_somebody_elses_is_left_as_it_is(tmp_path, capsys):
-    from stackbounce.cli import main
-
     (tmp_path / "index.html").write_text("mine")
     assert main(["app", "--export", str(tmp_path)]) == 2
     assert "index.html is there, and is not as this command writes it" in capsys.readouterr().err

@@ -2,7 +2,6 @@
 
 import pytest
 
-import stackbounce as sb
 from stackbounce.model.catalogue import stack
 
 pytestmark = pytest.mark.slow
@@ -27,20 +26,21 @@ def drag(page, start, end):
 def opened(visit):
     page = visit.open(
         "#t=-0.001&height=0.5"
-        + "".join(
-            f"&balls.{i}.mass={mass}&balls.{i}.diameter={size}&balls.{i}.name={name}"
-            f"&contacts.{i}.law=Spring&contacts.{i}.stiffness={stiffness}"
-            for i, (name, mass, size, stiffness) in enumerate(
-                [("basketball", 0.15, 0.16, 2500), ("tennis", 0.057, 0.066, 1000)]
-            )
-        )
+        "&balls.0.mass=0.15&balls.0.diameter=0.16&balls.0.name=basketball"
+        "&balls.1.mass=0.057&balls.1.diameter=0.066&balls.1.name=tennis"
+        "&contacts.0.law=Spring&contacts.0.stiffness=2500"
+        "&contacts.1.law=Spring&contacts.1.stiffness=1000"
     )
     page.locator("#stage [data-ball='1'] .ball-body").wait_for()
     return page
 
 
-def test_the_lowest_ball_is_lifted_with_the_stack(visit):
-    page = opened(visit)
+@pytest.fixture
+def page(visit):
+    return opened(visit)
+
+
+def test_the_lowest_ball_is_lifted_with_the_stack(visit, page):
     x, y, _ = body(page, 0)
     drag(page, (x, y), (x, y - 60))
     assert visit.state("drop.height") > 0.51
@@ -50,8 +50,7 @@ def test_the_lowest_ball_is_lifted_with_the_stack(visit):
     assert visit.state("drop.height") == 0.5  # the whole movement is one step
 
 
-def test_an_upper_ball_is_lifted_off_and_put_below(visit):
-    page = opened(visit)
+def test_an_upper_ball_is_lifted_off_and_put_below(visit, page):
     x, y, _ = body(page, 1)
     drag(page, (x, y), (x, y - 30))
     gap = visit.state("drop.gaps[0]")
@@ -64,12 +63,10 @@ def test_an_upper_ball_is_lifted_off_and_put_below(visit):
     x, y, _ = body(page, 1)
     drag(page, (x, y), (x, y + 260))
     page.wait_for_function("() => state.drop.balls[0].name === 'tennis'")
-    turned = sb.Drop.from_mapping(visit.state("drop"))
-    assert turned.contacts == stack(["tennis", "basketball"]).contacts
+    assert visit.drop().contacts == stack(["tennis", "basketball"]).contacts
 
 
-def test_the_edge_of_a_ball_changes_its_size_alone(visit):
-    page = opened(visit)
+def test_the_edge_of_a_ball_changes_its_size_alone(visit, page):
     x, y, radius = body(page, 0)
     drag(page, (x + 0.93 * radius, y), (x + 1.3 * radius, y))
     balls = visit.state("drop.balls")
@@ -78,22 +75,17 @@ def test_the_edge_of_a_ball_changes_its_size_alone(visit):
     assert visit.state("drop.height") == 0.5
 
 
-PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
-
-
 def touch(page, start, up, rest=0):
     """Put a finger down, leave it for `rest` ms, move it up by so many px, and lift it."""
-    fingers = page.context.new_cdp_session(page)
+    fingers, (x, y) = page.context.new_cdp_session(page), start
 
     def send(kind, *points):
-        places = [{"x": x, "y": y} for x, y in points]
-        fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": places})
+        fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
 
-    x, y = start
-    send("touchStart", (x, y))
+    send("touchStart", {"x": x, "y": y})
     page.wait_for_timeout(rest)
     for step in range(1, 11):
-        send("touchMove", (x, y - up * step / 10))
+        send("touchMove", {"x": x, "y": y - up * step / 10})
         page.wait_for_timeout(16)
     send("touchEnd")
     page.wait_for_timeout(300)
@@ -103,7 +95,7 @@ def touch(page, start, up, rest=0):
 def phone(visits, in_firefox):
     if in_firefox:
         pytest.skip("Playwright sends no touches by WebDriver BiDi")
-    return visits(**PHONE)
+    return visits(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
 
 
 def test_a_finger_that_swipes_over_a_ball_scrolls_and_one_that_rests_on_it_drags(phone):

@@ -1,11 +1,11 @@
 """A bounce recorded in the page: from a microphone that plays a file, to the results."""
 
 import shutil
-import wave
 
 import numpy as np
 import pytest
 from playwright.sync_api import sync_playwright
+from scipy.io import wavfile
 
 import stackbounce as sb
 from stackbounce.measure import bounces, knocks
@@ -30,14 +30,9 @@ def browser(request, tmp_path_factory):
     recording = sound(falls(0.2, lambda _: RESTITUTION, bounces=6), noise=NOISE, seed=1, rate=RATE)
     quiet = np.random.default_rng(2).normal(0.0, NOISE, 5 * RATE)  # after it, as in a room
     samples = np.concatenate([recording.sound.values, quiet])
-    with wave.open(str(heard), "wb") as file:
-        file.setparams((1, 2, RATE, len(samples), "NONE", ""))
-        file.writeframes((samples / np.abs(samples).max() * 20_000).astype("<i2").tobytes())
-    options = [
-        "--use-fake-device-for-media-stream",
-        "--use-fake-ui-for-media-stream",
-        f"--use-file-for-fake-audio-capture={heard}%noloop",
-    ]
+    wavfile.write(heard, RATE, (samples / np.abs(samples).max() * 20_000).astype("<i2"))
+    options = [f"--use-fake-{name}-for-media-stream" for name in ("device", "ui")]
+    options += [f"--use-file-for-fake-audio-capture={heard}%noloop"]
     with sync_playwright() as playwright:
         started = playwright.chromium.launch(executable_path=path, args=options)
         yield started
@@ -51,14 +46,13 @@ def test_a_recorded_bounce_is_measured_and_can_be_saved(visit, tmp_path):
     page.wait_for_timeout(2200)
     page.get_by_role("button", name="Stop").click()
     page.locator(".recognised button").wait_for()
-    content = visit.saved(lambda: page.get_by_role("button", name="Save the recording").click())
     file = tmp_path / "recording.wav"
-    file.write_bytes(content)
+    save = page.get_by_role("button", name="Save the recording")
+    file.write_bytes(visit.saved(save.click))
     found = bounces(knocks(sb.read(file))).restitutions
     assert len(found) >= 3
     assert np.median([one.nominal_value for one in found]) == pytest.approx(RESTITUTION, abs=0.01)
     assert "sound" in page.locator(".recognised").inner_text()
-    visit.picture("microphone")
 
 
 def test_where_there_is_no_microphone_it_says_why(visit):
@@ -76,6 +70,7 @@ def test_a_microphone_that_is_refused_is_told(visit):
              Promise.reject(new DOMException('no', 'NotAllowedError'))"""
     )
     visit.open("#view=measure")
-    page.get_by_role("button", name="Record a bounce").click()
+    record = page.get_by_role("button", name="Record a bounce")
+    record.click()
     page.get_by_text("does not let this page use the microphone").wait_for()
-    assert page.get_by_role("button", name="Record a bounce").is_enabled()
+    assert record.is_enabled()

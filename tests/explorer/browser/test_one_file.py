@@ -14,43 +14,25 @@ def test_it_is_small(one_file):
     assert one_file.stat().st_size < MOST
 
 
-def test_it_computes_and_asks_for_nothing(visit, in_firefox):
-    page = visit.open()
+def test_it_computes_and_asks_for_nothing(visit, page, in_firefox):
     assert "1.803" in page.locator("#numbers").inner_text()
     visit.type("gaps.0", "2 mm")
     page.wait_for_function("() => state.result.drop.gaps[0] === 0.002")
     page.locator("[data-key=law-0]").select_option("Hysteretic")
     page.wait_for_function("() => state.result.drop.contacts[0].law === 'Hysteretic'")
-    drop = sb.Drop.from_mapping(visit.state("drop"))
-    ratios = sb.simulate(drop, rtol=1e-10).rebound_ratios
+    ratios = sb.simulate(visit.drop(), rtol=1e-10).rebound_ratios
     assert visit.state("result.rebound_ratios") == pytest.approx(ratios, rel=1e-12)
     asked = [url for url in visit.requests if not url.startswith("blob:null/")]
     assert asked == ([] if in_firefox else [visit.address])  # Firefox tells of none to the disk
 
 
-def test_its_address_restores_the_state(visits):
-    first = visits()
-    page = first.open("#view=map")
-    page.locator("[data-key=map-x]").select_option("gaps.0")
-    page.wait_for_function("() => /map.x.path=gaps.0/.test(location.hash)")
-    second = visits()
-    second.open(page.evaluate("() => location.hash"))
-    assert second.page.locator("[data-key=map-x]").input_value() == "gaps.0"
-
-
-def test_its_policy_lets_nothing_out(visit):
-    page = visit.open()
+def test_its_policy_lets_nothing_out(visit, page):
     policy = page.locator("meta[http-equiv]").get_attribute("content")
     assert policy.startswith("default-src 'none'; script-src 'sha256-")
     assert "unsafe-inline" not in policy
     answer = page.evaluate("() => fetch('https://example.org/').catch((error) => error.name)")
     assert answer == "TypeError"
-    page.evaluate(
-        """() => { const script = document.createElement('script');
-             script.textContent = 'window.hit = true'; document.body.append(script); }"""
-    )
-    assert page.evaluate("() => window.hit") is None
-    visit.complaints.clear()  # Chromium logs what the policy forbids, which is the point here
+    assert visit.script_is_refused()
 
 
 def test_what_it_cannot_do_is_said(visit):
@@ -59,24 +41,17 @@ def test_what_it_cannot_do_is_said(visit):
     page.locator("#tab-paper").click()
     assert "stackbounce paper" in page.locator("#paper").inner_text()
     assert page.locator('a[href="paper/"]').is_hidden()
-
-
-def test_errors_of_numbers_need_a_server_and_it_says_so(visit):
-    page = visit.open()
+    page.locator("#tab-play").click()
     visit.type("balls.1.mass", "57 ± 1 g")
-    sentence = page.locator("#numbers").get_by_text("“stackbounce app” opens a page that does")
-    sentence.wait_for()
-    assert sentence.is_visible()
+    page.locator("#numbers").get_by_text("“stackbounce app” opens a page that does").wait_for()
 
 
 def test_without_workers_it_says_what_it_needs(visit):
     page = visit.page
     page.add_init_script("window.Worker = class { constructor() { throw new Error('no'); } };")
     page.goto(visit.address)
-    told = page.locator("#controls [role=alert]").filter(
-        has_text="does not let this page start a worker"
-    )
-    told.wait_for(state="visible")
+    told = page.locator("#controls [role=alert]")
+    told.filter(has_text="does not let this page start a worker").wait_for()
     assert visit.state("result") is None
     visit.complaints.clear()
 
@@ -85,6 +60,5 @@ def test_a_browser_without_webassembly_is_told_what_it_needs(visit):
     page = visit.page
     page.add_init_script("delete window.WebAssembly;")
     page.goto(visit.address)
-    told = page.locator("#old")
-    told.wait_for(state="visible")
-    assert "needs a browser" in told.inner_text()
+    page.locator("#old").wait_for()
+    assert "needs a browser" in page.locator("#old").inner_text()

@@ -14,11 +14,9 @@ def test_the_share_box_shows_the_address_and_its_code(visit):
     page.get_by_text("http://192.168.1.5:8050/").wait_for()
     code = page.get_by_role("img", name="QR code of http://192.168.1.5:8050/")
     assert code.locator("path").get_attribute("d").count("M") == 5
-    visit.picture("share-places")
 
 
-def test_a_page_for_one_machine_shows_none(visit):
-    page = visit.open()
+def test_a_page_for_one_machine_shows_none(page):
     with page.expect_response("**/api/places"):
         page.get_by_text("Share", exact=True).click()
     assert not page.locator(".places").is_visible()

@@ -17,29 +17,28 @@ POSITIONS = "[...document.querySelectorAll('[data-ball]')].map((ball) => +ball.d
 def at(visit, time):
     """Put the cursor at a time; return where the page draws the balls, in m."""
     visit.page.evaluate("(time) => { clock.pause(); clock.seek(time); }", time)
-    visit.page.evaluate("() => new Promise(requestAnimationFrame)")
-    visit.page.evaluate("() => new Promise(requestAnimationFrame)")
+    for _ in range(2):
+        visit.page.evaluate("() => new Promise(requestAnimationFrame)")
     return visit.page.evaluate(f"() => {POSITIONS}")
 
 
-@pytest.mark.parametrize("time", [-0.004, 0.0, 0.00713, 0.0135, 0.0301, 0.045])
-def test_balls_are_where_the_computed_array_has_them(visit, time):
+def test_balls_are_where_the_computed_array_has_them(visit):
     visit.open()
-    drawn = at(visit, time)
-    frames = visit.state("result.frames")
-    drop = sb.Drop.from_mapping(visit.state("drop"))
+    frames, speeds = visit.state("result.frames"), np.array(visit.state("result.rebound_speeds"))
+    result = sb.simulate(visit.drop())
     last = max(one["end"] for one in visit.state("result.intervals"))
-    computed = [np.interp(min(time, last), frames["time"], path) for path in frames["position"]]
-    if time < 0.0:  # a fall from rest, to the impact speed at the touch
-        expected = [-3.53 * time - 0.5 * STANDARD_GRAVITY * time**2] * 2
-    else:  # gravity acts on the balls from their last separation
-        flown = max(0.0, time - last)
-        speeds = np.array(visit.state("result.rebound_speeds"))
-        expected = computed + speeds * flown - 0.5 * STANDARD_GRAVITY * flown**2
-    assert drawn == pytest.approx(expected, abs=1e-12)
-    if 0.0 <= time <= last:
-        exact = sb.simulate(drop).sample([time]).position.values[:, 0]
-        assert drawn == pytest.approx(exact, abs=2e-6)
+    for time in (-0.004, 0.0, 0.00713, 0.0135, 0.0301, 0.045):
+        drawn = at(visit, time)
+        computed = [np.interp(min(time, last), frames["time"], path) for path in frames["position"]]
+        if time < 0.0:  # a fall from rest, to the impact speed at the touch
+            expected = [-3.53 * time - 0.5 * STANDARD_GRAVITY * time**2] * 2
+        else:  # gravity acts on the balls from their last separation
+            flown = max(0.0, time - last)
+            expected = computed + speeds * flown - 0.5 * STANDARD_GRAVITY * flown**2
+        assert drawn == pytest.approx(expected, abs=1e-12)
+        if 0.0 <= time <= last:
+            exact = result.sample([time]).position.values[:, 0]
+            assert drawn == pytest.approx(exact, abs=2e-6)
 
 
 def test_surfaces_meet_where_they_press(visit):
@@ -57,8 +56,7 @@ def test_surfaces_meet_where_they_press(visit):
     assert ends[0][1] - ends[0][0] > 40.0
 
 
-def test_playing_follows_the_clock_at_sixty_frames_with_no_request(visit):
-    page = visit.open()
+def test_playing_follows_the_clock_with_no_request(visit, page):
     page.wait_for_load_state("networkidle")
     before = len(visit.requests)
     seen = page.evaluate(
@@ -71,19 +69,13 @@ def test_playing_follows_the_clock_at_sixty_frames_with_no_request(visit):
              }};
              requestAnimationFrame(look); }})"""
     )
-    seen = np.array(seen)
-    expected = page.evaluate(
-        "(times) => times.map((time) => clock.film.at(time).position)", seen[1:, 2].tolist()
-    )
-    assert seen[1:, 3:].tolist() == expected
-    assert (np.diff(seen[1:, 1:3], axis=0) > 0).all()
-    steps = np.diff(seen[1:, 0])
-    passed = np.minimum(steps, 100.0).sum()  # a long stop is left out
-    shown = seen[-1, 1] - seen[1, 1]
-    assert shown == pytest.approx(1e-3 * passed * visit.state("speed"), rel=0.2)
+    now, reel, time, *positions = np.array(seen[1:]).T
+    expected = "(times) => times.map((time) => clock.film.at(time).position)"
+    assert np.transpose(positions).tolist() == page.evaluate(expected, time.tolist())
+    assert (np.diff([reel, time]) > 0).all()
+    passed = np.minimum(np.diff(now), 100.0).sum()  # a long stop is left out
+    assert reel[-1] - reel[0] == pytest.approx(1e-3 * passed * visit.state("speed"), rel=0.2)
     assert len(visit.requests) == before
-    # Kept to be looked at: no test depends on how fast this machine is.
-    visit.note("frame-times", f"median {np.median(steps):.1f} ms, longest {steps.max():.1f} ms")
 
 
 WATCH_THE_LAYOUT = """() => {
@@ -97,31 +89,22 @@ WATCH_THE_LAYOUT = """() => {
 
 @pytest.mark.release
 @pytest.mark.parametrize("width", [1440, 390])
-def test_nothing_moves_on_the_page_while_a_film_plays(visits, width, in_firefox):
+def test_nothing_moves_while_the_page_opens_and_a_film_plays(visits, width, in_firefox):
     if in_firefox:
         pytest.skip("Firefox does not measure layout shifts")
-    visit = visits(viewport={"width": width, "height": 844})
-    page = visit.open("#momentum=1&centre=1&speed=4")
+    size = {"width": width, "height": 844}
+    opening, playing = visits(viewport=size), visits(viewport=size)
+    opening.page.add_init_script(f"({WATCH_THE_LAYOUT})()")
+    assert opening.open().locator("#sentence").is_visible()
+    assert opening.page.evaluate("() => window.shifts") == []
+    page = playing.open("#momentum=1&centre=1&speed=4")
     page.evaluate(WATCH_THE_LAYOUT)
     page.evaluate("() => { clock.seek(clock.begin); clock.play(); }")
     page.wait_for_function("() => !clock.playing")
     assert page.evaluate("() => window.shifts") == []
 
 
-@pytest.mark.release
-@pytest.mark.parametrize("width", [1440, 390])
-def test_nothing_moves_while_the_page_opens(visits, width, in_firefox):
-    if in_firefox:
-        pytest.skip("Firefox does not measure layout shifts")
-    visit = visits(viewport={"width": width, "height": 844})
-    visit.page.add_init_script(f"({WATCH_THE_LAYOUT})()")
-    page = visit.open()
-    assert page.locator("#sentence").is_visible()
-    assert page.evaluate("() => window.shifts") == []
-
-
-def test_buttons_step_from_event_to_event(visit):
-    page = visit.open()
+def test_buttons_step_from_event_to_event(page):
     said = page.locator("#stage .scene-time")
     page.evaluate("() => { clock.pause(); clock.seek(-0.1); }")
     seen = []
@@ -142,8 +125,7 @@ def test_buttons_step_from_event_to_event(visit):
 CHANGE_THE_GAP = """(gap) => { store.set({ drop: { ...store.get().drop, gaps: [gap] } }); }"""
 
 
-def test_a_changed_drop_is_shown_at_the_same_moment(visit):
-    page = visit.open()
+def test_a_changed_drop_is_shown_at_the_same_moment(visit, page):
 
     def changed_at(time, gap):
         page.evaluate("(time) => { clock.pause(); clock.seek(time); }", time)
@@ -188,8 +170,7 @@ def test_first_a_guess_and_then_the_film(visit):
     assert too in page.locator(".sentence-more").inner_text()
 
 
-def test_a_kept_drop_is_shown_beside_the_present_one(visit):
-    page = visit.open()
+def test_a_kept_drop_is_shown_beside_the_present_one(visit, page):
     page.get_by_role("button", name="Keep this one to compare").click()
     page.evaluate(CHANGE_THE_GAP, 0.02)
     visit.ready()
@@ -202,8 +183,7 @@ def test_a_kept_drop_is_shown_beside_the_present_one(visit):
     assert page.locator("#numbers table").count() == 1
 
 
-def test_momentum_arrows_and_centre_of_mass_can_be_shown(visit):
-    page = visit.open()
+def test_momentum_arrows_and_centre_of_mass_can_be_shown(visit, page):
     page.get_by_label("Momentum", exact=True).check()
     page.get_by_label("Centre of mass").check()
     page.get_by_label("Velocities").uncheck()
@@ -217,31 +197,6 @@ def test_momentum_arrows_and_centre_of_mass_can_be_shown(visit):
     )
 
 
-def test_an_older_link_with_a_slow_motion_is_read(visit):
-    page = visit.open(
-        "#slow=300&speed=2&balls.0.mass=0.1&contacts.0.law=Spring&contacts.0.stiffness=9000&height=1"
-    )
-    assert page.locator("#preset-says").inner_text() == ""
-    assert visit.state("speed") == 2
-
-
-def test_a_slider_by_keyboard_changes_the_numbers(visit):
-    page = visit.open()
-    before = page.locator("#numbers").inner_text()
-    slider = page.locator('[data-slider="balls.0.mass"]')
-    slider.focus()
-    for _ in range(20):
-        page.keyboard.press("ArrowRight")
-    page.wait_for_function("() => state.drop.balls[0].mass > 0.155")
-    visit.ready()
-    drop = sb.Drop.from_mapping(visit.state("drop"))
-    ratio = sb.simulate(drop).rebound_ratios[1]
-    page.wait_for_function(
-        "(text) => document.querySelector('#numbers').innerText.includes(text)", arg=f"{ratio:.3f}"
-    )
-    assert page.locator("#numbers").inner_text() != before
-
-
 SAID = """(change) => {
     store.set({ drop: change(store.get().drop) });
     const { result, resultOf, drop } = store.get();
@@ -251,22 +206,19 @@ SAID = """(change) => {
     return { isNew, ratio: result.rebound_ratios[1], frames, said }; }"""
 
 
-def test_a_change_is_answered_before_the_next_picture(visit):
+def test_a_change_is_answered_before_the_next_picture(visit, page):
     """The page answers within the same task; the worker adds frames with the same numbers."""
-    page = visit.open()
     page.evaluate("() => whole.then(() => null)")
     at_once = page.evaluate(f"() => ({SAID})((drop) => ({{ ...drop, impact_speed: 3 }}))")
-    drop = sb.Drop.from_mapping(visit.state("drop"))
     assert at_once["isNew"]
-    assert at_once["ratio"] == pytest.approx(sb.simulate(drop).rebound_ratios[1], abs=1e-12)
+    assert at_once["ratio"] == pytest.approx(sb.simulate(visit.drop()).rebound_ratios[1], abs=1e-12)
     assert f"{at_once['ratio']:.3f}" in at_once["said"]
     visit.ready()
     assert len(visit.state("result.frames.time")) > 2 * at_once["frames"]
     assert visit.state("result.rebound_ratios")[1] == at_once["ratio"]
 
 
-def test_a_drop_of_many_collisions_is_left_to_the_worker(visit):
-    page = visit.open()
+def test_a_drop_of_many_collisions_is_left_to_the_worker(visit, page):
     page.evaluate("() => whole.then(() => null)")
     many = """(drop) => ({
         balls: [{ mass: 1e6 }, { mass: 0.001 }], gaps: [1e-3], impact_speed: 3, gravity: 0,
@@ -277,18 +229,8 @@ def test_a_drop_of_many_collisions_is_left_to_the_worker(visit):
     assert len(visit.state("result.intervals")) > 100  # each with a touch, a peak and a release
 
 
-@pytest.mark.parametrize(
-    ("text", "mass"), [("57 g", 0.057), ("0.057 kg", 0.057), ("57", 0.057), ("0,057 kg", 0.057)]
-)
-def test_a_field_reads_units(visit, text, mass):
-    page = visit.open()
-    visit.type("balls.0.mass", text)
-    page.wait_for_function("(m) => Math.abs(state.result.drop.balls[0].mass - m) < 1e-9", arg=mass)
-    assert visit.state("error") is None
-
-
-def test_a_wrong_number_is_told_at_its_field_and_the_last_result_stays(visit):
-    page = visit.open()
+def test_a_wrong_number_is_told_at_its_field_and_the_last_result_stays_dimmed(visit, page):
+    opacity = "(one) => getComputedStyle(one).opacity"
     before = page.locator("#numbers").inner_text()
     field = visit.type("balls.1.mass", "-3 g")
     error = page.locator("#field-balls-1-mass-error")
@@ -296,20 +238,21 @@ def test_a_wrong_number_is_told_at_its_field_and_the_last_result_stays(visit):
     assert error.inner_text().startswith("Must be a positive number")
     assert field.get_attribute("aria-invalid") == "true"
     assert page.locator("#numbers").inner_text() == before
-    field.fill("57 g")
-    field.press("Enter")
+    page.locator("body.stale").wait_for()
+    assert float(page.locator("#stage").evaluate(opacity)) < 1
+    visit.type("balls.1.mass", "57 g")
     error.wait_for(state="hidden")
+    visit.ready()
+    assert page.locator("body.stale").count() == 0
     visit.complaints.clear()  # Chromium logs the answer 422, which is the point here
 
 
-def test_the_cursor_by_keyboard(visit):
-    page = visit.open()
+def test_the_cursor_by_keyboard(visit, page):
     at(visit, 0.01)
     cursor = page.get_by_role("slider", name="Time")
     cursor.focus()
     page.keyboard.press("ArrowRight")
-    after = page.evaluate("() => clock.time")
-    assert after > 0.01
+    assert page.evaluate("() => clock.time") > 0.01
     page.keyboard.press("Home")
     assert page.evaluate("() => clock.time") < 0.0
     page.keyboard.press("End")
@@ -320,24 +263,20 @@ def test_the_cursor_by_keyboard(visit):
     page.wait_for_function("() => !clock.playing")
 
 
-def test_dragging_on_a_plot_moves_everything(visit):
-    page = visit.open()
+def test_dragging_on_a_plot_moves_everything(visit, page):
     at(visit, 0.0)
     box = page.locator(".plot .u-over").nth(1).bounding_box()
     page.mouse.move(box["x"] + 0.3 * box["width"], box["y"] + 20)
     page.mouse.down()
     page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 20, steps=5)
     page.mouse.up()
-    time = page.evaluate("() => clock.time")
-    times = visit.state("result.frames.time")
+    time, times = page.evaluate("() => clock.time"), visit.state("result.frames.time")
     assert time == pytest.approx(0.5 * (times[0] + times[-1]), rel=0.02)
     lines = page.locator(".cursor-line")
     assert len(set(lines.evaluate_all("(all) => all.map((l) => l.style.transform)"))) == 1
-    frames = visit.state("result.frames")
     page.evaluate("() => new Promise(requestAnimationFrame)")
-    drawn = page.evaluate(f"() => {POSITIONS}")
-    expected = np.interp(time, frames["time"], frames["position"][1])
-    assert drawn[1] == pytest.approx(expected, abs=1e-9)
+    expected = np.interp(time, times, visit.state("result.frames.position")[1])
+    assert page.evaluate(f"() => {POSITIONS}")[1] == pytest.approx(expected, abs=1e-9)
 
 
 def test_the_address_restores_the_state(visits):
@@ -353,35 +292,38 @@ def test_the_address_restores_the_state(visits):
     second = visits()
     second.open(link)
     second.page.wait_for_function("() => Math.abs(clock.time - 0.012) < 1e-6")
-    parts = ("drop", "ghosts", "until", "speed", "magnify", "view", "result.rebound_ratios")
-    for part in parts:
+    for part in ("drop", "ghosts", "until", "speed", "magnify", "view", "result.rebound_ratios"):
         assert second.state(part) == first.state(part)
 
 
-@pytest.mark.parametrize(
-    "fragment",
-    [
-        "#view=nothing&t=x&speed=-1",
-        "#balls.0.mass=1",
-        "#__proto__.x=1&constructor.prototype.y=2",
-        "#%E0%A4%A&=&&&view",
-        "#" + "&".join(f"balls.{i}.mass=1" for i in range(40)),
-    ],
-)
+BROKEN = [
+    "#view=nothing&t=x&speed=-1",
+    "#balls.0.mass=1",
+    "#__proto__.x=1&constructor.prototype.y=2",
+    "#%E0%A4%A&=&&&view",
+    "#" + "&".join(f"balls.{i}.mass=1" for i in range(40)),
+]
+
+
+@pytest.mark.parametrize("fragment", BROKEN)
 def test_a_broken_link_shows_a_page_all_the_same(visit, fragment):
     page = visit.open(fragment)
     assert page.locator("[data-ball]").count() == 2
     assert page.evaluate("() => ({}).x === undefined && ({}).y === undefined")
 
 
-def test_what_a_newer_link_has_is_named_and_the_rest_is_kept(visit):
-    page = visit.open(
-        "#wind=3&balls.0.mass=0.1&contacts.0.law=Spring&contacts.0.stiffness=9&height=1"
-    )
-    assert visit.state("drop.contacts[0].stiffness") == 9
-    assert page.locator("#preset-says").inner_text() == (
-        "This page does not understand “wind” in the link, and left it out."
-    )
+@pytest.mark.parametrize(
+    ("part", "said"),
+    [
+        ("wind=3", "This page does not understand “wind” in the link, and left it out."),
+        ("slow=300", ""),  # of an older page
+    ],
+)
+def test_what_a_newer_link_has_is_named_and_the_rest_is_kept(visit, part, said):
+    drop = "balls.0.mass=0.1&contacts.0.law=Spring&contacts.0.stiffness=9&height=1"
+    page = visit.open(f"#{part}&speed=2&{drop}")
+    assert (visit.state("drop.contacts[0].stiffness"), visit.state("speed")) == (9, 2)
+    assert page.locator("#preset-says").inner_text() == said
 
 
 def test_a_link_with_a_wrong_number_says_so_at_its_field(visit):
@@ -394,8 +336,7 @@ def test_a_link_with_a_wrong_number_says_so_at_its_field(visit):
 
 
 @pytest.mark.release
-def test_a_tower_grows_to_six_and_no_further(visit):
-    page = visit.open()
+def test_a_tower_grows_to_six_and_no_further(visit, page):
     add = page.get_by_role("button", name=re.compile("Add a ball"))
     for count in range(3, 7):
         add.click()
@@ -403,87 +344,46 @@ def test_a_tower_grows_to_six_and_no_further(visit):
     visit.ready()
     assert add.is_disabled() or add.count() == 0
     assert page.locator("[data-ball]").count() == 6
-    at(visit, 0.004)
-    visit.picture("six-balls")
 
 
-@pytest.mark.release
-def test_every_preset_can_be_chosen(visit):
-    page = visit.open()
-    options = page.locator("#controls select").first.locator("option")
-    values = [value for value in options.evaluate_all("(all) => all.map((o) => o.value)") if value]
-    assert len(values) >= 18
-    for value in values:
-        before = visit.state("result.drop")
-        page.locator("#controls select").first.select_option(value)
-        page.wait_for_function(
-            "(before) => { const s = state;"
-            " return !s.busy && JSON.stringify(s.result.drop) !== JSON.stringify(before); }",
-            arg=before,
-        )
-        assert visit.state("result.status") == "FINISHED"
-        assert visit.state("error") is None
-
-
-@pytest.mark.parametrize(
-    ("button", "begins"),
-    [
-        ("Table (CSV)", b"time (s),position 0 (m)"),
-        ("Picture (PNG)", b"\x89PNG"),
-        ("Picture (SVG)", b"<?xml"),
-        ("Scenario (TOML)", b"gaps = [0.0]"),
-        ("Python lines", b"# Made by stackbounce"),
-    ],
-)
-def test_exports_are_saved(visit, button, begins):
-    page = visit.open()
-    page.get_by_text("Share", exact=True).click()
-    save = page.get_by_role("button", name=button)
-    assert visit.saved(save.click).startswith(begins)
-
-
-def test_what_is_saved_has_the_errors_of_the_numbers(visit, tmp_path):
-    page = visit.open()
+def test_exports_are_saved_with_the_errors_of_the_numbers(visit, page, tmp_path):
     visit.type("balls.1.mass", "57 ± 0.5 g")
     page.wait_for_function("() => state.errors['balls.1.mass']")
     page.get_by_text("Share", exact=True).click()
+
+    def saved(name):
+        return visit.saved(page.get_by_role("button", name=name).click)
+
+    assert saved("Table (CSV)").startswith(b"time (s),position 0 (m)")
+    assert saved("Picture (PNG)").startswith(b"\x89PNG")
+    assert saved("Picture (SVG)").startswith(b"<svg xmlns=")
     scenario = tmp_path / "drop.toml"
-    scenario.write_bytes(visit.saved(page.get_by_role("button", name="Scenario (TOML)").click))
-    drop, errors = read_scenario(scenario)
-    assert drop == sb.Drop.from_mapping(visit.state("drop"))
-    assert errors == {"balls.1.mass": "0.057 ± 0.0005 kg"}
-    lines = visit.saved(page.get_by_role("button", name="Python lines").click).decode()
+    scenario.write_bytes(saved("Scenario (TOML)"))
+    errors = {"balls.1.mass": "0.057 ± 0.0005 kg"}
+    assert read_scenario(scenario) == (visit.drop(), errors)
+    lines = saved("Python lines").decode()
+    assert lines.startswith("# Made by stackbounce")
     assert "    'balls.1.mass': (0.057, 0.0005),\n" in lines
     assert "sb.predict(drop, errors)" in lines
 
 
 @pytest.mark.release
 def test_a_phone_has_no_sideways_scrolling_and_large_targets(visits):
-    visit = visits(viewport={"width": 360, "height": 780}, has_touch=True, is_mobile=True)
-    page = visit.open()
-    at(visit, 0.0135)
+    page = visits(viewport={"width": 360, "height": 780}, has_touch=True, is_mobile=True).open()
     assert page.evaluate("() => document.documentElement.scrollWidth") <= 360
     play = page.locator(".play").bounding_box()
     assert min(play["width"], play["height"]) >= 40.0
     assert play["y"] < 780.0
-    visit.picture("first-view-phone")
-    visit.picture("first-view-phone-whole", full_page=True)
 
 
 @pytest.mark.release
-def test_dark_and_print(visits, in_firefox):
+def test_numbers_are_printed_without_the_set_up(visit, in_firefox):
     if in_firefox:
         pytest.skip("Playwright sets no media features by WebDriver BiDi")
-    visit = visits(color_scheme="dark")
-    visit.open()
-    at(visit, 0.0135)
-    visit.picture("first-view-dark")
-    light = visits()
-    light.open()
-    light.page.emulate_media(media="print")
-    assert light.page.locator("#numbers").is_visible()
-    assert not light.page.locator("#controls").is_visible()
-    light.picture("print", full_page=True)
+    page = visit.open()
+    page.emulate_media(media="print")
+    assert page.locator("#numbers").is_visible()
+    assert not page.locator("#controls").is_visible()
 
 
 def test_reduced_motion_does_not_begin_by_itself(visits, in_firefox):
@@ -495,13 +395,11 @@ def test_reduced_motion_does_not_begin_by_itself(visits, in_firefox):
     page.get_by_role("button", name="Play", exact=True).click()
     page.wait_for_function("() => clock.time >= 0")
     stops = [0.0, *(one["end"] for one in visit.state("result.intervals"))]
-    stops += page.evaluate("() => clock.film.tops.map(({ time }) => time)")
-    end = page.evaluate("() => clock.end")
-    assert page.evaluate("() => clock.time") in [*stops, end]
+    stops += page.evaluate("() => [clock.end, ...clock.film.tops.map(({ time }) => time)]")
+    assert page.evaluate("() => clock.time") in stops
 
 
-def test_a_screen_reader_is_told(visit):
-    page = visit.open()
+def test_a_screen_reader_is_told(visit, page):
     at(visit, 0.0135)
     label = page.locator("#stage svg.scene").get_attribute("aria-label")
     assert re.search(r"basketball at −?\d", label)
@@ -509,32 +407,28 @@ def test_a_screen_reader_is_told(visit):
         assert len(plot.get_attribute("aria-label")) > 40
     visit.type("gaps.0", "1 mm")
     page.wait_for_function("() => document.querySelector('#live').textContent.includes('tennis')")
-    unnamed = page.evaluate(
-        """() => [...document.querySelectorAll('button, input, select')]
-             .filter((one) => one.offsetParent && !one.labels?.length && !one.ariaLabel
-                              && !one.textContent.trim() && !one.title)
-             .map((one) => one.outerHTML)"""
-    )
-    assert unnamed == []
 
 
-def test_a_server_that_is_gone_is_not_missed(visit):
-    page = visit.open()
-    page.wait_for_function("() => whole")
+@pytest.mark.forms("served")
+def test_a_server_that_is_gone_is_not_missed(visit, page):
     page.evaluate("() => whole.then(() => null)")
+    page.wait_for_load_state("networkidle")
     page.route("http://**/*", lambda route: route.abort())
     before = len(visit.requests)
     visit.type("gaps.0", "3 mm")
     page.wait_for_function("() => state.result.drop.gaps[0] === 0.003")
     page.locator("[data-key=law-0]").select_option("Hysteretic")
     page.wait_for_function("() => state.result.drop.contacts[0].law === 'Hysteretic'")
+    page.locator("#tab-map").click()
+    page.wait_for_function(
+        "() => /largest/.test(document.querySelector('#map-summary')?.textContent)"
+    )
     assert len(visit.requests) == before
     assert visit.state("error") is None
 
 
+@pytest.mark.forms("served")
 def test_an_engine_that_cannot_be_loaded_is_told_and_tried_again(visit):
-    if visit.address.startswith("file:"):
-        pytest.skip("the one file holds its engine")
     page = visit.page
     page.route("**/made/engine.wasm", lambda route: route.abort())
     page.goto(visit.address)
@@ -558,7 +452,6 @@ def test_a_drop_that_takes_too_long_is_stopped_and_told(visit):
     )
     page.clock.install()
     visit.open()
-    page.wait_for_function("() => !state.busy")
     page.evaluate(
         """() => { window.endless = true;
              store.set({ drop: { ...store.get().drop, impact_speed: 3 } }); }"""
@@ -588,72 +481,40 @@ def test_a_script_in_a_link_is_only_text(visit):
 
 @pytest.mark.parametrize(
     ("button", "names"),
-    [
-        ("down-1", ["tennis", "basketball"]),
-        ("up-0", ["tennis", "basketball"]),
-        ("remove-0", ["tennis"]),
-        ("remove-1", ["basketball"]),
-    ],
+    [("down-1", "tennis,basketball"), ("up-0", "tennis,basketball"), ("remove-0", "tennis")],
 )
-def test_contacts_belong_to_the_balls_that_make_them(visit, button, names):
-    page = visit.open()
+def test_contacts_belong_to_the_balls_that_make_them(visit, page, button, names):
     page.locator(f"#controls [data-key='{button}']").click()
     page.wait_for_function(
-        "(names) => { const { balls } = state.drop;"
-        " return String(balls.map((one) => one.name)) === String(names); }",
-        arg=names,
+        "(names) => String(state.drop.balls.map((one) => one.name)) === names", arg=names
     )
     visit.ready()
-    stack = catalogue.stack(names)
+    stack = catalogue.stack(names.split(","))
     drop = sb.Drop(stack.balls, stack.contacts, stack.gaps, impact_speed=3.53)
     expected = sb.simulate(drop).rebound_ratios.tolist()
     assert visit.state("result.rebound_ratios") == pytest.approx(expected, rel=1e-12)
 
 
-def test_a_number_set_by_hand_stays_where_balls_change_places_and_says_so(visit):
-    page = visit.open()
+def test_a_number_set_by_hand_stays_where_balls_change_places_and_says_so(visit, page):
     visit.type("contacts.0.stiffness", "3.1")
     visit.ready()
     page.locator("#controls [data-key='down-1']").click()
     page.wait_for_function("() => state.drop.balls[0].name === 'tennis'")
     visit.ready()
-    assert visit.state("drop.contacts[0].stiffness") == 3100.0
-    assert visit.state("drop.contacts[1].stiffness") == 1000.0  # of the same two balls
+    found = [one["stiffness"] for one in visit.state("drop.contacts")]
+    assert found == [3100.0, 1000.0]  # the second is of the same two balls
     notes = page.locator("#controls .contact-card > .note").all_inner_texts()
     assert notes == ["Kept: this was set by hand."]
 
 
-def test_a_ball_of_another_mass_is_not_called_the_one_of_the_catalogue(visit):
-    page = visit.open()
+def test_a_ball_of_another_mass_is_not_called_the_one_of_the_catalogue(visit, page):
     choice = page.locator("#controls [data-key='ball-0']")
-    field = page.locator("#controls [data-path='balls.0.mass']")
     note = page.locator("#controls .ball-card > .note").last
     assert (choice.input_value(), note.is_hidden()) == ("basketball", True)
-    field.fill("600")
-    field.press("Enter")
+    visit.type("balls.0.mass", "600")
     visit.ready()
     assert choice.locator("option:checked").inner_text() == "basketball, changed"
     said = "The basketball of the catalogue has 150 g. Stiffnesses do not follow the mass."
     assert note.inner_text() == said
-    field.fill("150")
-    field.press("Enter")
+    visit.type("balls.0.mass", "150")
     assert (choice.input_value(), note.is_hidden()) == ("basketball", True)
-
-
-DROP_A_FILE = """() => {
-  const files = new DataTransfer();
-  files.items.add(new File(["t,y\\n0,1\\n"], "fall.csv", { type: "text/csv" }));
-  const given = { bubbles: true, cancelable: true, dataTransfer: files };
-  const send = (kind) => document.querySelector("#stage").dispatchEvent(new DragEvent(kind, given));
-  return [send("dragover"), send("drop")];
-}"""
-
-
-def test_a_file_that_is_dropped_beside_the_place_for_it_is_measured(visit):
-    page = visit.open()
-    assert page.evaluate(DROP_A_FILE) == [False, False]  # the browser does not open it
-    assert visit.state("view") == "measure"
-    answer = re.compile("fall.csv|need stackbounce itself")
-    said = page.locator("#measure").filter(has_text=answer, has_not_text="Reading fall.csv")
-    said.wait_for()
-    visit.complaints[:] = [one for one in visit.complaints if "422" not in one]  # it is no record

@@ -33,8 +33,7 @@ def test_sliders_are_wide_and_laws_are_not_clipped(visits, width, least):
     assert laws.first.locator("option:checked").inner_text() == "Standard Linear Solid"
 
 
-def test_a_number_is_called_by_a_word_and_its_term_and_explained(visit):
-    page = visit.open()
+def test_a_number_is_called_by_a_word_and_its_term_and_explained(page):
     field = page.get_by_label("how stiff (stiffness) of floor – basketball", exact=True)
     assert field.input_value() == "2.5"
     ask = page.get_by_role("button", name="What is stiffness?").first
@@ -50,17 +49,23 @@ def test_a_number_is_called_by_a_word_and_its_term_and_explained(visit):
 def test_on_a_phone_the_ball_and_the_number_that_changes_it_are_on_one_screen(visits):
     page = visits(viewport={"width": 390, "height": 844}).open()
     top = "(one) => one.getBoundingClientRect().y + scrollY"
+
+    def wait_for_stage(where):
+        page.wait_for_function(
+            f"() => document.querySelector('#stage').getBoundingClientRect().y {where}"
+        )
+
     place = page.locator("#transport").evaluate(top)
     slider = page.locator("[data-slider='balls.0.mass']")
     slider.scroll_into_view_if_needed()
     slider.focus()
-    page.wait_for_function("() => document.querySelector('#stage').getBoundingClientRect().y === 0")
+    wait_for_stage("=== 0")
     assert page.locator("#transport").evaluate(top) == pytest.approx(place, abs=1.0)
     stage, number = page.locator("#stage").bounding_box(), slider.bounding_box()
     assert stage["y"] + stage["height"] <= number["y"] <= 844 - number["height"]
     page.evaluate("() => scrollTo(0, 0)")  # the number is out of view, and the stage where it was
-    page.wait_for_function("() => document.querySelector('#stage').getBoundingClientRect().y > 100")
+    wait_for_stage("> 100")
     slider.scroll_into_view_if_needed()
-    page.wait_for_function("() => document.querySelector('#stage').getBoundingClientRect().y === 0")
+    wait_for_stage("=== 0")
     slider.evaluate("(one) => one.blur()")
-    page.wait_for_function("() => document.querySelector('#stage').getBoundingClientRect().y < 0")
+    wait_for_stage("< 0")

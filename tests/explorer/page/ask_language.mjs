@@ -1,10 +1,10 @@
-// What the page says in a language: `node ask_language.mjs PAGE LANGUAGE QUESTIONS ANSWERS`.
+// What the page says in a language: `node ask_language.mjs PAGE QUESTIONS ANSWERS LANGUAGE`.
 //
 // QUESTIONS is a list of [module, function, ...arguments] in JSON; ANSWERS has what each returns.
 
 import { readFileSync, writeFileSync } from "node:fs";
 
-const [page, language, questions, answers] = process.argv.slice(2);
+const [page, questions, answers, language] = process.argv.slice(2);
 globalThis.document = {}; // where there is none the page speaks English
 globalThis.navigator ??= {};
 globalThis.fetch = async (address) => Response.json(JSON.parse(readFileSync(address, "utf8"))); // of files

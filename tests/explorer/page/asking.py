@@ -9,8 +9,6 @@ from pathlib import Path
 from stackbounce.explorer import LIMITS
 from stackbounce.explorer.page.parts import KINDS, made_file
 
-_ASK = Path(__file__).with_name("ask_page.mjs")
-
 
 def lay_out(folder):
     """Write all files of the page to a folder, as node takes them."""
@@ -24,9 +22,15 @@ def lay_out(folder):
 
 def ask(page, questions, folder, events=LIMITS.events):
     """Return what the page answers, {answer} or {error} each; runs end after so many events."""
+    return run_node("ask_page", page, questions, folder, events)
+
+
+def run_node(script, page, questions, folder, *given):
+    """Return what a script of this folder answers to questions about the page."""
     asked, answered = folder / "asked.json", folder / "answered.json"
     asked.write_text(json.dumps(questions))
-    command = ["node", _ASK, page, asked, answered, str(events)]
+    command = ["node", Path(__file__).with_name(f"{script}.mjs"), page, asked, answered]
+    command += map(str, given)
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
-    return json.loads(answered.read_text())
+    return json.loads(answered.read_text("utf-8"))

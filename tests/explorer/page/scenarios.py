@@ -39,6 +39,11 @@ UNITS = {
 }
 NUMBERS = (0.0, -1.0, 1e-320, 1e308, 3, -0.003, 1e22, 12345678901234567890, 2.5e-7, True, 1e-5)
 TEXTS = ("", " ", "NaN", "inf", "1e999", "one", "1,5 m", "-", "5", " 5 ", "1e3", ".5 m", "5 m m")
+MORE = {  # of a ball
+    "name": ("tennis", "", " ", "<b>", 'it\'s "a"', "Ball\n2", "ä\u200b"),
+    "poisson_ratio": (0.3, -1, 0.5, 0.51, "0.3", "30 %"),
+    "young_modulus": (2e11, "206 GPa", "1 atm", -1, "3 N/mm**2"),
+}
 LUMPS = (None, [], {}, [1], [1.5, "2 mm"], {"a": 1}, "Spring", "a\tb'c", "\ud83c", "🎱", [None])
 
 
@@ -89,9 +94,8 @@ def scenario(chance):
     if chance.random() < 0.5:
         drop["gravity"] = number(chance, "gravity")
     way = chance.choice(("impact_speed", "height", "velocities"))
-    drop[way] = number(chance, way)
-    if way == "velocities":
-        drop[way] = [number(chance, "impact_speed") for _ in range(balls)]
+    speeds = [number(chance, "impact_speed") for _ in range(balls)]
+    drop[way] = speeds if way == "velocities" else number(chance, way)
     for _ in range(chance.choice((0, 0, 1, 1, 2))):
         spoil(chance, drop)
     return drop
@@ -102,12 +106,9 @@ def ball(chance):
     made = {"mass": number(chance, "mass")}
     if chance.random() < 0.3:
         made["diameter"] = number(chance, "diameter")
-    if chance.random() < 0.3:
-        made["name"] = chance.choice(("tennis", "", " ", "<b>", 'it\'s "a"', "Ball\n2", "ä\u200b"))
-    if chance.random() < 0.2:
-        made["poisson_ratio"] = chance.choice((0.3, -1, 0.5, 0.51, "0.3", "30 %"))
-    if chance.random() < 0.2:
-        made["young_modulus"] = chance.choice((2e11, "206 GPa", "1 atm", -1, "3 N/mm**2"))
+    for name, choices in MORE.items():
+        if chance.random() < 0.25:
+            made[name] = chance.choice(choices)
     return made
 
 

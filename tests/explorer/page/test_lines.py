@@ -45,7 +45,10 @@ def textbook(drop, show, index):
         return None
 
 
-def compare_lines(asked, seed, count):
+@pytest.mark.parametrize(
+    ("seed", "count"), [(SEED, 30), pytest.param(SEED + 1, 100, marks=pytest.mark.slow)]
+)
+def test_random_lines_have_the_library_s_numbers(asked, seed, count):
     """Compare some points of each line, of the drop and of its separate collisions."""
     lines = list(random_lines(seed, count))
     answers = asked([["line", line] for line in lines], events=EVENTS)
@@ -71,28 +74,19 @@ def compare_lines(asked, seed, count):
 
 
 def alike(one, other, near=1e-12):
-    if one is None or other is None:
-        return one is other
-    return one == pytest.approx(other, rel=near, abs=1e-300)
-
-
-def test_random_lines_have_the_library_s_numbers(asked):
-    compare_lines(asked, SEED, 30)
-
-
-@pytest.mark.slow
-def test_a_hundred_random_lines_have_the_library_s_numbers(asked):
-    compare_lines(asked, SEED + 1, 100)
+    return one == other or one == pytest.approx(other, rel=near, abs=1e-300)
 
 
 def paper_lines(asked, show):
-    lines = list(list_lines())
     asks = [
-        {"drop": one.drop.to_mapping(), "x": dataclasses.asdict(one.across), "show": show}
-        for one in lines
+        {"drop": line.drop.to_mapping(), "x": dataclasses.asdict(line.across), "show": show}
+        for line in list_lines()
     ]
     answers = asked([["line", ask] for ask in asks])
-    return {one.name: (one, found["answer"]) for one, found in zip(lines, answers, strict=True)}
+    return {
+        line.name: (line, found["answer"])
+        for line, found in zip(list_lines(), answers, strict=True)
+    }
 
 
 def test_the_paper_s_lines_have_the_paper_s_values(asked):

@@ -28,17 +28,17 @@ def written(page, tmp_path):
     return write
 
 
-def test_its_samples_are_those_that_were_given(written):
-    given = np.array([0.0, 1.0, -1.0, 0.5, -0.25, 3.0, -3.0])
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        ([0.0, 1.0, -1.0, 0.5, -0.25, 3.0, -3.0], [0, 32767, -32767, 16384, -8192, 32767, -32767]),
+        ([], []),
+    ],
+)
+def test_its_samples_are_those_that_were_given(written, given, expected):
     with wave.open(str(written(given, 48000))) as file:
         assert file.getparams()[:4] == (1, 2, 48000, len(given))
-        read = np.frombuffer(file.readframes(len(given)), "<i2")
-    assert read.tolist() == [0, 32767, -32767, 16384, -8192, 32767, -32767]
-
-
-def test_nothing_recorded_is_a_file_without_samples(written):
-    with wave.open(str(written([], 44100))) as file:
-        assert file.getnframes() == 0
+        assert np.frombuffer(file.readframes(len(given)), "<i2").tolist() == expected
 
 
 def test_stackbounce_finds_the_bounces_in_it(written):
