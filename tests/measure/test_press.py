@@ -9,6 +9,7 @@ import stackbounce as sb
 from measure.near import near
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import press, series_stiffness, split_series
+from stackbounce.measure.statistics.ar_noise import correlation_factor
 from stackbounce.plots.measurements.press import draw
 from synthetic.press import press_record
 from work import calls_of, memory_of
@@ -257,3 +258,10 @@ def test_split_series_is_checked():
         split_series(1e-3, "2 mm", 3e-3, force=1.0)
     with pytest.raises(InvalidValue, match="both must be compressed"):
         split_series(3e-3, 1e-3, 1e-3, force=1.0)
+
+
+@pytest.mark.parametrize(("repeated", "least", "most"), [(1, 0.99, 1.6), (4, 1.5, 5.0)])
+def test_residuals_of_a_short_curve_that_go_together_count_less(repeated, least, most):
+    noise = np.random.default_rng(3).normal(0.0, 1.0, 24 // repeated)
+    assert least < correlation_factor(np.repeat(noise, repeated), 8) < most
+    assert correlation_factor(np.repeat(noise, repeated)) == 1.0

@@ -64,8 +64,10 @@ def linear_prediction_residual(
     return residual
 
 
-def correlation_factor(residuals: Array) -> float:
+def correlation_factor(residuals: Array, least: int = _LEAST_SAMPLES) -> float:
     """Return the factor by which autocorrelation increases the variance of an average.
+
+    Series of fewer than `least` residuals are taken as white.
 
     Examples
     --------
@@ -74,7 +76,7 @@ def correlation_factor(residuals: Array) -> float:
     (1.0, 4)
     """
     count = len(residuals)
-    if count < _LEAST_SAMPLES:
+    if count < least:
         return 1.0
     power = float(np.mean(residuals**2))
     total = 1.0

@@ -27,6 +27,7 @@ _TAIL = 0.05  # of the points in contact: their mean residual corrects the peak 
 _LARGEST_POWER = 700.0  # logarithm of the stiffness's C**p, whose size a float can hold
 _AVERAGED = 0.1  # of a branch, over which its residuals are averaged to see a misfit
 _SMALL_MISFIT = 0.01  # of the peak force, below which a misfit does not matter
+_LEAST_CORRELATED = 8  # points of a branch, whose residuals can tell a misfit as autocorrelation
 _CLEAR_MISFIT = 2.5  # times what noise makes of it: up to it, the curve fits
 
 
@@ -199,7 +200,9 @@ def _numbers(law: _Law, sums: Array, free: int, known: list[tuple[Array, Any]]) 
 def _density(law: _Law, free: int) -> float:
     """Return the variance of independent noise, relative to `noise`, that has the same effect."""
     left = law.residual / law.noise
-    return float(left @ left) / max(len(left) - free, 1) * correlation_factor(left)
+    return (
+        float(left @ left) / max(len(left) - free, 1) * correlation_factor(left, _LEAST_CORRELATED)
+    )
 
 
 def _sums_in(up: _Branch, peak: float, law: _Law) -> Array:
