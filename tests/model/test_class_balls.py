@@ -25,6 +25,13 @@ def test_each_figure_has_a_source_and_a_kind(entry):
     assert {entry.kind_of(figure) for figure in FIGURES} <= set(KINDS)
 
 
+def test_a_figure_is_measured_unless_the_table_says_otherwise():
+    ball = catalogue_ball("football")
+    kinds = [ball.kind_of(figure) for figure in ("mass", "restitution", "contact_time")]
+    assert kinds == ["rule", "rule", "estimate"]
+    assert catalogue_ball("B1").kinds == ()
+
+
 @pytest.mark.parametrize("figure", ["mass", "diameter", "restitution", "contact_time"])
 def test_a_figure_is_what_its_source_says(figure):
     words, derived = {
