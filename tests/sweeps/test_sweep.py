@@ -11,6 +11,7 @@ import stackbounce as sb
 from stackbounce.run.batch import solve
 from stackbounce.run.options import run_options
 from stackbounce.run.paths import drop_at, number_at
+from stackbounce.sweeps.draws import read_draws
 
 TWO = [sb.Ball(0.15), sb.Ball(0.057)]
 LAWS = {
@@ -228,3 +229,14 @@ def test_plain_python_gives_the_same_bits():
         swift, plain = (solve(drop, rows, (20,), options, compiled=way) for way in (True, False))
         for one, other in zip(swift, plain, strict=True):
             assert one.tobytes() == other.tobytes()
+
+
+@pytest.mark.parametrize(
+    "text", ["gaps.0 (mm);balls.0.mass\n1,5;0,1\n", "gaps.0 (mm),balls.0.mass\n1.5,0.1\n"]
+)
+def test_a_comma_is_a_decimal_mark_where_it_does_not_part_the_columns(text, tmp_path):
+    path = tmp_path / "draws.csv"
+    path.write_text(text)
+    drop = sb.Drop([sb.Ball(1.0)] * 2, [sb.Spring(1.0)] * 2, impact_speed=1.0)
+    numbers = {path: values for path, (_, values) in read_draws(drop, path).items()}
+    assert numbers == {"gaps.0": [1.5e-3], "balls.0.mass": [0.1]}

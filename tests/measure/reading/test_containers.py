@@ -46,6 +46,12 @@ def test_phyphox_as_a_spreadsheet(read):
     np.testing.assert_allclose(data.time.values, made.TIMES)
 
 
+def test_the_sheet_of_raw_data_comes_before_others_like_it(read):
+    smoothed = [NAMES, *([cell / 2 for cell in row] for row in SHEETS["Raw Data"][1:])]
+    data = read(xlsx({"Smoothed": smoothed, "Raw data": SHEETS["Raw Data"]}))
+    np.testing.assert_allclose(data.acceleration_y.values, COLUMNS[2])
+
+
 def test_a_sheet_is_chosen_by_its_name(read):
     runs = {f"Run {k}": [["t", "x", "y"], [0, 1, k], ["0,5", 2, 3]] for k in (1, 2)}
     content = xlsx(runs)
