@@ -8,6 +8,7 @@ import pytest
 import stackbounce as sb
 from stackbounce.cross2007 import PAPER, changed
 from stackbounce.cross2007.bench import Bench
+from stackbounce.cross2007.cases import list_cases
 from stackbounce.cross2007.curves import (
     after_collision,
     rebound_by_mass,
@@ -56,6 +57,22 @@ def test_axes_curves_and_guesses(drawn, name, count):
     assert sum(len(curves(ax)) for ax in axes) == count
     assert all(np.isfinite(line.get_ydata()).all() for ax in axes for line in curves(ax))
     assert all((picture.guesses, picture.title, picture.caption))
+
+
+@pytest.mark.parametrize(("name", "delay"), [("10a", 2), ("10b", 2), ("11a", 2), ("11b", 7)])
+def test_the_measured_delay_is_marked(drawn, name, delay):
+    texts = [text.get_text() for ax in drawn[name].figure.axes for text in ax.texts]
+    assert f"measured: {delay} ms delay" in texts
+
+
+def test_cases_of_the_explorer_have_the_ratios_that_their_titles_say():
+    drops = {case.name: case.drop for case in list_cases()}
+    ratios = {name: drop.balls[0].mass / drop.balls[1].mass for name, drop in drops.items()}
+    named = ("textbook", "equal", "figure-4a", "figure-4b", "figure-5")
+    assert [ratios[name] for name in named] == pytest.approx([1000.0, 1.0, 3.0, 3.0, 2.0])
+    floor, between = drops["figure-4b"].contacts
+    assert floor.stiffness / between.stiffness == pytest.approx(20.0)
+    assert drops["figure-8-gap"].gaps == pytest.approx([2e-3])
 
 
 @pytest.mark.parametrize("name", ["6", "12"])
