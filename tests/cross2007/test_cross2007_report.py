@@ -170,3 +170,10 @@ def test_foreign_files_are_not_replaced(tmp_path):
 )
 def test_signs_as_they_are_printed(text, html):
     assert str(typeset(text)) == html
+
+
+def test_a_computed_number_has_two_digits_more_than_the_printed_one(folder, page):
+    rows = json.loads((folder / "audit.json").read_text(encoding="utf-8"))["rows"]
+    written = {row["id"]: row["computed"] for row in rows}
+    assert f"{written['II.ten_springs']:.4f}" in page.text  # printed 1.13
+    assert f"{written['II.fig5_slow']:.2f}" in page.text  # printed 19
