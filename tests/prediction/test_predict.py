@@ -114,13 +114,12 @@ def test_round_off_has_no_error():
     assert math.isnan(found["first_touch.0"].nominal_value)
 
 
-@pytest.mark.slow
 def test_sobol_indices_of_a_product():
     # v = e v0: the variance of a product is known
     e, v = (0.5, 0.2), (3.0, 1.0)
     drop = sb.Drop([sb.Ball(1.0)], [sb.Rigid(0.5)], impact_speed=3.0)
     errors = {"contacts.0.restitution": e, "impact_speed": v}
-    found = sb.predict(drop, errors, draws=40_000)
+    found = sb.predict(drop, errors, draws=10_000)
     row = found.sensitivity.sel(quantity="rebound_speeds.0")
     draws = found.draws
     deviations = [float(draws[path].std()) / float(draws[path].mean()) for path in errors]
