@@ -153,3 +153,8 @@ def test_an_option_that_is_not_there_or_another_function_s_is_refused():
     for alone in ("/etc/hostname", ["a", "b"], {}):  # a request cannot name a file of the server
         with pytest.raises(InvalidType, match="“Force under the lower ball alone” must be a file"):
             records.measure_record("a.csv", b"Time (s),Force (N)\n0,0\n", {"alone": alone})
+
+
+def test_a_column_is_named_by_its_number_or_its_heading():
+    typed = read_options({"names": "2=force, CH1=time"}, lambda option: option.name)
+    assert typed == {"names": {2: "force", "CH1": "time"}}

@@ -214,3 +214,10 @@ def test_a_prediction_is_drawn_with_bands():
     plain = plots.bounce(sb.simulate(drop)).axes
     more = [len(b.collections) - len(p.collections) for b, p in zip(banded, plain, strict=True)]
     assert more == [2, 2]
+    for axes in banded:  # a band is around its curve
+        for line, band in zip(axes.lines, axes.collections[-2:], strict=False):
+            (x0, y0), (x1, y1) = band.get_paths()[0].get_extents().get_points()
+            assert x1 == pytest.approx(line.get_xdata().max(), rel=0.01)
+            assert y0 <= line.get_ydata()[line.get_xdata() >= 0.0].min() + 0.05 * (y1 - y0)
+            assert line.get_ydata().max() <= y1
+            assert x0 == pytest.approx(0.0, abs=0.02 * x1)
