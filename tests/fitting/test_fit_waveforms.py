@@ -8,6 +8,7 @@ import stackbounce as sb
 from drops import STACK
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fitting import FitProblem
+from stackbounce.fitting.waveforms import read_waveform
 from synthetic.waveform import waveform
 
 ONE = sb.Drop([sb.Ball(0.150)], [sb.Spring(2500.0)], impact_speed=3.5)
@@ -146,3 +147,13 @@ def test_records_that_cannot_be_used(value, kind, message):
 def test_a_contact_that_is_not_there(name, message):
     with pytest.raises(InvalidValue, match=message):
         sb.fit(ONE, {name: RECORD}, VARY)
+
+
+@pytest.mark.parametrize("late", [0.0, 10.0])
+def test_the_touch_is_sought_within_a_tenth_of_the_contact(late):
+    drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
+    times = np.arange(-2.0, 6.0, 0.01)
+    force = 4.43 * np.sin(np.clip(times, 0.0, np.pi))
+    noisy = force + np.random.default_rng(1).normal(0.0, 0.01, len(times))
+    record = read_waveform(drop, "force.0", (times + late, noisy), "force.0")
+    assert record.begins == pytest.approx((late - 0.1 * np.pi, late + 0.1 * np.pi), abs=0.05)
