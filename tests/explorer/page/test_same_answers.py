@@ -170,16 +170,23 @@ def test_random_scenarios_are_read_or_refused_alike(asked, seed, count):
     assert len({one["error"] for one in told if "error" in one}) > count / 5
 
 
+def contacts(seed, count):
+    """Return random contacts with a mass and a speed."""
+    chance = random.Random(seed)
+    for batch in range(count):
+        (mapping, _) = next(drawn(seed, batch, 1))
+        index = chance.randrange(len(mapping["contacts"]))
+        mass, speed = 10.0 ** chance.uniform(-3, 1), 10.0 ** chance.uniform(-2, 2)
+        yield mapping["contacts"][index], mass, speed
+
+
 @pytest.mark.parametrize(
     ("seed", "count"), [(SEED, 200), pytest.param(SEED + 1, 2000, marks=pytest.mark.slow)]
 )
 def test_laws_are_calibrated_and_converted_alike(asked, seed, count):
     chance = random.Random(seed)
     questions, calls = [], []
-    for batch in range(count):
-        (mapping, _) = next(drawn(seed, batch, 1))
-        contact = chance.choice(mapping["contacts"])
-        mass, speed = 10.0 ** chance.uniform(-3, 1), 10.0 ** chance.uniform(-2, 2)
+    for contact, mass, speed in contacts(seed, count):
         to = chance.choice(list(sb.model.LAWS))
         asked_of = {"mass": mass, "impact_speed": speed}
         asked_of["restitution"] = chance.choice((None, 0.8, 1.0, chance.uniform(0.01, 1)))
