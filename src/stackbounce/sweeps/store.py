@@ -193,7 +193,11 @@ def _begin(out: Path, form: Form, killed: bool) -> Path:
         if begun.exists() and not killed:
             raise FileError(f"{begun} exists, and is not of a sweep: move it away")
         shutil.rmtree(begun, ignore_errors=True)
-        files.create(begun, form)
+        try:
+            files.create(begun, form)
+        except BaseException:  # such as a full disk, or Ctrl+C
+            shutil.rmtree(begun, ignore_errors=True)
+            raise
         begun.rename(partial)
     return partial
 
