@@ -1,5 +1,6 @@
 """Sweeps larger than memory: stopped and resumed to the same bytes, on a cluster, lazily."""
 
+import errno
 import hashlib
 import os
 import signal
@@ -14,7 +15,7 @@ import xarray as xr
 
 import stackbounce as sb
 from stackbounce.errors import FileError, InvalidValue
-from stackbounce.sweeps import grid, opened, write
+from stackbounce.sweeps import files, grid, opened, write
 from stopped_sweep import DROP, OVER, VALUES, write_some
 
 
@@ -275,3 +276,14 @@ def test_over_is_read(text, values):
 def test_over_that_cannot_be_read(texts, message):
     with pytest.raises(sb.StackbounceError, match=message):
         grid(DROP, texts)
+
+
+def test_a_sweep_that_cannot_begin_leaves_nothing(tmp_path, monkeypatch):
+    def create(path, _):
+        path.mkdir()
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(files, "create", create)
+    with pytest.raises(sb.StackbounceError, match="No space left on device"):
+        write(tmp_path / "map.zarr", DROP, VALUES)
+    assert list(tmp_path.iterdir()) == []
