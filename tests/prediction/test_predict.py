@@ -254,3 +254,9 @@ def test_paired_values_are_not_a_product():
     for k in range(4):
         drop = sb.Drop(LOSSY.balls, LOSSY.contacts, gaps=[float(y[k])], height=float(x[k]))
         assert np.array_equal(sb.simulate(drop).rebound_ratios, ds.rebound_ratio[k])
+
+
+def test_a_seed_has_32_bits():
+    with pytest.raises(sb.StackbounceError, match="seed"):
+        sb.predict(RIGID, {"impact_speed": (3.0, 0.03)}, seed=2**32)
+    assert sb.predict(RIGID, {"impact_speed": (3.0, 0.03)}, seed=2**32 - 1)["rebound_speeds.0"]
