@@ -104,10 +104,11 @@ def test_a_bomb_of_entities_is_no_spreadsheet(read):
 
 
 def test_a_missing_reader_is_named(read, monkeypatch):
+    content = xlsx(SHEETS)
     monkeypatch.setitem(sys.modules, "openpyxl", None)
     words = r"an Excel file \(.xlsx\) needs openpyxl: pip install 'stackbounce\[sheets\]'"
     with pytest.raises(MissingExtra, match=words):
-        read(xlsx(SHEETS))
+        read(content)
 
 
 # --- Tracker's own files
