@@ -104,7 +104,10 @@ def _points(value: Any, _: Option, called: str) -> tuple[str, ...]:
 def _law(value: Any, _: Option, called: str) -> type[ContactLaw]:
     """Return the law's class."""
     if isinstance(value, str) and "=" in value:
-        raise InvalidValue(f"{called} must be a law, whose numbers have options of their own")
+        raise InvalidValue(
+            f"{called} must be the name of a law alone, got {shown(value)}: an exponent or a "
+            "restitution has an option of its own"
+        )
     return law_named(value)
 
 

@@ -216,7 +216,7 @@ def test_simple_files(read, form):
     ({"holds": 3}, InvalidValue, "holds must be what"),
     ({"names": {"z": "force"}}, InvalidValue, "names: there is no column 'z'; known: t "),
     ({"names": {3: "force"}}, InvalidValue, "names: there is no column 3"),
-    ({"names": {"t": "a b"}}, InvalidValue, "names: 'a b' is no name"),
+    ({"names": {"t": "a b"}}, InvalidValue, "such as 2=force, got 'a b'"),
     ({"names": "t"}, InvalidType, "names must be a mapping"),
     ({"names": {1.5: "x"}}, InvalidType, "names must map columns to text"),
     ({"names": {1: 2}}, InvalidType, "names must map columns to text"),

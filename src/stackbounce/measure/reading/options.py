@@ -49,7 +49,7 @@ class ReadOptions:
                 positive(option, getattr(self, option), unit)
         for name in _checked("names", self.names).values():
             if not name.isidentifier():
-                wrong = f": {shown(name)} is no name, such as 'force', of a column before it"
+                wrong = f" must give a column its meaning, such as 2=force, got {shown(name)}"
                 raise InvalidValue(about_option("names", wrong))
         for unit in _checked("units", self.units).values():
             if unit != "S" and in_si(unit) is None:

@@ -1,8 +1,4 @@
-"""Power laws fitted to a press record by least squares, with the sensitivity to each point's noise.
-
-To first order every number that is found is a linear function of the noise of the points. Its
-weights are kept as a row; all errors and correlations follow from one covariance of the noise.
-"""
+"""Power laws fitted to the points of a press curve by least squares."""
 
 import numpy as np
 
