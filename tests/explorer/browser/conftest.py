@@ -163,10 +163,11 @@ class Visit:
 
     def script_is_refused(self):
         """Return whether a script that somebody adds does nothing; the browser complains of it."""
-        self.page.evaluate(
-            """() => { const script = document.createElement('script');
-                 script.textContent = 'window.hit = true'; document.body.append(script); }"""
-        )
+        with self.page.expect_console_message(lambda message: "script-src" in message.text):
+            self.page.evaluate(
+                """() => { const script = document.createElement('script');
+                     script.textContent = 'window.hit = true'; document.body.append(script); }"""
+            )
         self.complaints.clear()
         return self.page.evaluate("() => window.hit") is None
 
