@@ -7,7 +7,6 @@ import pytest
 from scipy.signal import fftconvolve
 from uncertainties import ufloat
 
-from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds.bounces.analysis import bounces
 from stackbounce.measure.kinds.bounces.scatter import scatter_of
 from stackbounce.measure.kinds.sound.alignment import aligned
@@ -104,8 +103,9 @@ def tempo(times, seed):
 @pytest.mark.parametrize("jitter", [0.0, 1.5e-3])
 def test_a_metronome_is_refused(count, jitter):
     times = 0.2 + 0.5 * np.arange(count) + jitter * np.random.default_rng(3).standard_normal(count)
-    with pytest.raises(InvalidValue, match=r"equal intervals of 0\.\d+ s: a metronome"):
-        knocks(tempo(times, 1), rate=RATE)
+    heard = knocks(tempo(times, 1), rate=RATE)
+    assert re.search(r"equal intervals of 0\.\d+ s, or nearly so, as of a metronome", heard.against)
+    assert [time.nominal_value for time in heard.times] == pytest.approx(times, abs=1e-3)
 
 
 def drum(seed):
@@ -136,13 +136,9 @@ def clap(seed):
 @pytest.mark.parametrize("made", [drum, clap])
 @pytest.mark.parametrize("seed", range(2, 6))
 def test_one_stroke_and_one_clap_have_no_restitution(made, seed):
-    told = ""
-    try:
-        heard = knocks(made(seed), rate=RATE)
-    except InvalidValue as error:
-        told = str(error)
-    assert "one sound with echoes" in told or len(heard.times) == 1
-    assert "one sound with echoes, at 0.01" in told or (made, seed) != (drum, 2)
+    heard = knocks(made(seed), rate=RATE)
+    assert "one sound with echoes" in heard.against or len(heard.times) == 1
+    assert "one sound with echoes, at 0.01" in heard.against or (made, seed) != (drum, 2)
 
 
 def test_a_loud_sound_with_faint_ones_is_no_series():
@@ -151,8 +147,7 @@ def test_a_loud_sound_with_faint_ones_is_no_series():
     for k, late in enumerate([0.12, 0.2, 0.255]):
         first = round(late * RATE)
         values[first : first + 4410] += 0.02 * 0.7**k * values[441:4851]
-    with pytest.raises(InvalidValue, match="one sound with echoes"):
-        knocks(values, rate=RATE)
+    assert "one sound with echoes" in knocks(values, rate=RATE).against
 
 
 def timed(count, jitter, floor, seed, claimed=1e-4):

@@ -86,6 +86,8 @@ def bounces(
     contact_time = non_negative("contact_time", contact_time, "seconds")
     if drop_height is not None:
         positive("drop_height", nominal(drop_height), "metres")
+    if isinstance(times, Knocks) and times.against:
+        raise InvalidValue(f"times must be those of a bouncing ball, got {times.against}")
     notes: list[str] = []
     moments, missed = _moments(times, time_error, 3 if drop_height is None else 2, notes)
     if len(moments) > _MOST_BOUNCES:

@@ -25,7 +25,7 @@ class Dropped:
 
 @dataclass(frozen=True)
 class Knocks(Finding):
-    """The knocks of one ball's bounces.
+    """The knocks of one ball's bounces, or other sounds.
 
     Attributes
     ----------
@@ -41,6 +41,8 @@ class Knocks(Finding):
         Samples per second.
     notes : tuple of str
         What a reader of the numbers should know, a sentence each.
+    against : str
+        Why these sounds are no bouncing ball; empty if they may be one.
     """
 
     picture: ClassVar[str] = "sound"
@@ -51,6 +53,7 @@ class Knocks(Finding):
     dropped: tuple[Dropped, ...]
     rate: float
     notes: tuple[str, ...]
+    against: str = ""
 
     def rows(self) -> list[Row]:
         """Return the table, the most important first."""

@@ -11,18 +11,20 @@ from stackbounce.measure.kinds.sound.alignment import aligned
 from stackbounce.measure.kinds.sound.consistency import misjudgement
 from stackbounce.measure.kinds.sound.loudness import Rises, find_rises, rounding, whitened
 from stackbounce.measure.kinds.sound.onset import clearest, onsets
-from stackbounce.measure.kinds.sound.plausibility import refuse_other_series
+from stackbounce.measure.kinds.sound.plausibility import reason_against, tails
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import runs
 
 _LEAST_RATE = 400  # samples per second: with fewer an onset lies between two samples
 _DEAD_SECONDS = 8e-3  # s: two knocks closer than that are one impact
+_LONGEST_FLIGHT = 2.02  # s: of a bounce of 5 m
 _SAME_DELAY = 1.5e-3  # s by which the delays of one echo differ at most
 _SECOND_SERIES = 4  # knocks of another series that is worth a note
 _LOUDNESS_SECONDS = 10e-3  # s of a knock that tell how loud it is
 _INTERVAL_SIGMA = 0.1  # of the interval between amplitudes: the error of a time within it
 _CLIPPED = 4  # samples in a row at the largest value
+_ADVICE = "Record one ball without other sounds, or choose its bounces by start and stop."
 
 
 def knocks(
@@ -30,6 +32,7 @@ def knocks(
     *,
     threshold: float | None = None,
     dead_time: float | None = None,
+    longest_flight: float | None = None,
     rate: float | None = None,
     start: float | None = None,
     stop: float | None = None,
@@ -50,6 +53,8 @@ def knocks(
         exceeds it in one recording of a hundred, and it is at least 1.7.
     dead_time : float, optional
         Sounds that follow a knock within this time in s belong to it; by default 8 ms.
+    longest_flight : float, optional
+        Of a ball, in s; by default 2.02 s, in which it rises 5 m.
     rate : float, optional
         Samples per second, of plain samples.
     start, stop : float, optional
@@ -62,8 +67,7 @@ def knocks(
     Raises
     ------
     InvalidValue
-        If there is no sound, no knock, one sound with echoes or equal intervals instead of bounces,
-        or a number is out of its range.
+        If there is no sound, no knock, or a number is out of its range.
     InvalidType
         If `data` is no recording.
 
@@ -73,7 +77,8 @@ def knocks(
     and more are aligned with each other, `alignment.aligned`, and their errors are those of the
     alignment, as far as the flights do not show that they are larger or smaller:
     `consistency.misjudgement`. What all times have in common, which no flight contains, is not in
-    the errors. Of several channels that one is taken in which the knocks are clearest.
+    the errors. Of several channels that one is taken in which the knocks are clearest. Where no
+    series is that of a bouncing ball, all sounds are returned, with the reason in `against`.
 
     Examples
     --------
@@ -106,18 +111,27 @@ def knocks(
         )
     rises, doubles = _merged(rises, dead)
     chain = find_chain(rises, dead)
-    chain, dropped = _without_echoes(chain, rises, notes)
-    refuse_other_series(chain, rises, origin)
-    _note_series(chain, rises, dead, origin, notes)
+    delay = _echo_delay(chain, rises)
+    chain, dropped = _without_echoes(chain, rises, delay)
+    echoes = np.isin(rises.times, [sound.time for sound in dropped if sound.why == "echo"])
+    longest = positive("longest_flight", longest_flight or _LONGEST_FLIGHT, "seconds")
+    against = reason_against(chain, rises, echoes, origin, dead, longest)
+    if against:
+        chain, dropped = _all_sounds(rises)
+        notes.append(f"This is no bouncing ball: {against}. {_ADVICE}")
+    else:
+        if delay:
+            notes.append(f"Each knock has an echo {1e3 * delay:.1f} ms later, which is left out.")
+        _note_series(chain, rises, dead, origin, notes)
     about = rises.times[list(chain.indices)]
     best = clearest(white, rate, about, rounded) if len(white) > 1 else 0
     times, errors = about, np.full(len(about), 1.0 / rate)
     if not loud_only:
         times, errors = onsets(white[best], rate, about, float(rounded[best]))
-    if len(times) > 1:
+    if len(times) > 1 and not against:
         times, errors = _aligned(samples[best], rate, times, float(rounded[best]), chain.missed)
     loudness = _loudness(white, rate, times)
-    left_out = sorted([*doubles, *dropped], key=lambda one: one.time)
+    left_out = sorted([*doubles, *dropped], key=lambda sound: sound.time)
     return Knocks(
         tuple(map(ufloat, origin + times, errors)),
         loudness / loudness.max(),
@@ -125,7 +139,16 @@ def knocks(
         tuple(Dropped(origin + sound.time, sound.why) for sound in left_out),
         rate,
         tuple(notes),
+        against,
     )
+
+
+def _all_sounds(rises: Rises) -> tuple[Chain, list[Dropped]]:
+    """Return all sounds where no series of bounces is among them, and what is left out."""
+    of_another = tails(rises)
+    kept = tuple(map(int, np.flatnonzero(~of_another)))
+    left_out = [Dropped(float(time), "tail of a sound") for time in rises.times[of_another]]
+    return Chain(kept, (0,) * (len(kept) - 1)), left_out
 
 
 def _aligned(
@@ -218,9 +241,8 @@ def _merged(rises: Rises, dead: float) -> tuple[Rises, list[Dropped]]:
     return Rises(*(column[kept] for column in rises)), dropped
 
 
-def _without_echoes(chain: Chain, rises: Rises, notes: list[str]) -> tuple[Chain, list[Dropped]]:
+def _without_echoes(chain: Chain, rises: Rises, delay: float) -> tuple[Chain, list[Dropped]]:
     """Return the series without echoes at its end, and why all other rises are left out."""
-    delay = _echo_delay(chain, rises)
     indices, missed, cut = list(chain.indices), list(chain.missed), []
     while delay and len(indices) > 3:
         lag = rises.times[indices[-1]] - rises.times[indices[-2]]
@@ -229,8 +251,6 @@ def _without_echoes(chain: Chain, rises: Rises, notes: list[str]) -> tuple[Chain
             break
         cut.append(indices.pop())
         missed.pop()
-    if delay:
-        notes.append(f"Each knock has an echo {1e3 * delay:.1f} ms later, which is left out.")
     dropped = []
     times = rises.times
     for k in range(len(times)):
@@ -248,7 +268,7 @@ def _without_echoes(chain: Chain, rises: Rises, notes: list[str]) -> tuple[Chain
         if before and before[-1] == indices[-1] and k not in cut:
             why = "after the series" if why != "echo" else why
         dropped.append(Dropped(float(times[k]), why))
-    return Chain(tuple(indices), tuple(missed)), dropped
+    return Chain(tuple(indices), tuple(missed), chain.score), dropped
 
 
 def _echo_delay(chain: Chain, rises: Rises) -> float:

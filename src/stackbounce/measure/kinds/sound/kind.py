@@ -7,13 +7,19 @@ from stackbounce.measure.finding import Finding
 from stackbounce.measure.kinds.bounces.analysis import bounces
 from stackbounce.measure.kinds.sound.analysis import knocks
 from stackbounce.measure.kinds.sound.few_bounces import few_bounces
+from stackbounce.measure.quantities import nominal
 from stackbounce.measure.setup import Setup
+
+_HIGHEST = 5.0  # m that a ball rises, if it is not told to be dropped from higher
 
 
 def analyse(data: Any, setup: Setup) -> tuple[Finding, ...]:
     """Return the restitutions, or else the flights, that a sound tells, and its knocks."""
     height, gravity, drag = setup.drop_height, setup.gravity, setup.drag
-    heard = knocks(data)
+    highest = max(nominal(height or 0.0), _HIGHEST)
+    heard = knocks(data, longest_flight=(8.0 * highest / gravity) ** 0.5)
+    if heard.against:
+        return (heard,)
     # A restitution needs two known flights in a row; the drop is one if its height is known.
     known = [height is not None, *(not lost for lost in heard.missed)]
     if any(before and after for before, after in pairwise(known)):
