@@ -4,7 +4,6 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from stackbounce.cli.options import AsJson
 from stackbounce.cli.output import console, print_json
 
 if TYPE_CHECKING:
@@ -13,7 +12,7 @@ if TYPE_CHECKING:
     from stackbounce.model.catalogue import CatalogueBall
 
 
-def run(as_json: AsJson = False) -> None:
+def run(as_json: bool) -> None:
     """List the catalogue: the paper's balls and a class's, each figure with its source."""
     if as_json:
         print_json(summary())

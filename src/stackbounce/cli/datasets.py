@@ -2,11 +2,8 @@
 
 from collections.abc import Sequence
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
-
-from stackbounce.cli.options import AsJson
 from stackbounce.cli.output import console, print_json
 
 if TYPE_CHECKING:
@@ -14,30 +11,11 @@ if TYPE_CHECKING:
 
     from stackbounce.datasets import Column, Description
 
-EPILOG = "Example: stackbounce datasets golf-marble-heights"
-
 _FACTS = ("measured", "ball", "surface", "mass", "diameter", "source", "doi", "address", "seen")
 _MORE = ("quoted_by", "licence", "remarks")
 
 
-def _names(incomplete: str) -> list[str]:
-    from stackbounce.datasets import names
-
-    return [name for name in names() if name.startswith(incomplete)]
-
-
-def run(
-    name: Annotated[
-        str,
-        typer.Argument(
-            metavar="[NAME]",
-            help="A dataset to show.",
-            show_default=False,
-            autocompletion=_names,
-        ),
-    ] = "",
-    as_json: AsJson = False,
-) -> None:
+def run(name: str, as_json: bool) -> None:
     """List published measurements, or show one with its numbers and its source."""
     from stackbounce.datasets import describe, names
 

@@ -1,13 +1,12 @@
 """The command ``stackbounce measure``: files -> their results, and a ball for ``simulate``."""
 
 import shlex
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import typer
 
-from stackbounce.cli.options import AsJson, Overwrite, Plot, add_options, option
 from stackbounce.cli.output import (
     check_picture,
     check_scenario,
@@ -18,59 +17,16 @@ from stackbounce.cli.output import (
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
 from stackbounce.measure.messages import OptionHint
-from stackbounce.measure.options import OPTIONS, Option
-
-EPILOG = (
-    "For example: stackbounce measure bounces.wav --mass 57g --height 1m --save ball.toml, "
-    "then: stackbounce simulate ball.toml"
-)
-Files = Annotated[
-    list[Path] | None,
-    typer.Argument(
-        metavar="FILE...",
-        readable=False,
-        help="Sound, force waveform, video track, acceleration, times or heights of bounces, or "
-        "press curve, as Tracker, ImageJ, phyphox, oscilloscopes or spreadsheets write it.",
-        show_default=False,
-    ),
-]
-Name = Annotated[
-    str | None,
-    typer.Option(metavar="NAME", help="For --save.", rich_help_panel="What is known of the ball"),
-]
-Save = Annotated[
-    Path | None,
-    typer.Option(
-        metavar="FILE", readable=False, help="Write the ball as a scenario for simulate: ball.toml."
-    ),
-]
+from stackbounce.measure.options import OPTIONS
 
 
-def _as_command(table_row: Option) -> tuple[Any, Any]:
-    """Return the command's option for one of the table."""
-    several = table_row.form == "columns"
-    kinds: dict[str, Any] = {"flag": bool, "file": Path | None, "columns": list[str] | None}
-    return option(
-        kinds.get(table_row.form, str if table_row.default else str | None),
-        None if table_row.form == "flag" else table_row.value_name,
-        table_row.says,
-        table_row.on_command_line,
-        default=table_row.default,
-        rich_help_panel=table_row.panel or None,
-        readable=table_row.form != "file",
-        show_default=not several,
-    )
-
-
-@add_options({each.name: _as_command(each) for each in OPTIONS})
 def run(
-    files: Files = None,
-    *,
-    name: Name = None,
-    save: Save = None,
-    plot: Plot = None,
-    overwrite: Overwrite = False,
-    as_json: AsJson = False,
+    files: Sequence[Path] | None,
+    name: str | None,
+    save: Path | None,
+    plot: Path | None,
+    overwrite: bool,
+    as_json: bool,
     **given: Any,
 ) -> None:
     """Find restitutions, stiffnesses, speeds and heights in what was measured, with errors."""

@@ -2,8 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from stackbounce.cli.options import AsJson
-from stackbounce.cli.report import Out, write_report
+from stackbounce.cli.report import write_report
 from stackbounce.extras import need
 
 if TYPE_CHECKING:
@@ -12,7 +11,7 @@ if TYPE_CHECKING:
     from stackbounce.cross2007 import Audit
 
 
-def run(out: Out, as_json: AsJson = False) -> None:
+def run(out: str, as_json: bool) -> None:
     """Recompute the paper: its figures, its tables, and an audit of every number in it."""
     need("paper", "stackbounce paper")
     from stackbounce import cross2007

@@ -2,14 +2,12 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import typer
 
 from stackbounce.cli.output import console, print_json
 from stackbounce.errors import InvalidValue
-
-Out = Annotated[str, typer.Option(metavar="DIR", help="Folder to write to.", show_default=False)]
 
 
 def write_report(

@@ -2,8 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from stackbounce.cli.options import AsJson
-from stackbounce.cli.report import Out, write_report
+from stackbounce.cli.report import write_report
 from stackbounce.extras import need
 
 if TYPE_CHECKING:
@@ -12,7 +11,7 @@ if TYPE_CHECKING:
     from stackbounce.fitting.validation import Validation
 
 
-def run(out: Out, as_json: AsJson = False) -> None:
+def run(out: str, as_json: bool) -> None:
     """Try each contact law on published measurements: which law for which ball."""
     need("paper", "stackbounce validate")
     from stackbounce.fitting import validation
