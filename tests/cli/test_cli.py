@@ -280,40 +280,6 @@ def test_files_that_cannot_be_stacked(run, refused):
     assert "pair.toml must have one ball and its contact with the floor, to be stacked" in err
 
 
-@pytest.mark.parametrize(
-    ("arguments", "expected"),
-    [
-        (["tenis"], "ball must be one of the catalogue, got 'tenis'; did you mean tennis? Known: "),
-        (["B1", "--height", "-1m"], "height must be a positive number of metres, got -1.0"),
-        (["B1", "--height", "3 kg"], "--height must be a length (a number of m or a string such"),
-        (["B1", "--speed", "inf"], "--speed must be a speed"),
-        (["B1", "--speed", "1", "--height", "1"], "--height and --speed: only one of the two"),
-        (["B1", "--gap", "1mm"], "gaps must hold one number per neighbouring pair of balls (0)"),
-        (["B1", "--until", "-1s"], "until must be"),
-        (["B1", "--contact", ""], "--contact 0 must be 'LAW key=value …', such as 'Spring stiff"),
-        (["B1", "--contact", "Spring stiffness="], "--contact 0 must be 'LAW key=value …'"),
-        (["B1", "--contact", "Sprung stiffness=1"], "--contact 0.law must be a contact law, got"),
-        (["B1", "--contact", "Spring stifness=1"], "--contact 0.stifness is not a known key; did"),
-        (["B1", "--contact", "Spring stiffness=-1"], "--contact 0.stiffness must be a positive"),
-        (["B1", "--contact", "Spring stiffness=1kg"], "--contact 0.stiffness must be a stiffness"),
-        (["B1", "--contact", "Spring a=1 a=2"], "--contact 0 must give each key once, got 'Spring"),
-        (["B1", "--contact", "Spring law=Rigid"], "--contact 0 must give each key once, got 'Spr"),
-        (["./B1"], "./B1 cannot be read: No such file or directory"),
-        (["."], ". is a folder: give one of its files"),
-        (["a.toml", "b.toml"], "a.toml cannot be read: No such file or directory"),
-        (["a.toml", "B1"], "either scenario files or balls of the catalogue must be given, got"),
-        (["B1", "--plot", "drop.gif"], "--plot must end in .svg, .png, .pdf, got drop.gif"),
-        (["B1", "--plot", "no/drop.svg"], "no/drop.svg cannot be written: there is no folder no"),
-        (["B1", "--plot", "folder.svg"], "folder.svg cannot be written: it is a folder\n"),
-        (["bad.toml"], "bad.toml is not TOML: "),
-    ],
-)
-def test_bad_input_is_one_line(refused, arguments, expected):
-    Path("bad.toml").write_text("[[balls]\nmass = 1")
-    Path("folder.svg").mkdir()
-    assert refused("simulate", *arguments).startswith(expected)
-
-
 @pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("stiffness", ["1e300", "1e-300"])
 def test_a_drop_without_a_result_ends_with_3(run, stiffness):
@@ -331,14 +297,6 @@ def test_a_sweep_says_how_many_drops_have_no_result(run):
     assert code == 3
     assert "1 FINISHED" in out
     assert err == "stackbounce: error: no result for 1 of 2 drops: 1 INVALID\n"
-
-
-@pytest.mark.parametrize("option", ["--out", "--plot"])
-def test_a_missing_folder_is_named(refused, option):
-    files = {"--out": "a.zarr", "--plot": "a.svg"} | {option: f"no/{option[2:]}.svg"}
-    given = [word for pair in files.items() for word in pair]
-    err = refused("sweep", "B1", "--over", "balls.0.mass=1,2", *given)
-    assert err == f"no/{option[2:]}.svg cannot be written: there is no folder no\n"
 
 
 def test_a_number_of_many_digits_is_refused(refused):
@@ -502,24 +460,11 @@ def test_paper_says_what_it_does_and_what_came_out(run, write):
     assert told == {"counts": {"agrees": 2, "differs": 1}, "computed": None}
 
 
-def test_an_output_folder_needs_a_name(refused, write):
-    assert refused("paper", "--out", "") == "--out must name a folder, got ''\n"
-    assert write == []
-
-
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write everywhere")
 def test_an_output_folder_without_permission(refused):
     Path("shut").mkdir(mode=0o500)
     assert refused("paper", "--out", "shut") == "shut cannot be written to: Permission denied\n"
     assert list(Path("shut").iterdir()) == []
-
-
-@pytest.mark.parametrize("folder", ["file", "file/new/deep", "/proc/new"])
-def test_an_output_folder_that_cannot_be_written_to(refused, folder):
-    Path("file").write_text("kept")
-    assert refused("paper", "--out", folder).startswith(f"{folder} cannot be written to: ")
-    assert Path("file").read_text() == "kept"
-    assert list(Path().iterdir()) == [Path("file")]
 
 
 @pytest.mark.parametrize(
@@ -572,36 +517,3 @@ def test_sweep_draws_the_ball_that_is_asked_for(run, monkeypatch):
     for asked in ("rebound_ratio.0", "collisions"):
         assert run("sweep", "B1", "B2", *over, "--plot", "a.png", "--show", asked)[0] == 0
     assert drawn == [(("rebound_ratio",), {"index": 0}), (("collisions",), {})]
-
-
-THREE = ["--over", "gaps.0=0", "--over", "height=1", "--over", "gravity=0", "--plot", "a.png"]
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["--over", "balls.0.mass=-1kg,1kg"], "balls.0.mass must be a positive number"),
-        (["--over", "gaps.0=0", "--cluster", "tcp://127.0.0.1:9"], "--cluster must be the address"),
-        (["--over", "gaps.0=0,1", "--plot", "a.png", "--show", "colisions"], "did you mean coll"),
-        (["--over", "gaps.0=0,1", "--plot", "a.png", "--show", "collisions.2"], "from 0 to 1, got"),
-        (["--over", "gaps.0=0", "--plot", "a.png", "--show", "energy_retained.0"], "whole stack"),
-        (["--over", "mass=1:2:3"], "mass is not a parameter of this drop"),
-        (["--over", "balls.2.mass=1:2:3"], "did you mean balls.1.mass?"),
-        (["--over", "speed=1:2:3"], "speed is not a parameter of this drop"),
-        (["--over", "contacts.0.restitution=1"], "did you mean contacts.0.stiffness?"),
-        (["--over", "gaps.0=0:1mm:9:log"], "of one sign for :log, not from or to 0, got 0:1mm"),
-        (THREE, "--plot needs one or two parameters that vary, got 3"),
-        ([], "nothing is to vary: give --over PATH=VALUES or --draws FILE"),
-    ],
-)
-def test_sweep_says_what_is_wrong_in_one_line(refused, tmp_path, arguments, message):
-    assert message in refused("sweep", "basketball", "tennis", *arguments, "--out", "map.zarr")
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize("out", ["map.csv", "map", "map.nc"])
-def test_sweep_writes_a_zarr_store(refused, tmp_path, out):
-    err = refused("sweep", "tennis", "--over", "balls.0.mass=1,2", "--out", out)
-    assert f"must end in .zarr, got '{out}'" in err
-    assert ("to_netcdf('map.nc') makes one of it" in err) == (out == "map.nc")
-    assert not list(tmp_path.iterdir())

@@ -41,16 +41,3 @@ def test_a_comparison_for_machines(run):
     assert best["chi_squared"] < 1e-9
     left_out = {row["name"] for row in found["left_out"][best["model"]]}
     assert left_out == {"durations.0", "rebound_ratios.0"}
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (("cross2007/B1-B4",), "cross2007/B1-B4 is no data set; did you mean cross2007/B1-B"),
-        (("cross2007/B1-B2", "--compare", "--interval"), "--interval is for one fit"),
-        (("cross2007/B1-B2", "--compare", "--vary", "gaps.0"), "--vary is for one fit"),
-        (("basketball", "tennis", "--compare"), "nothing was measured"),
-    ],
-)
-def test_bad_input_is_one_line(refused, arguments, words):
-    assert words in refused("fit", *arguments)

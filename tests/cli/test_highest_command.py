@@ -62,18 +62,3 @@ def test_it_says_when_the_best_masses_lie_beyond(run):
     assert code == 0
     assert "The mass of ball 1 lies at the end of what was tried, 0.04 kg to 0.05 kg" in out
     assert out.count("B1 + ") == 3
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["B9"], "ball must be one of the catalogue"),
-        (["--height", "1m", "--speed", "1"], "only one of the two can be given"),
-        (["--height", "-1m"], "--height must be a positive number of metres"),
-        (["--save", "best.txt"], "--save must end in .toml"),
-        (["no.toml"], "no.toml cannot be read"),
-        (["--within", "1g"], "--within must be MASS:MASS"),
-    ],
-)
-def test_what_is_wrong_is_said_in_one_line(refused, arguments, message):
-    assert message in refused("highest", *arguments)

@@ -86,42 +86,6 @@ def test_numbers_without_an_error_are_null_in_json(measure):
     assert errors["restitution, mean"] > 0.0
 
 
-def test_nothing_is_saved_where_no_contact_was_found(measure, tmp_path):
-    code, _, err = measure("stack-video.txt", "--mass", "57g", "--save", "ball.toml")
-    assert code == 2
-    assert "no contact was found, which needs" in err
-    assert not (tmp_path / "ball.toml").exists()
-
-
-@pytest.mark.parametrize(
-    ("arguments", "expected"),
-    [
-        (["none.wav"], "cannot be read: No such file or directory"),
-        (["tennis.wav", "--save", "ball.toml"], "--save needs the mass of the ball, such as"),
-        (["tennis.wav", "--mass", "1g", "--save", "b.txt"], "--save must end in .toml, got b.txt"),
-        (["tennis.wav", "tennis-force.csv", "--plot", "a.png"], "--plot draws one file or --heigh"),
-        (["tennis.wav", "--unit", "x"], "--unit must be COLUMN=UNIT, such as x=cm, got 'x'"),
-        (["tennis.wav", "--column", "=x"], "--column must be COLUMN=MEANING"),
-        (["made/phyphox_acceleration.zip"], "data must hold a free fall and a bounce, got no"),
-        (["made/tracker_one.txt"], "made/tracker_one.txt: data must hold a ball that falls"),
-        ([], "measure needs a file, --heights, --contact-time or --restitution"),
-        (["tennis.wav", "--law", "hook"], "law must be a contact law, got 'hook'"),
-        (["tennis.wav", "--law", "power-law p=2"], "--law must be the name of a law alone, got"),
-        (["tennis.wav", "--column", "force=2"], "must give a column its meaning, such as 2=force"),
-        (["tennis.wav", "--law", "spring"], "Spring needs what was not found: mass, contact time"),
-        (["--heights", "1, 62 cm, 39 cm"], "--heights must have a unit each, or one at the end"),
-        (["--heights", "1 m"], "bounce_heights must hold at least one height, got none"),
-        (["--heights", "1 ± 0 m, 0.5 m"], "--heights 0's error must be a positive number"),
-        (["--heights", "1, .6 m", "--measured-to", "middle"], "must be bottom, centre or top, got"),
-        (["--heights", "1, .6 m", "--measured-to", "top"], "diameter must be given where a height"),
-        (["--heights", "1, .6 m", "--measured-to", "top,top,top"], "must be a point or two, got"),
-        (["stack-video.txt", "--floor", "0"], "floor is for the track of one ball, as the others"),
-    ],
-)
-def test_bad_input_is_one_line(refused, arguments, expected):
-    assert expected in refused("measure", *arguments)
-
-
 @pytest.mark.parametrize(
     ("parts", "law"),
     [

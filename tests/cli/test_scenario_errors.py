@@ -62,19 +62,3 @@ def test_an_option_takes_the_place_of_a_number_and_its_error(run):
     found = json.loads(run("simulate", "drop.toml", *options)[1])["errors"]["numbers"]
     assert list(found) == ["balls.1.mass", "contacts.0.stiffness", "gaps.0"]
     assert found["gaps.0"] == {"value": 0.001, "error": pytest.approx(1e-4)}
-
-
-@pytest.mark.parametrize(
-    ("command", "message"),
-    [
-        (("simulate", "drop.toml", "--error", "height=1cm"), "only one error can be given"),
-        (("simulate", "drop.toml", "plain.toml"), "drop.toml: "),
-        (("sweep", "drop.toml", "--over", "gaps.0=0,1mm", "--out", "a.zarr"), "gaps.0"),
-        (("fit", "drop.toml", "--measured", "durations.0=1 ± 0.1 ms"), "gaps.0"),
-        (("highest", "drop.toml", "plain.toml"), "gaps.0"),
-    ],
-)
-def test_where_errors_mean_nothing_they_are_refused(refused, command, message):
-    err = refused(*command)
-    assert message in err
-    assert "without an error here" in err or "--error" in command

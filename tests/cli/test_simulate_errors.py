@@ -69,21 +69,6 @@ def test_apexes_have_errors_and_a_picture_bands(tmp_path, said):
     assert path.stat().st_size > 10_000
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["--error", "balls.1.mass"], "--error must be PATH=ERROR, such as balls.1.mass=1g"),
-        (["--error", "mass=1g"], "mass is not a parameter of this drop"),
-        (["--error", "balls.1.mass=1cm"], "--error balls.1.mass must be a mass"),
-        (["--gap", "2 mm ± 1 s"], "gaps.0 must be a length"),
-        (["--gap", "2 ± 1e308 mm"], "gaps.0's error must be at most 1e+100, got 1e+305"),
-        (["--contact", "Spring stiffness=1±kN/m", "--contact", "Spring stiffness=1"], "must be"),
-    ],
-)
-def test_wrong_errors_are_one_line(arguments, message, refused):
-    assert message in refused(*PAIR[:-2], *arguments)
-
-
 def test_a_number_that_the_drop_does_not_give_has_no_error(tmp_path, refused):
     path = tmp_path / "drop.toml"
     path.write_text(sb.Drop([sb.Ball(0.1)], [sb.Spring(1e4)], height=0.6).to_toml(), "utf-8")

@@ -27,17 +27,6 @@ def test_the_draws_of_a_fit_are_drops_of_a_sweep(run):
     assert np.loadtxt("draws.csv", delimiter=",", skiprows=1).shape == (data.sizes["draw"], 2)
 
 
-@pytest.mark.parametrize(
-    ("more", "message"),
-    [
-        (["--draws", "draws.csv"], "--draws writes the draws of --sample: give both"),
-        (["--draws", "draws.txt", "--sample", "1600"], "--draws must end in .csv, got draws.txt"),
-    ],
-)
-def test_draws_that_cannot_be_written(refused, more, message):
-    assert message in refused("fit", *MEASURED, "--vary", "gaps.0", *more)
-
-
 def test_a_sweep_of_draws_has_one_drop_for_each_row(run):
     Path("draws.csv").write_text("gaps.0 (mm);balls.0.mass (g)\n1,5;24,8\n\n2;30\n")
     given = ("sweep", "basketball", "tennis", "--draws", "draws.csv", "--out", "draws.zarr")
@@ -51,24 +40,3 @@ def test_a_sweep_of_draws_has_one_drop_for_each_row(run):
         assert data["gaps.0"].dims == ("draw",)
     found = json.loads(run(*given, "--over", "height=1,2,3", "--json")[1])
     assert found["over"] == {"draw": 2, "height": 3}
-
-
-@pytest.mark.parametrize(
-    ("table", "more", "message"),
-    [
-        ("gaps.0 (mm)\n", [], "draws.csv: it must have a heading, and a row for each draw"),
-        ("gap (mm)\n1\n", [], "draws.csv: gap is not a parameter of this drop; did you mean gaps"),
-        ("gaps.0,gaps.0\n1,1\n", [], "draws.csv: column gaps.0 is there twice"),
-        ("gaps.0,height\n1,1\n1\n", [], "draws.csv: row 3 must have 2 cells, got 1"),
-        ("gaps.0\n\n1e-3\nnone\n", [], "draws.csv: row 4, gaps.0, must be a number, got 'none'"),
-        ("gaps.0\n-1\n", [], "gaps.0 must be a number of metres, 0 or above, got -1.0 (at draw 0)"),
-        ("gaps.0\n1\n", ["--over", "gaps.0=1mm"], "gaps.0 is in --over and in --draws"),
-        ("gaps.0\n1\n", ["--plot", "a.png"], "has no picture of --draws"),
-        ("", [], "draws.csv is empty"),
-    ],
-)
-def test_a_table_of_draws_that_cannot_be_used(refused, table, more, message):
-    Path("draws.csv").write_text(table)
-    given = ("sweep", "basketball", "tennis", "--draws", "draws.csv", "--out", "map.zarr")
-    assert message in refused(*given, *more)
-    assert not Path("map.zarr").exists()
