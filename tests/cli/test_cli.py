@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 import stackbounce as sb
 from stackbounce import cross2007, plots
-from stackbounce.cli import app, descriptions, main, tables
+from stackbounce.cli import app, descriptions, main
 from stackbounce.cli.drop_options import read_contact
 from stackbounce.cli.scenario import read
 from stackbounce.model import LAWS
@@ -479,17 +479,6 @@ def test_an_output_folder_without_permission(refused):
 def test_a_law_is_read_and_described(words, law, text):
     assert read_contact(words, "x") == law
     assert descriptions.law_text(law).startswith(text)
-
-
-@pytest.mark.parametrize(
-    ("value", "text"),
-    [
-        (1e-300, "0"), (1e-11, "1.000e-11"), (0.1, "0.1000"), (999.96, "1000."), (1234.5, "1234"),
-        (123456.0, "123456"), (1e12, "1.000e+12"), (-math.inf, "-∞"), (-2.0, "-2.000"),
-    ],
-)  # fmt: skip
-def test_numbers_for_people(value, text):
-    assert tables.number(value) == text.removesuffix(".")
 
 
 def test_sweep_writes_a_store_and_a_picture(run, tmp_path):

@@ -36,12 +36,6 @@ def test_highest_of_balls_that_have_a_file_each(run):
     assert f"{height:.3f}" in next(line for line in out.splitlines() if line.startswith("a + b"))
 
 
-def test_highest_says_which_stack_another_gap_favours(run):
-    code, out, _ = run("highest", "B1", "B2", "B3", "--balls", "2")
-    assert code == 0
-    assert "With gaps of 5 mm B1 + B3 is first." in out
-
-
 def test_the_best_masses_for_machines_and_to_a_file(run):
     words = ["B1", "B2", "B3", *RIGID, "--masses", "--save", "best.toml"]
     code, out, err = run("highest", *words, "--json")

@@ -248,36 +248,6 @@ def test_a_cluster_that_is_lost_says_so_and_nothing_is_lost(whole, tmp_path):
     assert begun[0] > 0
 
 
-@pytest.mark.parametrize(
-    ("text", "values"),
-    [
-        ("balls.0.mass=1:3:3", [1.0, 2.0, 3.0]),
-        ("balls.0.mass=1g,20g", [0.001, 0.02]),
-        ("contacts.0.stiffness=1kN/m:100kN/m:3:log", [1e3, 1e4, 1e5]),
-        ("gaps.0=0mm:4mm:3:lin", [0.0, 0.002, 0.004]),
-    ],
-)
-def test_over_is_read(text, values):
-    ((_, found),) = grid(DROP, [text]).items()
-    assert found == pytest.approx(values, rel=1e-15)
-
-
-@pytest.mark.parametrize(
-    ("texts", "message"),
-    [
-        (["balls.0.mass"], "--over must be PATH="),
-        (["balls.0.mass=1:2:x"], "--over must be PATH="),
-        (["balls.0.mass=1:2:0"], "must have from 1 to"),
-        (["gaps.0=0:1:3:log"], "numbers of one sign for :log"),
-        (["balls.0.mass=1m:2m:3"], "balls.0.mass must be a mass"),
-        (["gaps.0=0:1:3", "gaps.0=1"], "gaps.0 twice"),
-    ],
-)
-def test_over_that_cannot_be_read(texts, message):
-    with pytest.raises(sb.StackbounceError, match=message):
-        grid(DROP, texts)
-
-
 def test_a_sweep_that_cannot_begin_leaves_nothing(tmp_path, monkeypatch):
     def create(path, _):
         path.mkdir()
