@@ -15,10 +15,9 @@ from stackbounce.cli import (
     fit,
     highest,
     measure,
-    paper,
+    reports,
     simulate,
     sweep,
-    validate,
 )
 from stackbounce.cli.options import add_command
 from stackbounce.cli.output import Unsolved
@@ -55,8 +54,8 @@ _COMMANDS: dict[str, Callable[..., None]] = {
     "highest": highest.run,
     "balls": balls.run,
     "datasets": datasets.run,
-    "paper": paper.run,
-    "validate": validate.run,
+    "paper": reports.paper,
+    "validate": reports.validate,
     "app": explorer.run,
 }
 for _name, _run in _COMMANDS.items():
