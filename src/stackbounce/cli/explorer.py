@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from stackbounce.cli.output import json_text
+from stackbounce.cli.output import print_json
 
 if TYPE_CHECKING:
     from stackbounce.explorer.addresses import Place
@@ -36,27 +36,21 @@ def run(
     from stackbounce.errors import whole
     from stackbounce.explorer import LIMITS
     from stackbounce.explorer.serve import serve
+    from stackbounce.version import __version__
 
     def tell(address: str, others: "list[Place]") -> None:
-        _tell(address, others, bool(others) or host in ("0.0.0.0", "::"), as_json)
+        if as_json:
+            known = {"address": address, "others": [place.address for place in others]}
+            print_json({"stackbounce": __version__, **known})
+            return
+        typer.echo(f"The explorer: {address} (Ctrl+C ends it)")
+        if others or host in ("0.0.0.0", "::"):
+            _tell_others(others)
 
     by_default = min(max((os.cpu_count() or 1) // 2, 2), 4)
     count = by_default if workers is None else whole("--workers", workers, 1, 64)
     limits = dataclasses.replace(LIMITS, workers=count)
     serve(host, port, limits, browser=browser, tell=tell, framed_by=framed_by)
-
-
-def _tell(address: str, others: "list[Place]", for_others: bool, as_json: bool) -> None:
-    """Print where the explorer is, for the user and for others."""
-    if as_json:
-        from stackbounce.version import __version__
-
-        known = {"address": address, "others": [place.address for place in others]}
-        typer.echo(json_text({"stackbounce": __version__, **known}))
-        return
-    typer.echo(f"The explorer: {address} (Ctrl+C ends it)")
-    if for_others:
-        _tell_others(others)
 
 
 def _tell_others(others: "list[Place]") -> None:

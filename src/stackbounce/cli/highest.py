@@ -8,6 +8,7 @@ from typing import Any
 
 from stackbounce.cli import output
 from stackbounce.errors import InvalidValue, positive, shown
+from stackbounce.files import write_file
 
 
 def run(
@@ -42,7 +43,8 @@ def run(
         chosen["law"] = law_named(given["law"])
         chosen["impact_speed"] = _impact_speed(given["height"], given["speed"])
     data = highest(**chosen)
-    output.write_scenario(data.attrs["best"], save, overwrite)
+    if save is not None:
+        write_file(save, data.attrs["best"].encode(), overwrite)
     output.draw_picture(plot, overwrite, "highest", data)
     if as_json:
         output.print_json(summary(data))

@@ -7,13 +7,7 @@ from typing import Any
 
 import typer
 
-from stackbounce.cli.output import (
-    check_picture,
-    check_scenario,
-    console,
-    draw_picture,
-    print_json,
-)
+from stackbounce.cli import output
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
 from stackbounce.measure.messages import OptionHint
@@ -37,31 +31,28 @@ def run(
     from stackbounce.measure.option_values import read_options
 
     files = files or []
-    if plot is not None:
-        check_picture(plot, overwrite)
-        count = len(files) + (given["heights"] is not None)
-        if count != 1:
-            raise InvalidValue(f"--plot draws one file or --heights, got {count}")
+    output.check_picture(plot, overwrite)
+    output.check_scenario(save, overwrite)
+    count = len(files) + (given["heights"] is not None)
+    if plot is not None and count != 1:
+        raise InvalidValue(f"--plot draws one file or --heights, got {count}")
     known = read_options(given, lambda option: option.on_command_line)
-    if save is not None:
-        check_scenario(save, overwrite)
-        if "mass" not in known:
-            raise InvalidValue("--save needs the mass of the ball, such as --mass 57g")
+    if save is not None and "mass" not in known:
+        raise InvalidValue("--save needs the mass of the ball, such as --mass 57g")
     done = [measure_file(path, known, _wording) for path in files] + measure_numbers(known)
     if not done:
         raise InvalidValue("measure needs a file, --heights, --contact-time or --restitution")
     law = law_of(known, done) if "law" in known else None
     saved = {} if save is None else save_ball(done, law, save, known, name, overwrite)
     if plot is not None:
-        draw_picture(plot, overwrite, "measured", done[0].data, done[0].found[-1])
+        output.draw_picture(plot, overwrite, "measured", done[0].data, done[0].found[-1])
     if as_json:
-        print_json(summary(done, law, saved))
+        output.print_json(summary(done, law, saved))
         return
-    print_measured(console(), done, law)
+    print_measured(output.console(), done, law)
     if save is not None:
         typer.echo(f"Ball: {save}; now: stackbounce simulate {save}")
-    if plot is not None:
-        typer.echo(f"Picture: {plot}")
+    output.print_files(plot)
 
 
 def _wording(hint: OptionHint) -> str:

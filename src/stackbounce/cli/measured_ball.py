@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from stackbounce.cli.output import write_scenario
+from stackbounce.files import write_file
 
 if TYPE_CHECKING:
     from stackbounce.measure.constants import LawConstants
@@ -42,5 +42,5 @@ def save_ball(
     ball = {key: known[key] for key in ("mass", "diameter") if key in known}
     plain = {key: getattr(value, "nominal_value", value) for key, value in ball.items()}
     drop = one_ball(parts, **plain, name=name)
-    write_scenario(drop.to_toml(), path, overwrite)
+    write_file(path, drop.to_toml().encode(), overwrite)
     return drop.to_mapping()
