@@ -1,14 +1,14 @@
 """Tables of at most 100 columns, and how numbers are written in them."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from rich import box
 from rich.table import Table
 
 
-def new_table(title: str | None, texts: Sequence[str] = (), numbers: Sequence[str] = ()) -> Table:
+def new_table(title: str | None, texts: Iterable[str], numbers: Iterable[str] = ()) -> Table:
     """Return a table in the style of all of them, with columns of texts, then of numbers."""
     table = Table(
         title=title and f"\n{title}",
@@ -25,7 +25,7 @@ def new_table(title: str | None, texts: Sequence[str] = (), numbers: Sequence[st
     return table
 
 
-def add_columns(table: Table, headings: Sequence[str], style: str = "") -> None:
+def add_columns(table: Table, headings: Iterable[str], style: str = "") -> None:
     """Add columns of numbers."""
     for heading in headings:
         table.add_column(heading, justify="right", style=style, no_wrap=True)
