@@ -69,7 +69,7 @@ def _values(drop: "Drop", over: Sequence[str], draws: Path | None) -> dict[str, 
 
 def _check_shown(drop: "Drop", given: Mapping[str, Any]) -> None:
     """Refuse a picture that could not be drawn, before anything is computed."""
-    from stackbounce.plots.sweep_curves import TITLES
+    from stackbounce.plots.sweep_curves import SHOWN
 
     over, show = given["over"] or [], given["show"]
     if given["draws"] is not None:
@@ -77,8 +77,8 @@ def _check_shown(drop: "Drop", given: Mapping[str, Any]) -> None:
     if len(over) not in (1, 2):
         raise InvalidValue(f"--plot needs one or two parameters that vary, got {len(over)}")
     name, dot, which = show.partition(".")
-    if name not in TITLES:
-        raise InvalidValue(f"--show must name a result, got {shown(name)}; {nearest(name, TITLES)}")
+    if name not in SHOWN:
+        raise InvalidValue(f"--show must name a result, got {shown(name)}; {nearest(name, SHOWN)}")
     most = len(drop.balls) - 1
     if dot and name == "energy_retained":
         raise InvalidValue(f"--show {name} is of the whole stack, got {shown(show)}")
