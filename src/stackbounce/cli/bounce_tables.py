@@ -6,14 +6,7 @@ from typing import TYPE_CHECKING, Any
 from rich.table import Table
 
 from stackbounce.cli.descriptions import label, meeting
-from stackbounce.cli.tables import (
-    add_columns,
-    new_table,
-    number,
-    percent,
-    with_error,
-    write_count,
-)
+from stackbounce.cli.tables import add_columns, new_table, number, percent, with_error, write_count
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.run.result import Result
 

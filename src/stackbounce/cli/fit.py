@@ -17,11 +17,7 @@ if TYPE_CHECKING:
 
 
 def run(
-    what: Sequence[str],
-    plot: Path | None,
-    overwrite: bool,
-    as_json: bool,
-    **given: Any,
+    what: Sequence[str], plot: Path | None, overwrite: bool, as_json: bool, **given: Any
 ) -> None:
     """Fit parameters of a drop to measured values, with errors."""
     need("fit", "stackbounce fit")

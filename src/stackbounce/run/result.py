@@ -317,17 +317,9 @@ class Result:
         >>> sb.simulate(drop).to_mapping()["status"]
         'FINISHED'
         """
-        return {
-            "status": self.status.name,
-            "advice": self.advice,
-            "rebound_speeds": self.rebound_speeds,
-            "rebound_ratios": self.rebound_ratios,
-            "collisions": self.collisions,
-            "first_touch": self.first_touch,
-            "last_release": self.last_release,
-            "energy_retained": self.energy_retained,
-            "end_time": self.end_time,
-        }
+        arrays = ("rebound_speeds", "rebound_ratios", "collisions", "first_touch", "last_release")
+        names = ("advice", *arrays, "energy_retained", "end_time")
+        return {"status": self.status.name} | {name: getattr(self, name) for name in names}
 
     def sample(self, times: ArrayLike) -> "xarray.Dataset":
         """Return positions, velocities, forces and energy at given times, by repeating the run.
