@@ -1,6 +1,5 @@
 """`stackbounce measure`: each layout from the command line, a table, JSON, a picture, a ball."""
 
-import json
 import math
 import shutil
 from functools import partial
@@ -10,7 +9,6 @@ import pytest
 
 import stackbounce as sb
 from measure import make_files as made
-from stackbounce.cli import main
 from stackbounce.measure import one_ball
 
 LAB = Path(__file__).parents[2] / "docs" / "lab"
@@ -43,11 +41,11 @@ LAYOUTS = {  # of each kind of measurement one; tests/measure/reading has the ot
 
 
 @pytest.mark.parametrize("name", LAYOUTS)
-def test_each_layout_is_read_and_analysed(measure, name):
-    (told,) = json.loads(measure(name, "--json"))["files"]
+def test_each_layout_is_read_and_analysed(measure, told, name):
+    (file,) = told("measure", name)["files"]
     form, first = LAYOUTS[name]
-    assert told["format"] == form
-    assert first in [row["name"] for row in told["found"]]
+    assert file["format"] == form
+    assert first in [row["name"] for row in file["found"]]
     out = measure(name)
     assert out.startswith(f"{name}: {form}\n")
     assert first in out
@@ -61,21 +59,21 @@ def test_a_picture(measure, name, tmp_path):
     assert (tmp_path / "found.svg").read_bytes().startswith(b"<?xml")
 
 
-def test_a_ball_is_saved_and_dropped(measure, capfd):
+def test_a_ball_is_saved_and_dropped(told):
     known = ["--mass", "57g", "--diameter", "66 mm", "--height", "1m", "--name", "tennis"]
     found = ("tennis.wav", "tennis-force.csv")
-    out = measure(*found, *known, "--save", "ball.toml", "--json")
+    ball = told("measure", *found, *known, "--save", "ball.toml")["ball"]
     drop = sb.Drop.from_toml("ball.toml")
-    assert json.loads(out)["ball"] == drop.to_mapping()
+    assert ball == drop.to_mapping()
     assert (drop.balls[0], drop.height) == (sb.Ball(0.057, 0.066, "tennis"), 1.0)
     assert drop.contacts[0].restitution == pytest.approx(0.75, abs=1e-3)
-    assert main(["simulate", "ball.toml", "--json"]) == 0
-    ratio = json.loads(capfd.readouterr().out)["rebound_ratios"][0]
-    assert ratio == pytest.approx(drop.contacts[0].restitution)
+    assert told("simulate", "ball.toml")["rebound_ratios"][0] == pytest.approx(
+        drop.contacts[0].restitution
+    )
 
 
-def test_numbers_without_an_error_are_null_in_json(measure):
-    rows = json.loads(measure("tennis.wav", "--json"))["files"][0]["found"]
+def test_numbers_without_an_error_are_null_in_json(told):
+    rows = told("measure", "tennis.wav")["files"][0]["found"]
     errors = {row["name"]: row["error"] for row in rows}
     assert errors["knocks"] is None
     assert errors["restitution, mean"] > 0.0
