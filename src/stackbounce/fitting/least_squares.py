@@ -1,10 +1,10 @@
-"""The minima of chi squared: many trials are screened, descents by lmfit start at the best."""
+"""The minima of chi squared: many trials are screened, descents start at the best."""
 
-import contextlib
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from stackbounce.fitting.covariance import OPEN, find_directions
 from stackbounce.fitting.objective import Objective
@@ -197,70 +197,59 @@ def _is_undetermined(objective: Objective, x: Array) -> bool:
     return bool(find_directions(objective, objective.linearise(x)[1])[0][-1] <= OPEN)
 
 
-def _parameters(objective: Objective, x: Array, fixed: int | None) -> Any:
-    """Return lmfit's parameters for a trial; they are named x0, x1 and so on in this file only."""
-    import lmfit
-
-    parameters = lmfit.Parameters()
-    for k, (low, high) in enumerate(objective.spans):
-        start = float(np.clip(x[k], low, high))
-        parameters.add(f"x{k}", value=start, min=low, max=high, vary=k != fixed)
-    return parameters
-
-
-def _trial(parameters: Any) -> Array:
-    return np.array([parameter.value for parameter in parameters.values()])
-
-
 def _descend_smooth(objective: Objective, x: Array, fixed: int | None, gain: float) -> Minimum:
-    """Return the end of a descent by lmfit's trust region, which needs derivatives."""
-    import lmfit
+    """Return the end of a descent by a trust region, which needs derivatives."""
+    from scipy.optimize import least_squares
 
-    if len(x) == 1 and fixed == 0:
+    free = np.arange(len(x)) != fixed
+    if not free.any():
         return Minimum(x, float(objective.chi_squared(x[None])[0]), True)
-    free = [k for k in range(len(x)) if k != fixed]
-    kept: dict[bytes, tuple[Array, Array]] = {}  # lmfit asks for residuals and slopes in turn
-
-    def linearised(parameters: Any) -> tuple[Array, Array]:
-        trial = _trial(parameters)
-        if trial.tobytes() not in kept:
-            kept[trial.tobytes()] = objective.linearise(trial)
-        return kept[trial.tobytes()]
-
-    minimizer = lmfit.Minimizer(
-        lambda now: linearised(now)[0], _parameters(objective, x, fixed), calc_covar=False
+    low, high = objective.spans[free].T
+    found = least_squares(
+        lambda inner: objective.residuals(_moved(x, free, inner)[None])[0],
+        np.clip(x[free], low, high),
+        lambda inner: objective.linearise(_moved(x, free, inner))[1][:, free],
+        bounds=(low, high),
+        ftol=gain,
+        xtol=10.0 * gain,
+        max_nfev=_STEPS,
     )
-    options = {"max_nfev": _STEPS, "xtol": 10.0 * gain, "ftol": gain}
-    with np.errstate(all="ignore"):  # lmfit divides by 0 where data determine nothing
-        found = minimizer.least_squares(Dfun=lambda now: linearised(now)[1][:, free], **options)
-    end = _trial(found.params)
-    return Minimum(end, float(np.sum(linearised(found.params)[0] ** 2)), bool(found.success))
+    return Minimum(_moved(x, free, found.x), 2.0 * found.cost, bool(found.success))
 
 
 def _cross_kink(objective: Objective, x: Array, fixed: int | None) -> Array:
     """Return a trial nearer to a minimum on a kink, by a simplex, which needs no derivatives."""
-    import lmfit
+    from scipy.optimize import minimize
 
-    minimizer = lmfit.Minimizer(
-        lambda now: objective.residuals(_trial(now)[None])[0],
-        _parameters(objective, x, fixed),
-        calc_covar=False,
+    free = np.arange(len(x)) != fixed
+    low, widths = objective.spans[free, 0], objective.widths[free]
+
+    def place(shares: Array) -> Array:
+        return _moved(x, free, low + shares * widths)
+
+    found = minimize(
+        lambda shares: objective.chi_squared(place(shares)[None])[0],
+        (x[free] - low) / widths,
+        method="Nelder-Mead",
+        bounds=[(0.0, 1.0)] * len(low),
+        options={"maxfev": _SHORT * len(x)},
     )
-    with contextlib.suppress(lmfit.minimizer.AbortFitException):  # lmfit counts its end, too
-        minimizer.minimize(method="nelder", max_nfev=_SHORT * len(x))
-    return _trial(minimizer.result.params)
+    return place(found.x)
+
+
+def _moved(x: Array, free: NDArray[np.bool_], inner: Array) -> Array:
+    """Return a trial with other values of the free parameters."""
+    trial = x.copy()
+    trial[free] = inner
+    return trial
 
 
 def _is_smooth(objective: Objective, x: Array, fixed: int | None) -> bool:
     """Return whether a linear step would gain nothing at the end of a descent."""
-    free = [k for k in range(len(x)) if k != fixed]
-    if not free:
-        return True
-    spans, (residuals, slopes) = objective.spans[free], objective.linearise(x)
-    slopes = slopes[:, free]
-    step = -np.linalg.lstsq(slopes, residuals, rcond=1e-6)[0]
-    inside = np.clip(x[free] + step, spans[:, 0], spans[:, 1]) - x[free]
-    longest = 0.1 * objective.widths[free]
-    step = np.clip(inside, -longest, longest)
-    promised = np.sum(residuals**2) - np.sum((residuals + slopes @ step) ** 2)
+    free = np.arange(len(x)) != fixed
+    (low, high), longest = objective.spans[free].T, 0.1 * objective.widths[free]
+    residuals, slopes = objective.linearise(x)
+    step = -np.linalg.lstsq(slopes[:, free], residuals, rcond=1e-6)[0]
+    step = np.clip(np.clip(x[free] + step, low, high) - x[free], -longest, longest)
+    promised = np.sum(residuals**2) - np.sum((residuals + slopes[:, free] @ step) ** 2)
     return bool(promised < _FLAT)

@@ -23,7 +23,7 @@ _RIGHT = (
     "varied between two bounds, such as '1e3 : 1e6', or around what is known of it, such as "
     "'1.3 ± 0.9 mm'"
 )
-_LEAST = 1e-12  # relative: closer bounds are one number to lmfit
+_LEAST = 1e-12  # relative: closer bounds are one number to a search
 _REACH = 6.0  # default bounds of a parameter with a prior, in its standard deviations
 
 

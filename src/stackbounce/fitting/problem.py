@@ -287,7 +287,7 @@ def fit(
     Notes
     -----
     Least squares with known errors. Chi squared has kinks where the number of contact intervals
-    changes. Trials spread over the bounds are screened at once, and descents by lmfit start at the
+    changes. Trials spread over the bounds are screened at once, and descents start at the
     best: by trust region, then by Nelder and Mead's simplex if they stop at a kink. Other minima
     are reported in the notes.
 
