@@ -17,7 +17,6 @@ REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05
 
 _NODES = 9  # at which a family is computed, for the fit
 _WIDER = 1.5  # logarithm by which the fit may leave the measured values
-_GRID = 61  # values of which the best one is where the fit begins
 _ALIKE = 1e-6  # relative, of curves that are one and the same
 
 
@@ -257,22 +256,16 @@ def _reach(series: Series) -> tuple[float, float]:
 
 def _interpolated(family: Family, series: Series) -> Callable[[float], Array]:
     """Return the curve of a family by the scaled value at its speed: from some exact curves."""
-    if family.is_constant:
-        return lambda start: np.full(series.speeds.shape, _unscaled(series, start))
+    from scipy.interpolate import KroghInterpolator
+
     if family.law_class.rigid:  # in closed form, and with a corner where the restitution is 1
         return lambda start: family.at(float(_unscaled(series, start)), series.speeds)
     low, high = _reach(series)
-    middle, half = 0.5 * (low + high), 0.5 * (high - low)
-    nodes = np.polynomial.chebyshev.chebpts1(_NODES)
-    starts = _unscaled(series, middle + half * nodes)
-    exact = [_scaled(series, family.at(start, series.speeds)) for start in starts.tolist()]
-    through = np.polynomial.chebyshev.chebfit(nodes, np.array(exact), _NODES - 1)
-
-    def curve(start: float) -> Array:
-        scaled = np.polynomial.chebyshev.chebval((start - middle) / half, through)
-        return _unscaled(series, np.asarray(scaled, dtype=np.float64))
-
-    return curve
+    nodes = 0.5 * (low + high + (high - low) * np.polynomial.chebyshev.chebpts1(_NODES))
+    starts = _unscaled(series, nodes).tolist()
+    through = [_scaled(series, family.at(start, series.speeds)) for start in starts]
+    scaled = KroghInterpolator(nodes, through)
+    return lambda start: _unscaled(series, scaled(start))
 
 
 def _fitted(
@@ -287,10 +280,8 @@ def _fitted(
         apart = series.values - curve(start)
         return float(apart @ weight @ apart)
 
-    grid = np.linspace(*_reach(series), _GRID)
-    first = int(np.argmin([squares(start) for start in grid]))
-    ends = grid[max(0, first - 1)], grid[min(grid.size - 1, first + 1)]
-    best = minimize_scalar(squares, bounds=ends, method="bounded", options={"xatol": 1e-9})
+    bounds, exactly = _reach(series), {"xatol": 1e-9}
+    best = minimize_scalar(squares, bounds=bounds, method="bounded", options=exactly)
     start = float(best.x)
     slope = _slope(curve, start)
     value = float(_unscaled(series, start))

@@ -41,11 +41,6 @@ class Family:
     restitution: float | None = None
     time: float = _TIMES[0]
 
-    @property
-    def is_constant(self) -> bool:
-        """Return whether the class is known to give the same at all speeds."""
-        return self.quantity == RESTITUTION and "impact_speed" not in self.law_class.loss_depends_on
-
     def law(self, value: float) -> ContactLaw:
         """Return the law that has a value at the speed of the calibration.
 
