@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from stackbounce import datasets
-from stackbounce.cross2007.pages import data_uri
+from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.extras import need
 from stackbounce.files import prepare_folder, write_folder
 from stackbounce.fitting.validation.comparison import (
@@ -173,13 +173,8 @@ def _csv(done: Validation) -> str:
 def _page(done: Validation, figures: dict[str, bytes]) -> str:
     import jinja2
 
-    pages = jinja2.Environment(
-        loader=jinja2.PackageLoader("stackbounce.fitting.validation"),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined,
-    )
+    own = jinja2.PackageLoader("stackbounce.fitting.validation")
+    pages = make_environment().overlay(loader=own)
     pages.filters["p"] = lambda value: "–" if value is None else format_p(value)
     return pages.get_template("validation.html.j2").render(
         done=done,

@@ -11,13 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from stackbounce.fitting.quantities import Array
-from stackbounce.model.drag import (
-    fallen_speed,
-    flight_speed,
-    landing_speed,
-    launch_speed,
-    sphere_drag,
-)
+from stackbounce.model import drag as in_air
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -106,8 +100,7 @@ class Series:
         return bool(np.any(self.assumed != 0.0))
 
 
-@dataclass(frozen=True)
-class _View:
+class _View(NamedTuple):
     """How a table with some columns becomes a series."""
 
     columns: tuple[str, ...]
@@ -142,26 +135,20 @@ def make_series(data: "xr.Dataset", *, air: bool = True) -> Series:
     Series
     """
     drag = _drag_of_ball(data) if air else 0.0
-    speeds, values, published, assumed, scatters = _points(drag, data)
+    found = _points(drag, data)
     if drag:  # it is not known well, and changes all values together
         more = 1.0 + _DRAG_ERROR / _DRAG_COEFFICIENT
-        shift = _points(more * drag, data).values - values
-        assumed = assumed + np.outer(shift, shift)
+        shift = _points(more * drag, data).values - found.values
+        found = found._replace(assumed=found.assumed + np.outer(shift, shift))
     view = _view_of(data)
     quantity = RESTITUTION if view is None else view.quantity
     kept = data.get("restitution") if quantity == CONTACT_TIME else None
     return Series(
-        name=data.attrs["name"],
-        title=data.attrs["title"],
-        ball=data.attrs["ball"],
+        **{key: data.attrs[key] for key in ("name", "title", "ball")},
+        **found._asdict(),
         quantity=quantity,
-        speeds=speeds,
-        values=values,
-        published=published,
-        assumed=assumed,
         drag=drag if quantity == RESTITUTION else 0.0,
         restitution=None if kept is None else float(kept[0]),
-        scatters=scatters,
     )
 
 
@@ -184,7 +171,7 @@ def _drag_of_ball(data: "xr.Dataset") -> float:
     """Return the drag of a dataset's ball in 1/m; 0 if its mass or its diameter is not known."""
     if not {"mass", "diameter"} <= set(data.attrs):
         return 0.0
-    sphere = sphere_drag(_AIR_DENSITY, _DRAG_COEFFICIENT, data.attrs["diameter"])
+    sphere = in_air.sphere_drag(_AIR_DENSITY, _DRAG_COEFFICIENT, data.attrs["diameter"])
     return sphere / float(data.attrs["mass"])
 
 
@@ -194,13 +181,13 @@ def _each(formula: Callable[[float, float, float], float], drag: float, values: 
 
 def _speeds_of_flight(drag: float, time: Array) -> tuple[Array, Array]:
     """Return the speeds in m/s at the start and at the end of flights of some times in s."""
-    leaving = _each(flight_speed, drag, time)
-    return leaving, _each(landing_speed, drag, leaving)
+    leaving = _each(in_air.flight_speed, drag, time)
+    return leaving, _each(in_air.landing_speed, drag, leaving)
 
 
 def _rebounds(drag: float, given: dict[str, Array]) -> _Points:
-    before = _each(fallen_speed, drag, given["drop_height"])
-    return before, _each(launch_speed, drag, given["rebound_height"]) / before
+    before = _each(in_air.fallen_speed, drag, given["drop_height"])
+    return before, _each(in_air.launch_speed, drag, given["rebound_height"]) / before
 
 
 def _ratios(drag: float, given: dict[str, Array]) -> _Points:
@@ -220,7 +207,7 @@ def _at_speeds(_: float, given: dict[str, Array]) -> _Points:
 
 def _knocks(drag: float, given: dict[str, Array]) -> _Points:
     leaving, landing = _speeds_of_flight(drag, np.diff(given["knock_time"]))
-    before = np.append(_each(fallen_speed, drag, given["drop_height"][:1]), landing[:-1])
+    before = np.append(_each(in_air.fallen_speed, drag, given["drop_height"][:1]), landing[:-1])
     return before, leaving / before
 
 
@@ -233,7 +220,7 @@ def _blocks(_: float, given: dict[str, Array]) -> _Points:
 
 
 def _contacts(drag: float, given: dict[str, Array]) -> _Points:
-    return _each(fallen_speed, drag, given["drop_height"]), given["contact_time"]
+    return _each(in_air.fallen_speed, drag, given["drop_height"]), given["contact_time"]
 
 
 _VIEWS = (
@@ -259,8 +246,7 @@ def _propagated(view: _View, drag: float, data: "xr.Dataset") -> _Measured:
     published, assumed = np.zeros((2, values.size, values.size))
     scatters: list[Scatter] = []
     for name, column in columns.items():
-        rows = range(column.means.size)
-        slopes = np.stack([_slope(view.transform, drag, given, name, i) for i in rows], axis=1)
+        slopes = _slopes(view.transform, drag, given, name)
         published += (slopes * column.variances) @ slopes.T
         assumed += column.assumed**2 * slopes @ slopes.T
         if column.scatter:
@@ -269,15 +255,14 @@ def _propagated(view: _View, drag: float, data: "xr.Dataset") -> _Measured:
     return _Measured(speeds, values, published, assumed, tuple(scatters))
 
 
-def _slope(transform: _Transform, drag: float, given: dict[str, Array], name: str, i: int) -> Array:
-    step = _STEP * max(abs(given[name][i]), _STEP)
-    ends = []
-    for sign in (1.0, -1.0):
-        moved = given[name].copy()
-        moved[i] += sign * step
-        ends.append(transform(drag, given | {name: moved})[1])
-    slope: Array = (ends[0] - ends[1]) / (2.0 * step)
-    return slope
+def _slopes(transform: _Transform, drag: float, given: dict[str, Array], name: str) -> Array:
+    """Return the derivatives (values, rows) of the values by the numbers of a column."""
+    steps = _STEP * np.maximum(np.abs(given[name]), _STEP)
+    larger, smaller = (
+        np.array([transform(drag, given | {name: row})[1] for row in given[name] + moved])
+        for moved in (np.diag(steps), np.diag(-steps))
+    )
+    return np.asarray((larger - smaller).T / (2.0 * steps))
 
 
 class _Column(NamedTuple):
@@ -316,11 +301,10 @@ def _flights(drag: float, data: "xr.Dataset") -> _Measured:
     covariance are those of the throws, taken together for all bounces. Correlated errors tell the
     variance worse: n of them as n / (1 + 2 r**2) others, with the correlation r of neighbours.
     """
-    number = np.asarray(data.flight.values, dtype=int)
-    leaving, landing = _speeds_of_flight(
-        drag, np.asarray(data.flight_time.values, dtype=np.float64)
-    )
-    after = np.flatnonzero(np.diff(number) == 1) + 1  # whose flight follows that of the row above
+    leaving, landing = _speeds_of_flight(drag, data.flight_time.values)
+    after = (
+        np.flatnonzero(np.diff(data.flight.values) == 1) + 1
+    )  # whose flight follows that of the row above
     ratios = leaving[after] / landing[after - 1]
     values = ratios.mean(axis=1)
     apart = ratios - values[:, None]
@@ -328,9 +312,10 @@ def _flights(drag: float, data: "xr.Dataset") -> _Measured:
     variance = np.mean(apart**2) * throws / (throws - 1.0)
     next_too = np.flatnonzero(np.diff(after) == 1)
     shared = np.mean(apart[next_too] * apart[next_too + 1]) * throws / (throws - 1.0)
-    covariance: Array = np.diag(np.full(values.size, variance))
+    covariance = np.diag(np.full(bounces, variance))
     covariance[next_too, next_too + 1] = covariance[next_too + 1, next_too] = shared
-    speeds: Array = landing[after - 1].mean(axis=1)
-    result: Array = covariance / throws
+    covariance /= throws
+    speeds = landing[after - 1].mean(axis=1)
     freedom = bounces * (throws - 1.0) / (1.0 + 2.0 * float(shared / variance) ** 2)
-    return _Measured(speeds, values, result, np.zeros_like(result), ((result, freedom),))
+    scatters = ((covariance, freedom),)
+    return _Measured(speeds, values, covariance, np.zeros_like(covariance), scatters)
