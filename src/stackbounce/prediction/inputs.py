@@ -28,6 +28,7 @@ Array: TypeAlias = NDArray[np.float64]
 FEWEST = 100
 """The least number of draws."""
 
+_STEP = 0.1  # of a standard deviation, for central differences
 _ROUND_OFF = 1e-12  # relative: an error of this size is none
 _ATTEMPTS = 50  # rounds of draws, of which some are possible drops
 
@@ -95,6 +96,18 @@ class Inputs:
     def drop_at(self, x: Array) -> Drop:
         """Return the drop with other numbers (numbers,)."""
         return drop_at(self.base, dict(zip(self.numbers, x.tolist(), strict=True)))
+
+    @property
+    def neighbours(self) -> Array:
+        """(2 numbers + 1, numbers) the values, then each number larger, then each smaller."""
+        steps = np.diag(_STEP * self.deviations)
+        return np.concatenate([self.values[None], self.values + steps, self.values - steps])
+
+    def slopes(self, answers: Array) -> Array:
+        """Return the derivatives (numbers, ...) of what follows of `neighbours`."""
+        larger, smaller = np.split(answers[1:], 2)
+        widths = np.where(self.deviations > 0.0, 2.0 * _STEP * self.deviations, np.inf)
+        return np.asarray(((larger - smaller).T / widths).T)
 
     def solve(self, x: Array, options: Options) -> Solved:
         """Return all quantities of drops with numbers (n, numbers)."""
