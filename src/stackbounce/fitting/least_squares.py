@@ -1,6 +1,8 @@
 """The minima of chi squared: many trials are screened, descents start at the best."""
 
 import math
+from collections.abc import Iterable
+from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -27,6 +29,9 @@ _EXACT, _ROUGH = 1e-10, 1e-4  # relative gain in chi squared at which a descent,
 _NEAR, _HOPE = 0.01, 20.0  # rough ends that are followed further: distance, chi squared above best
 _FLAT = 1e-3  # gain in chi squared that a linear step may promise at a smooth minimum
 _SHORT = 60  # evaluations per parameter of the simplex at a kink
+
+
+_chi_squared = attrgetter("chi_squared")
 
 
 class Minimum(NamedTuple):
@@ -79,28 +84,18 @@ def find_minima(
     trials = spread_trials(objective, count, seed)
     if follow is None:
         follow = _FOLLOWED_RECORDS if objective.records else _FOLLOWED
-    chosen = _apart(objective, first, trials, follow)
-    near = sorted((_descend_smooth(objective, x, None, _ROUGH) for x in chosen), key=_chi_squared)
-    ends = sorted(
-        (descend(objective, end.x) for end in _promising(objective, near)), key=_chi_squared
-    )
+    screened = trials[np.argsort(objective.chi_squared(trials), kind="stable")]
+    chosen = _apart(objective, list(first), screened, _APART, follow)
+    rough = sorted((_descend_smooth(objective, x, None, _ROUGH) for x in chosen), key=_chi_squared)
+    limit = rough[0].chi_squared + max(_HOPE, rough[0].chi_squared)
+    low = [end.x for end in rough if end.chi_squared <= limit]
+    promising = _apart(objective, [], low, _NEAR, len(low))
+    ends = sorted((descend(objective, x) for x in promising), key=_chi_squared)
     good = [end for end in ends if end.chi_squared < ends[0].chi_squared + EQUAL]
-    nearest = sorted(good, key=lambda one: np.sum(((one.x - chosen[0]) / objective.widths) ** 2))
-    return _distinct(objective, nearest + ends[len(good) :])
-
-
-def _chi_squared(one: Minimum) -> float:
-    return one.chi_squared
-
-
-def _promising(objective: Objective, near: list[Minimum]) -> list[Minimum]:
-    """Return the rough ends, sorted by chi squared, that are low and far enough apart to follow."""
-    widths = objective.widths
-    limit = near[0].chi_squared + max(_HOPE, near[0].chi_squared)
+    good.sort(key=lambda end: np.sum(((end.x - chosen[0]) / objective.widths) ** 2))
     found: list[Minimum] = []
-    for end in near:
-        apart = all(np.max(np.abs(end.x - other.x) / widths) > _NEAR for other in found)
-        if apart and end.chi_squared <= limit:
+    for end in good + ends[len(good) :]:
+        if not any(_is_same(objective, end, other) for other in found):
             found.append(end)
     return found
 
@@ -111,7 +106,7 @@ def descend(objective: Objective, x: Array, fixed: int | None = None) -> Minimum
     if _is_smooth(objective, end.x, fixed):
         return end
     other = _descend_smooth(objective, _cross_kink(objective, end.x, fixed), fixed, _EXACT)
-    return min(other, end, key=lambda one: one.chi_squared)
+    return min(other, end, key=_chi_squared)
 
 
 def expected_trials(objective: Objective, count: int | None) -> int:
@@ -156,24 +151,16 @@ def spread(spans: Array, count: int, seed: int) -> Array:
     return np.asarray(spans[:, 0] + drawn[:count] * (spans[:, 1] - spans[:, 0]))
 
 
-def _apart(objective: Objective, first: Array, trials: Array, count: int) -> list[Array]:
-    """Return the first trials and the best `count` others that lie apart from all of them."""
-    widths = objective.widths
-    chosen = list(first)
-    for k in np.argsort(objective.chi_squared(trials), kind="stable"):
-        if len(chosen) >= len(first) + count:
+def _apart(
+    objective: Objective, chosen: list[Array], others: Iterable[Array], distance: float, most: int
+) -> list[Array]:
+    """Return the chosen trials and the first of others, `most` of them, that lie apart from all."""
+    found = list(chosen)
+    for x in others:
+        if len(found) == len(chosen) + most:
             break
-        if all(np.max(np.abs(trials[k] - start) / widths) > _APART for start in chosen):
-            chosen.append(trials[k])
-    return chosen
-
-
-def _distinct(objective: Objective, ends: list[Minimum]) -> list[Minimum]:
-    """Return the ends of descents without those that belong to a better one's minimum."""
-    found: list[Minimum] = []
-    for end in ends:
-        if not any(_is_same(objective, end, other) for other in found):
-            found.append(end)
+        if all(np.max(np.abs(x - other) / objective.widths) > distance for other in found):
+            found.append(x)
     return found
 
 

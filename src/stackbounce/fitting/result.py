@@ -374,14 +374,11 @@ class Fit:
         trials = self.objective.neighbours(self.x)
         parameters = np.array(list(self.objective.values(trials).values()))
         moved = np.diag(differences(parameters.T))
-        found = {}
-        for number, column in self.objective.rows(key, trials).items():
-            slopes = (differences(column) / moved).tolist()
-            value: Any = float(column[-1])
-            for own, slope in zip(self.values.values(), slopes, strict=True):
-                value = value + slope * (own - own.nominal_value)
-            found[number.path] = value
-        return found
+        apart = [own - own.nominal_value for own in self.values.values()]
+        return {
+            number.path: float(column[-1]) + np.dot(differences(column) / moved, apart)
+            for number, column in self.objective.rows(key, trials).items()
+        }
 
     def as_dict(self) -> dict[str, Any]:
         """Return the result as plain values, for JSON."""

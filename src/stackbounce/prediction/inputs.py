@@ -130,10 +130,8 @@ class Inputs:
 
     def linear(self, value: float, slopes: Array) -> Any:
         """Return a value that depends on the numbers with these derivatives (numbers,)."""
-        found: Any = known_to(value, 0.0)
-        for number, slope in zip(self.errors, slopes.tolist(), strict=True):
-            found += slope * (number - number.nominal_value)
-        return found
+        apart = [number - number.nominal_value for number in self.errors]
+        return known_to(value, 0.0) + np.dot(slopes, apart)
 
     def draw(self, count: int, seed: int) -> tuple[Array, str, float]:
         """Return draws from the normal distribution of the numbers that are possible drops.
