@@ -136,7 +136,9 @@ def _note_unlikely(chi_squared: float, degrees_of_freedom: int) -> str:
 
 def _note_collisions(objective: Objective, best: Minimum) -> Iterator[str]:
     for key, measured in objective.measured.items():
-        fitted = objective.counts(key, best.x) if measured.counts else np.empty(0)
+        fitted = (
+            objective.solve(key, best.x[None])["collisions"][0] if measured.counts else np.empty(0)
+        )
         for count in measured.counts:
             if fitted[count.index] != count.seen:
                 name = f"{key}.{count.name}" if key else count.name

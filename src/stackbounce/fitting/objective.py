@@ -10,7 +10,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.engine.records import Outcomes
 from stackbounce.engine.work import WORK_LIMIT
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fitting.course import Course
@@ -20,12 +19,11 @@ from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.ties import Tie, evaluate_ties
 from stackbounce.fitting.waveforms import Waveform
 from stackbounce.model import Drop
-from stackbounce.run.batch import solve
-from stackbounce.run.columns import Rows, check, incidence
+from stackbounce.run.columns import Rows, check
 from stackbounce.run.driver import forces_at
 from stackbounce.run.options import Options
 from stackbounce.run.paths import Number, drop_at, numbers_of, value_in
-from stackbounce.run.quantities import QUANTITIES
+from stackbounce.run.quantities import solve_quantities
 from stackbounce.run.result import Status
 
 ABSENT = 1e4
@@ -188,35 +186,21 @@ class Objective:
         rows = self.rows(key, x[None])
         return drop_at(self.drops[key], {number: float(array[0]) for number, array in rows.items()})
 
-    def outcomes(self, key: str, x: Array) -> tuple[Outcomes, Array, Array]:
-        """Return outcomes, impact speeds and gravity (n,) of one drop in trials (n, parameters)."""
-        drop, rows = self.drops[key], self.rows(key, x)
+    def solve(self, key: str, x: Array) -> dict[str, Array]:
+        """Return all quantities of one drop in trials (n, parameters), (n, parts) each."""
+        drop = self.drops[key]
         options = Options(math.inf, self.rtol, _EVENTS, _WORK * max(_FEW, len(drop.balls)))
-        out = solve(drop, rows, (len(x),), options)
-        self.course.work += int(np.sum(out.work))
-        bad = ~np.isin(out.status, _DONE)
-        if np.any(bad):
-            self.unsolved.update(Status(code).name for code in out.status[bad])
-            for array in (
-                out.rebound_ratio,
-                out.first_touch,
-                out.last_release,
-                out.energy_retained,
-            ):
-                array[bad] = np.nan
-        return out, *incidence(drop, rows, len(x))
+        solved = solve_quantities(drop, self.rows(key, x), len(x), options)
+        self.course.work += int(np.sum(solved.work))
+        bad = solved.status[~np.isin(solved.status, _DONE)]
+        self.unsolved.update(Status(code).name for code in bad)
+        return solved.tables
 
     def predict(self, key: str, x: Array) -> Array:
         """Return what trials (n, parameters) predict for one drop's data: (n, data) in SI units."""
-        given, columns = self.outcomes(key, x), []
-        for datum in self.measured[key].data:
-            table = np.asarray(QUANTITIES[datum.quantity].predict(*given))
-            columns.append(table if table.ndim == 1 else table[:, datum.index])
+        tables, data = self.solve(key, x), self.measured[key].data
+        columns = [tables[datum.quantity][:, datum.index] for datum in data]
         return np.stack(columns, axis=1) if columns else np.empty((len(x), 0))
-
-    def counts(self, key: str, x: Array) -> NDArray[np.int64]:
-        """Return how often each contact of a drop closes in one trial: (contacts,)."""
-        return np.asarray(self.outcomes(key, x[None])[0].collisions[0])
 
     def forces(self, key: str, x: Array) -> list[Array]:
         """Return the forces (n,) in N at the samples of each record of a drop, in one trial."""
