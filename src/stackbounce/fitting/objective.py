@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.engine.work import WORK_LIMIT
 from stackbounce.errors import InvalidType, InvalidValue

@@ -11,7 +11,7 @@ import numpy as np
 from stackbounce.errors import InvalidValue, nearest, positive, shown, unmasked
 from stackbounce.fitting import notes, posterior
 from stackbounce.fitting.course import Progress, announce
-from stackbounce.fitting.covariance import estimate_covariance, find_directions, find_leverages
+from stackbounce.fitting.covariance import estimate_covariance, find_directions
 from stackbounce.fitting.least_squares import Minimum
 from stackbounce.fitting.objective import Objective, differences
 from stackbounce.fitting.posterior import Posterior
@@ -108,10 +108,11 @@ class Fit:
 
         The directions are orthogonal in coordinates that run from 0 to 1 between the bounds.
         """
-        return find_directions(self.objective, self._slopes)
+        return find_directions(self.objective, self.slopes)
 
     @functools.cached_property
-    def _slopes(self) -> Array:
+    def slopes(self) -> Array:
+        """(residuals, parameters) derivatives of the residuals by the search coordinates."""
         return self.objective.linearise(self.x)[1]
 
     @property
@@ -187,15 +188,7 @@ class Fit:
     @functools.cached_property
     def notes(self) -> tuple[str, ...]:
         """Warnings about the fit, a sentence each."""
-        leverages = find_leverages(self.objective, self._slopes, *self.directions)
-        return (
-            *notes.note_search(self.minima[0], self.unsolved),
-            *self.undetermined,
-            *notes.note_bounds(self.objective, self.x),
-            *notes.note_misfits(
-                self.objective, self.minima, self.residuals, leverages, self.degrees_of_freedom
-            ),
-        )
+        return tuple(notes.list_notes(self))
 
     @functools.cached_property
     def undetermined(self) -> tuple[str, ...]:
