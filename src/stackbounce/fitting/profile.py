@@ -3,15 +3,17 @@
 import functools
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from stackbounce.errors import between
 from stackbounce.fitting.least_squares import Minimum, descend, spread_trials
-from stackbounce.fitting.objective import Objective
 from stackbounce.fitting.parameters import Parameter
 from stackbounce.fitting.quantities import Array
+
+if TYPE_CHECKING:
+    from stackbounce.fitting.result import Fit
 
 _FIRST = 0.2  # of the expected distance of the limit: the first step
 _GROWTH = 1.6  # of each step over the one before
@@ -43,38 +45,32 @@ class Profile:
 
     Parameters
     ----------
-    objective : Objective
-        What is fitted.
-    best : Minimum
-        The best minimum.
-    covariance : ndarray
-        (parameters, parameters) of the values there.
+    fit : Fit
+        With the best minimum.
     k : int
         The index of the parameter.
     """
 
-    objective: Objective
-    best: Minimum
-    covariance: Array
+    fit: "Fit"
     k: int
 
     @property
     def parameter(self) -> Parameter:
         """The parameter that is moved."""
-        return self.objective.parameters[self.k]
+        return self.fit.objective.parameters[self.k]
 
     def at(self, x: float, start: Array) -> Minimum:
         """Return the minimum at one coordinate of the parameter.
 
         The others start from a trial (parameters,), moved as if chi squared were quadratic.
         """
-        slopes = self.objective.value_slopes(self.best.x)
-        along = self.covariance[self.k] / slopes
+        objective = self.fit.objective
+        along = self.fit.covariance.values[self.k] / objective.value_slopes(self.fit.x)
         along = along / along[self.k]
-        spans = self.objective.spans
+        spans = objective.spans
         trial = np.clip(start + (x - start[self.k]) * along, spans[:, 0], spans[:, 1])
         trial[self.k] = x
-        return descend(self.objective, trial, fixed=self.k)
+        return descend(objective, trial, fixed=self.k)
 
     def evaluate(self, values: Array) -> Array:
         """Return chi squared (n,) at values of the parameter (n,); see `Fit.profile`.
@@ -82,7 +78,7 @@ class Profile:
         Each descent starts at the end of the one before, or at the best of some trials spread over
         the bounds of the others, as a profile may pass from one valley into another.
         """
-        objective, k, best = self.objective, self.k, self.best.x
+        objective, k, best = self.fit.objective, self.k, self.fit.x
         found = np.empty(len(values))
         spread = spread_trials(objective, _SCREENED, 0)[: 0 if objective.records else _SCREENED]
         for side in (-1.0, 1.0):
@@ -112,20 +108,20 @@ class Profile:
         """
         from scipy.optimize import brentq
 
-        best, (low, high) = self.best, self.parameter.span
-        start, inner = best.x, float(best.x[self.k])
+        (low, high), least = self.parameter.span, self.fit.chi_squared
+        start, inner = self.fit.x, float(self.fit.x[self.k])
 
         @functools.cache
         def beyond(x: float) -> float:
             nonlocal start
             end = self.at(x, start)
-            above = math.sqrt(max(end.chi_squared - best.chi_squared, 0.0)) - sigma
+            above = math.sqrt(max(end.chi_squared - least, 0.0)) - sigma
             if above < 0.0:
                 start = end.x
             return above
 
-        expected = sigma * math.sqrt(self.covariance[self.k, self.k]) / self.parameter.slope(inner)
-        step = min(max(_FIRST * expected, 1e-6 * (high - low)), 0.1 * (high - low))
+        deviation = self.fit[self.parameter.name].std_dev / self.parameter.slope(inner)
+        step = min(max(_FIRST * sigma * deviation, 1e-6 * (high - low)), 0.1 * (high - low))
         for _ in range(_MOST):
             outer = min(max(inner + side * step, low), high)
             if beyond(outer) >= 0.0:

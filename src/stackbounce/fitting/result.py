@@ -225,7 +225,7 @@ class Fit:
         course, expected = self.objective.course, _LINEARISED * count * (2 * count + 1)
         announce(f"intervals of {count} numbers", course.cost(expected), "fit fewer numbers")
         with course.reported(progress, expected):
-            return {name: self._profile(k).interval(reach) for k, name in enumerate(self.names)}
+            return {name: Profile(self, k).interval(reach) for k, name in enumerate(self.names)}
 
     def profile(self, name: str, values: Any) -> Array:
         """Return chi squared at values of one parameter, with all others refitted at each.
@@ -248,10 +248,7 @@ class Fit:
             If it was not varied, or a value lies outside the bounds.
         """
         k = self.names.index(self._known(name))
-        return self._profile(k).evaluate(np.asarray(unmasked("values", values), dtype=float))
-
-    def _profile(self, k: int) -> Profile:
-        return Profile(self.objective, self.minima[0], self.covariance.values, k)
+        return Profile(self, k).evaluate(np.asarray(unmasked("values", values), dtype=float))
 
     def sample(self, draws: int = 16_000, **options: Any) -> Posterior:
         """Return draws from the posterior distribution of the parameters.
@@ -273,9 +270,7 @@ class Fit:
         InvalidValue
             If the draws are too few.
         """
-        deviations = np.sqrt(np.diag(self.covariance.values))
-        others = len(self.minima) - 1
-        return posterior.sample(self.objective, self.x, deviations, draws, others=others, **options)
+        return posterior.sample(self, draws, **options)
 
     def predict(
         self, drop: str | None = None, *, posterior: Posterior | None = None, **options: Any
