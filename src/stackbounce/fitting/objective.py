@@ -5,7 +5,6 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
@@ -136,20 +135,34 @@ class Objective:
 
     def rows(self, key: str, x: Array) -> Rows:
         """Return the varied and tied numbers of one drop in trials (n, parameters), checked."""
-        layout, values = self._layouts[key], self.values(x)
+        drop, ties = self.drops[key], [tie for tie in self.ties if tie.drop == key]
+        values = self.values(x)
         named = {name: array for name, array in values.items() if self._owner[name] in (None, key)}
         found: dict[Number, Array] = {}
-        for name, number in layout.varied:
-            found[number] = named[number.path] = named[name]
-        follow = evaluate_ties(layout.ties, layout.numbers, named)
-        for tie in layout.ties:
-            found[tie.number] = follow[tie.number.path]
-        if layout.ties:
-            try:
-                check(self.drops[key], found, lambda _: "")
-            except (InvalidValue, InvalidType) as error:
-                formulas = ", ".join(f"{tie.number.path} = {tie.text}" for tie in layout.ties)
-                raise type(error)(f"tie: {formulas} gives no drop: {error}".rstrip()) from error
+        for number, parameter in self._varied[key].items():
+            found[number] = named[number.path] = named[parameter.name]
+        if not ties:
+            return found
+        numbers = {path: value_in(drop, number) for path, number in numbers_of(drop).items()}
+        follow = evaluate_ties(ties, numbers, named)
+        found |= {tie.number: follow[tie.number.path] for tie in ties}
+        try:
+            check(drop, found, lambda _: "")
+        except (InvalidValue, InvalidType) as error:
+            formulas = ", ".join(f"{tie.number.path} = {tie.text}" for tie in ties)
+            raise type(error)(f"tie: {formulas} gives no drop: {error}".rstrip()) from error
+        return found
+
+    @cached_property
+    def _varied(self) -> dict[str, dict[Number, Parameter]]:
+        """The varied numbers of each drop, which is checked with them at the bounds."""
+        found: dict[str, dict[Number, Parameter]] = {key: {} for key in self.drops}
+        for parameter in self.parameters:
+            for key, number in find_numbers(self.drops, parameter.name):
+                found[key][number] = parameter
+        for key, varied in found.items():
+            ends = {number: np.array([own.low, own.high]) for number, own in varied.items()}
+            check(self.drops[key], ends, lambda _: "(at the bounds)")
         return found
 
     @cached_property
@@ -175,10 +188,6 @@ class Objective:
     def alone(self, key: str) -> "Objective":
         """Return the objective with all parameters but the data of one drop only."""
         return replace(self, measured={key: self.measured[key]})
-
-    @cached_property
-    def _layouts(self) -> dict[str, "_Layout"]:
-        return {key: _layout(self, key) for key in self.drops}
 
     def drop(self, key: str, x: Array) -> Drop:
         """Return one drop with the numbers of one trial (parameters,)."""
@@ -287,32 +296,6 @@ def differences(rows: Array) -> Array:
     """Return the differences (n, ...) of what follows of `Objective.neighbours`, (2 n + 1, ...)."""
     count = len(rows) // 2
     return np.asarray(rows[:count] - rows[count:-1])
-
-
-class _Layout(NamedTuple):
-    """The varied numbers of one drop by parameter, its ties, and all its numbers by path."""
-
-    varied: list[tuple[str, Number]]
-    ties: list[Tie]
-    numbers: dict[str, float]
-
-
-def _layout(objective: Objective, key: str) -> _Layout:
-    drop = objective.drops[key]
-    varied = [
-        (parameter.name, number)
-        for parameter in objective.parameters
-        for own, number in find_numbers(objective.drops, parameter.name)
-        if own == key
-    ]
-    numbers = {path: value_in(drop, number) for path, number in numbers_of(drop).items()}
-    ties = [tie for tie in objective.ties if tie.drop == key]
-    ends = {
-        parameter.name: np.array([parameter.low, parameter.high])
-        for parameter in objective.parameters
-    }
-    check(drop, {number: ends[name] for name, number in varied}, lambda _: "(at the bounds)")
-    return _Layout(varied, ties, numbers)
 
 
 def touch_name(key: str) -> str:
