@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from stackbounce.fitting.covariance import OPEN, find_directions
 from stackbounce.fitting.objective import Objective
-from stackbounce.fitting.quantities import Array
+from stackbounce.run.quantities import Array
 
 EQUAL = 1e-3
 """Minima whose chi squared differs by less are equally good."""

@@ -8,7 +8,7 @@ import numpy as np
 from stackbounce.fitting.covariance import OPEN, find_leverages
 from stackbounce.fitting.least_squares import EQUAL
 from stackbounce.fitting.objective import ABSENT
-from stackbounce.fitting.quantities import Array
+from stackbounce.run.quantities import Array
 
 if TYPE_CHECKING:
     from stackbounce.fitting.result import Fit

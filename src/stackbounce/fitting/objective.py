@@ -13,7 +13,6 @@ from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fitting.course import Course
 from stackbounce.fitting.measurements import Measured
 from stackbounce.fitting.parameters import Parameter, find_numbers
-from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.ties import Tie, evaluate_ties
 from stackbounce.fitting.waveforms import Waveform
 from stackbounce.model import Drop
@@ -21,7 +20,7 @@ from stackbounce.run.columns import Rows, check
 from stackbounce.run.driver import forces_at
 from stackbounce.run.options import Options
 from stackbounce.run.paths import Number, drop_at, numbers_of, value_in
-from stackbounce.run.quantities import solve_quantities
+from stackbounce.run.quantities import Array, solve_quantities
 from stackbounce.run.result import Status
 
 ABSENT = 1e4

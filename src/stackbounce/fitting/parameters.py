@@ -10,10 +10,11 @@ import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fitting.formula import OWN_WORDS
-from stackbounce.fitting.quantities import Array, read_with_error
+from stackbounce.fitting.quantities import read_with_error
 from stackbounce.measure.quantities import LARGEST
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, drop_at, numbers_of, value_in
+from stackbounce.run.quantities import Array
 from stackbounce.units import quantity
 
 _WIDE = 100.0  # default bounds: the drop's own number divided and multiplied by this

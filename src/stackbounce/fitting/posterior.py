@@ -9,8 +9,8 @@ import numpy as np
 from stackbounce.errors import InvalidValue, nearest, shown, whole
 from stackbounce.fitting.course import announce
 from stackbounce.fitting.objective import Objective
-from stackbounce.fitting.quantities import Array
 from stackbounce.run.options import check_room
+from stackbounce.run.quantities import Array
 
 if TYPE_CHECKING:
     from uncertainties import UFloat

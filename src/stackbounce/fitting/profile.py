@@ -10,7 +10,7 @@ import numpy as np
 from stackbounce.errors import between
 from stackbounce.fitting.least_squares import Minimum, descend, spread_trials
 from stackbounce.fitting.parameters import Parameter
-from stackbounce.fitting.quantities import Array
+from stackbounce.run.quantities import Array
 
 if TYPE_CHECKING:
     from stackbounce.fitting.result import Fit

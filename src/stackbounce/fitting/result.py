@@ -10,16 +10,17 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, positive, shown, unmasked
 from stackbounce.fitting import notes, posterior
-from stackbounce.fitting.course import Progress, announce
+from stackbounce.fitting.course import announce
 from stackbounce.fitting.covariance import estimate_covariance, find_directions
 from stackbounce.fitting.least_squares import Minimum
 from stackbounce.fitting.objective import Objective, differences
 from stackbounce.fitting.posterior import Posterior
 from stackbounce.fitting.profile import Interval, Profile
-from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.residuals import Record, Residual, list_records, list_residuals
 from stackbounce.model import Drop
 from stackbounce.prediction import Prediction, predict
+from stackbounce.prediction.draws import Progress
+from stackbounce.run.quantities import Array
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue
-from stackbounce.prediction.inputs import FEWEST, Array, Inputs
+from stackbounce.prediction.inputs import FEWEST, Inputs
 from stackbounce.run.options import Options
-from stackbounce.run.quantities import QUANTITIES, Solved
+from stackbounce.run.quantities import QUANTITIES, Array, Solved
 from stackbounce.run.result import Status
 
 DRAWS = 10_000

@@ -8,7 +8,7 @@ import functools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,11 +19,9 @@ from stackbounce.model import Drop
 from stackbounce.run.columns import check
 from stackbounce.run.options import Options
 from stackbounce.run.paths import Number, drop_at, number_at, value_in
-from stackbounce.run.quantities import Solved, solve_quantities
+from stackbounce.run.quantities import Array, Solved, solve_quantities
 from stackbounce.sweeps.dataset import check_together
 from stackbounce.units import quantity
-
-Array: TypeAlias = NDArray[np.float64]
 
 FEWEST = 100
 """The least number of draws."""

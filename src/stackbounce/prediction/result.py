@@ -2,7 +2,7 @@
 
 import functools
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,11 +11,11 @@ import numpy as np
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
 from stackbounce.prediction.draws import Slopes, budget
-from stackbounce.prediction.inputs import FEWEST, Array, Inputs, error_of_deviation, of_draws
+from stackbounce.prediction.inputs import FEWEST, Inputs, error_of_deviation, of_draws
 from stackbounce.prediction.runs import Runs
 from stackbounce.prediction.sensitivity import Sensitivity, fit_slopes, linear_shares, sobol_indices
 from stackbounce.run.options import Options
-from stackbounce.run.quantities import QUANTITIES, Solved
+from stackbounce.run.quantities import QUANTITIES, Array, Solved
 from stackbounce.run.result import Result, Status
 from stackbounce.units import rounded
 from stackbounce.version import __version__
@@ -410,20 +410,20 @@ class Prediction:
 
     @functools.cached_property
     def _all(self) -> dict[str, Any]:
-        return dict(self._values())
-
-    def _values(self) -> Iterator[tuple[str, Any]]:
-        """Yield the names and values of all quantities."""
+        """All quantities with their errors, by their whole names."""
+        found: dict[str, Any] = {}
         for name in _FLOATS:
             if self.reason:
                 table = self.solved.tables[name]
                 scale = float(np.max(np.abs(table), initial=0.0, where=np.isfinite(table)))
-                for part, column in enumerate(table.T):
-                    yield _label(name, part), of_draws(column, scale)
+                values = [of_draws(column, scale) for column in table.T]
             else:
-                values, slopes = self.slopes[name]
-                for part, value in enumerate(values.tolist()):
-                    yield _label(name, part), self.inputs.linear(value, slopes[part])
+                values = [
+                    self.inputs.linear(value, slopes)
+                    for value, slopes in zip(*self.slopes[name], strict=True)
+                ]
+            found |= {_label(name, part): value for part, value in enumerate(values)}
+        return found
 
     def _parts(self, name: str) -> list[Any]:
         return [self[f"{name}.{k}"] for k in range(len(self.drop.balls))]

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from stackbounce.prediction.draws import ROUND_OFF
-from stackbounce.prediction.inputs import Array, Inputs, of_draws
+from stackbounce.prediction.inputs import Inputs, of_draws
 from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options
+from stackbounce.run.quantities import Array
 from stackbounce.run.result import Result
 
 _ONE_SIGMA = (0.159, 0.841)

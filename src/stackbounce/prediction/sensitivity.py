@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stackbounce.prediction.inputs import Array
+from stackbounce.run.quantities import Array
 
 _ROUND_OFF = 1e-10  # relative: a standard deviation of this size is none
 

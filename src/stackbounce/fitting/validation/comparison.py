@@ -7,9 +7,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from stackbounce.errors import StackbounceError
-from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.validation.family import Family, families, reason_to_skip
 from stackbounce.fitting.validation.series import RESTITUTION, Series
+from stackbounce.run.quantities import Array
 
 AGREES, DOUBTFUL, REFUTED = "agrees", "doubtful", "refuted"
 REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05
@@ -17,6 +17,7 @@ REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05
 
 _NODES = 9  # at which a family is computed, for the fit
 _WIDER = 1.5  # logarithm by which the fit may leave the measured values
+_STEP = 1e-5  # of a numerical derivative
 _ALIKE = 1e-6  # relative, of curves that are one and the same
 
 
@@ -306,8 +307,8 @@ def _of_the_rest(curve: Callable[[float], Array], series: Series) -> float:
     return float(apart[kept] @ np.linalg.solve(covariance, apart[kept]))
 
 
-def _slope(curve: Callable[[float], Array], start: float, step: float = 1e-5) -> Array:
-    return (curve(start + step) - curve(start - step)) / (2.0 * step)
+def _slope(curve: Callable[[float], Array], start: float) -> Array:
+    return (curve(start + _STEP) - curve(start - _STEP)) / (2.0 * _STEP)
 
 
 def _power(series: Series) -> tuple[float, float, float | None]:

@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from stackbounce.errors import StackbounceError
-from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.validation.series import CONTACT_TIME, RESTITUTION, Series
 from stackbounce.model.laws import LAWS, ContactLaw
 from stackbounce.run.calibration import calibrate
 from stackbounce.run.collision import contact_time, restitution
+from stackbounce.run.quantities import Array
 
 _MASS = 0.1  # kg; on its own it does not change how a calibrated law depends on the speed
 _TIMES = (5e-3, 0.5e-3)  # s: two contact times, where a source gives none

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from stackbounce.fitting.quantities import Array
 from stackbounce.model import drag as in_air
 from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.run.quantities import Array
 
 if TYPE_CHECKING:
     import xarray as xr
