@@ -198,23 +198,21 @@ def _check_columns(columns: Sequence[_Column]) -> None:
 
 def _has_commas(columns: Sequence[_Column], rows: Sequence[tuple[int, list[str]]]) -> bool:
     """Return whether commas are decimal marks; refuse numbers that could be read in two ways."""
-    found = [
+    numbers = [
         (mark[0], f"row {line}, {column.text}")
         for line, cells in rows
         for column, cell in zip(columns, cells, strict=False)
         if column.numeric
         for mark in _MARKED.finditer(cell)
     ]
-    commas = [(text, where) for text, where in found if "," in text]
-    points = [text for text, _ in found if "." in text]
-    if not commas:
-        return False
-    text, where = commas[0]
-    if points:
-        raise InvalidValue(f"{where}: {text} has a comma, but {points[0]} a decimal point")
-    if all(_GROUPED.fullmatch(number) for number, _ in commas):
-        raise InvalidValue(f"{where}: {text} can be read in two ways: write it without a comma")
-    return True
+    commas = [(text, where) for text, where in numbers if "," in text]
+    point = next((text for text, _ in numbers if "." in text), "")
+    for text, where in commas[:1]:
+        if point:
+            raise InvalidValue(f"{where}: {text} has a comma, but {point} a decimal point")
+        if all(_GROUPED.fullmatch(number) for number, _ in commas):
+            raise InvalidValue(f"{where}: {text} can be read in two ways: write it without a comma")
+    return bool(commas)
 
 
 def _drop(drop: Drop, row: Mapping[str, _Cell], line: int) -> Drop:
