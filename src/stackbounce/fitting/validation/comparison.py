@@ -8,7 +8,7 @@ import numpy as np
 
 from stackbounce.errors import StackbounceError
 from stackbounce.fitting.validation.family import Family, families, reason_to_skip
-from stackbounce.fitting.validation.series import RESTITUTION, Series
+from stackbounce.fitting.validation.series import Series
 from stackbounce.run.quantities import Array
 
 AGREES, DOUBTFUL, REFUTED = "agrees", "doubtful", "refuted"
@@ -87,7 +87,7 @@ class Comparison:
     skipped : dict of str to str
         The laws that say nothing about the series, and why.
     exponent, exponent_error : float
-        q and its standard deviation, if the loss ``1 - e``, or the contact time, grows as ``v**q``.
+        q and its standard deviation, if the loss ``1 - e`` grows as ``v**q``.
     p_power : float or None
         p of that power; None of two points, which have one exactly.
     curves : dict of str to Family
@@ -240,18 +240,18 @@ def _probability(squares: float, freedom: int, series: Series, scale: float = 1.
     return float(f.sf(squares / freedom, freedom, errors))
 
 
-def _scaled(series: Series, values: Array) -> Array:
-    """Return what is nearly linear in its start: log(-log e), or the logarithm of the time."""
-    return np.asarray(np.log(-np.log(values) if series.quantity == RESTITUTION else values))
+def _scaled(values: Array) -> Array:
+    """Return what is nearly linear in its start: log(-log e)."""
+    return np.asarray(np.log(-np.log(values)))
 
 
-def _unscaled(series: Series, scaled: Array | float) -> Array:
-    return np.asarray(np.exp(-np.exp(scaled) if series.quantity == RESTITUTION else scaled))
+def _unscaled(scaled: Array | float) -> Array:
+    return np.asarray(np.exp(-np.exp(scaled)))
 
 
 def _reach(series: Series) -> tuple[float, float]:
     """Return the bounds of the scaled value in a fit."""
-    scaled = _scaled(series, series.values)
+    scaled = _scaled(series.values)
     return float(scaled.min()) - _WIDER, float(scaled.max()) + _WIDER
 
 
@@ -260,13 +260,13 @@ def _interpolated(family: Family, series: Series) -> Callable[[float], Array]:
     from scipy.interpolate import KroghInterpolator
 
     if family.law_class.rigid:  # in closed form, and with a corner where the restitution is 1
-        return lambda start: family.at(float(_unscaled(series, start)), series.speeds)
+        return lambda start: family.at(float(_unscaled(start)), series.speeds)
     low, high = _reach(series)
     nodes = 0.5 * (low + high + (high - low) * np.polynomial.chebyshev.chebpts1(_NODES))
-    starts = _unscaled(series, nodes).tolist()
-    through = [_scaled(series, family.at(start, series.speeds)) for start in starts]
+    starts = _unscaled(nodes).tolist()
+    through = [_scaled(family.at(start, series.speeds)) for start in starts]
     scaled = KroghInterpolator(nodes, through)
-    return lambda start: _unscaled(series, scaled(start))
+    return lambda start: _unscaled(scaled(start))
 
 
 def _fitted(
@@ -285,8 +285,8 @@ def _fitted(
     best = minimize_scalar(squares, bounds=bounds, method="bounded", options=exactly)
     start = float(best.x)
     slope = _slope(curve, start)
-    value = float(_unscaled(series, start))
-    by_value = -value * np.log(value) if series.quantity == RESTITUTION else value
+    value = float(_unscaled(start))
+    by_value = -value * np.log(value)
     return value, float(by_value / np.sqrt(slope @ weight @ slope)), float(best.fun)
 
 
@@ -296,7 +296,7 @@ def _of_the_rest(curve: Callable[[float], Array], series: Series) -> float:
     What is left over is ``y_i - f_i(y_0)``, and its covariance has the error of y_0 in all places.
     """
     first = int(np.argmax(series.speeds))
-    start = float(_scaled(series, series.values)[first])
+    start = float(_scaled(series.values)[first])
     slope = _slope(curve, start)
     slope = slope / slope[first]  # by the value at the first speed itself
     apart = series.values - curve(start)
@@ -312,15 +312,14 @@ def _slope(curve: Callable[[float], Array], start: float) -> Array:
 
 
 def _power(series: Series) -> tuple[float, float, float | None]:
-    """Return the exponent of the loss, or of the time, in the speed, its error, and p."""
-    values = series.values
-    grows = 1.0 - values if series.quantity == RESTITUTION else values
-    scaled, change = np.log(grows), np.diag(1.0 / grows)
+    """Return the exponent of the loss in the speed, its error, and p."""
+    losses = 1.0 - series.values
+    scaled, change = np.log(losses), np.diag(1.0 / losses)
     weight = np.linalg.inv(change @ series.covariance() @ change)
-    design = np.column_stack([np.ones(values.size), np.log(series.speeds)])
+    design = np.column_stack([np.ones(losses.size), np.log(series.speeds)])
     covariance = np.linalg.inv(design.T @ weight @ design)
     best = covariance @ design.T @ weight @ scaled
     apart = scaled - design @ best
-    freedom = values.size - 2
+    freedom = losses.size - 2
     p = _probability(float(apart @ weight @ apart), freedom, series) if freedom else None
     return float(best[1]), float(np.sqrt(covariance[1, 1])), p

@@ -1,4 +1,4 @@
-"""A dataset as a series: restitutions or contact times at several speeds, with a covariance.
+"""A dataset as a series: restitutions at several speeds, with a covariance.
 
 Each kind of table has a `View`, which is chosen by the names of its columns.
 """
@@ -17,8 +17,6 @@ from stackbounce.run.quantities import Array
 if TYPE_CHECKING:
     import xarray as xr
 
-RESTITUTION, CONTACT_TIME = "restitution", "contact time"
-
 _AIR_DENSITY = 1.2  # kg/m**3
 _DRAG_COEFFICIENT, _DRAG_ERROR = 0.45, 0.05
 """Of a sphere, at the Reynolds numbers of falling balls, about 10**3 to 10**5: 0.4 to 0.5."""
@@ -32,14 +30,12 @@ _STEP = 1e-6  # relative, of a numerical derivative
 
 @dataclass(frozen=True)
 class Series:
-    """A quantity of one ball as a function of its impact speed.
+    """The restitution of one ball as a function of its impact speed.
 
     Parameters
     ----------
     name, title, ball : str
         Of the dataset.
-    quantity : str
-        `RESTITUTION` or `CONTACT_TIME`.
     speeds, values : array
         Impact speeds in m/s and the values, (n,).
     published, assumed : array
@@ -47,8 +43,6 @@ class Series:
         its readings, and from errors that are assumed, that of the drag among them.
     drag : float
         k of `stackbounce.model.drag` in 1/m; 0 if the air was left out.
-    restitution : float, optional
-        The restitution that goes with contact times.
     scatters : tuple of (array, float), optional
         The parts of `published` that are estimated from the scatter of readings, (n, n), each with
         its degrees of freedom.
@@ -57,13 +51,11 @@ class Series:
     name: str
     title: str
     ball: str
-    quantity: str
     speeds: Array
     values: Array
     published: Array
     assumed: Array
     drag: float
-    restitution: float | None = None
     scatters: tuple[Scatter, ...] = ()
 
     def covariance(self, scale: float = 1.0) -> Array:
@@ -104,7 +96,6 @@ class _View(NamedTuple):
     """How a table with some columns becomes a series."""
 
     columns: tuple[str, ...]
-    quantity: str
     transform: _Transform
 
 
@@ -116,7 +107,7 @@ def why_not(data: "xr.Dataset") -> str:
         return "it has one value only"
     if _view_of(data) is not None or {"flight", "flight_time"} <= set(data):
         return ""
-    return "it has no restitutions or contact times of one ball at known speeds"
+    return "it has no restitutions of one ball at known speeds"
 
 
 def make_series(data: "xr.Dataset", *, air: bool = True) -> Series:
@@ -140,16 +131,8 @@ def make_series(data: "xr.Dataset", *, air: bool = True) -> Series:
         more = 1.0 + _DRAG_ERROR / _DRAG_COEFFICIENT
         shift = _points(more * drag, data).values - found.values
         found = found._replace(assumed=found.assumed + np.outer(shift, shift))
-    view = _view_of(data)
-    quantity = RESTITUTION if view is None else view.quantity
-    kept = data.get("restitution") if quantity == CONTACT_TIME else None
-    return Series(
-        **{key: data.attrs[key] for key in ("name", "title", "ball")},
-        **found._asdict(),
-        quantity=quantity,
-        drag=drag if quantity == RESTITUTION else 0.0,
-        restitution=None if kept is None else float(kept[0]),
-    )
+    named = {key: data.attrs[key] for key in ("name", "title", "ball")}
+    return Series(**named, **found._asdict(), drag=drag)
 
 
 class _Measured(NamedTuple):
@@ -219,18 +202,13 @@ def _blocks(_: float, given: dict[str, Array]) -> _Points:
     return speed, 1.0 + np.diff(flight) / np.diff(middle)
 
 
-def _contacts(drag: float, given: dict[str, Array]) -> _Points:
-    return _each(in_air.fallen_speed, drag, given["drop_height"]), given["contact_time"]
-
-
 _VIEWS = (
-    _View(("drop_height", "contact_time"), CONTACT_TIME, _contacts),
-    _View(("drop_height", "rebound_height"), RESTITUTION, _rebounds),
-    _View(("drop_height", "knock_time"), RESTITUTION, _knocks),
-    _View(("drop_height", "restitution"), RESTITUTION, _ratios),
-    _View(("impact_speed", "restitution"), RESTITUTION, _at_speeds),
-    _View(("apex_height",), RESTITUTION, _apexes),
-    _View(("start", "end", "flights"), RESTITUTION, _blocks),
+    _View(("drop_height", "rebound_height"), _rebounds),
+    _View(("drop_height", "knock_time"), _knocks),
+    _View(("drop_height", "restitution"), _ratios),
+    _View(("impact_speed", "restitution"), _at_speeds),
+    _View(("apex_height",), _apexes),
+    _View(("start", "end", "flights"), _blocks),
 )
 
 
