@@ -1,6 +1,6 @@
 """A dataset as a series: restitutions at several speeds, with a covariance.
 
-Each kind of table has a `View`, which is chosen by the names of its columns.
+Each kind of table has a formula, which is chosen by the names of its columns.
 """
 
 import math
@@ -92,20 +92,13 @@ class Series:
         return bool(np.any(self.assumed != 0.0))
 
 
-class _View(NamedTuple):
-    """How a table with some columns becomes a series."""
-
-    columns: tuple[str, ...]
-    transform: _Transform
-
-
 def why_not(data: "xr.Dataset") -> str:
     """Return why a dataset is no series; empty if it is one."""
     if data.attrs["kind"] == "rule":
         return "it has the limits of rules, no measurement"
     if data.sizes["row"] < 2:
         return "it has one value only"
-    if _view_of(data) is not None or {"flight", "flight_time"} <= set(data):
+    if _columns_of(data) or {"flight", "flight_time"} <= set(data):
         return ""
     return "it has no restitutions of one ball at known speeds"
 
@@ -131,8 +124,9 @@ def make_series(data: "xr.Dataset", *, air: bool = True) -> Series:
         more = 1.0 + _DRAG_ERROR / _DRAG_COEFFICIENT
         shift = _points(more * drag, data).values - found.values
         found = found._replace(assumed=found.assumed + np.outer(shift, shift))
-    named = {key: data.attrs[key] for key in ("name", "title", "ball")}
-    return Series(**named, **found._asdict(), drag=drag)
+    return Series(
+        **{key: data.attrs[key] for key in ("name", "title", "ball")}, **found._asdict(), drag=drag
+    )
 
 
 class _Measured(NamedTuple):
@@ -146,8 +140,8 @@ class _Measured(NamedTuple):
 
 
 def _points(drag: float, data: "xr.Dataset") -> _Measured:
-    view = _view_of(data)
-    return _flights(drag, data) if view is None else _propagated(view, drag, data)
+    columns = _columns_of(data)
+    return _propagated(columns, drag, data) if columns else _flights(drag, data)
 
 
 def _drag_of_ball(data: "xr.Dataset") -> float:
@@ -202,29 +196,30 @@ def _blocks(_: float, given: dict[str, Array]) -> _Points:
     return speed, 1.0 + np.diff(flight) / np.diff(middle)
 
 
-_VIEWS = (
-    _View(("drop_height", "rebound_height"), _rebounds),
-    _View(("drop_height", "knock_time"), _knocks),
-    _View(("drop_height", "restitution"), _ratios),
-    _View(("impact_speed", "restitution"), _at_speeds),
-    _View(("apex_height",), _apexes),
-    _View(("start", "end", "flights"), _blocks),
-)
+_FORMULAS: dict[tuple[str, ...], _Transform] = {
+    ("drop_height", "rebound_height"): _rebounds,
+    ("drop_height", "knock_time"): _knocks,
+    ("drop_height", "restitution"): _ratios,
+    ("impact_speed", "restitution"): _at_speeds,
+    ("apex_height",): _apexes,
+    ("start", "end", "flights"): _blocks,
+}
 
 
-def _view_of(data: "xr.Dataset") -> _View | None:
-    return next((view for view in _VIEWS if set(view.columns) <= set(data)), None)
+def _columns_of(data: "xr.Dataset") -> tuple[str, ...]:
+    """Return the columns that a formula takes; empty if none does."""
+    return next((columns for columns in _FORMULAS if set(columns) <= set(data)), ())
 
 
-def _propagated(view: _View, drag: float, data: "xr.Dataset") -> _Measured:
+def _propagated(names: tuple[str, ...], drag: float, data: "xr.Dataset") -> _Measured:
     """Return speeds, values and their covariances, by the derivatives by each number given."""
-    columns = {name: _read(data, name) for name in view.columns}
+    transform, columns = _FORMULAS[names], {name: _read(data, name) for name in names}
     given = {name: column.means for name, column in columns.items()}
-    speeds, values = view.transform(drag, given)
+    speeds, values = transform(drag, given)
     published, assumed = np.zeros((2, values.size, values.size))
     scatters: list[Scatter] = []
     for name, column in columns.items():
-        slopes = _slopes(view.transform, drag, given, name)
+        slopes = _slopes(transform, drag, given, name)
         published += (slopes * column.variances) @ slopes.T
         assumed += column.assumed**2 * slopes @ slopes.T
         if column.scatter:
@@ -293,7 +288,6 @@ def _flights(drag: float, data: "xr.Dataset") -> _Measured:
     covariance = np.diag(np.full(bounces, variance))
     covariance[next_too, next_too + 1] = covariance[next_too + 1, next_too] = shared
     covariance /= throws
-    speeds = landing[after - 1].mean(axis=1)
     freedom = bounces * (throws - 1.0) / (1.0 + 2.0 * float(shared / variance) ** 2)
-    scatters = ((covariance, freedom),)
+    speeds, scatters = landing[after - 1].mean(axis=1), ((covariance, freedom),)
     return _Measured(speeds, values, covariance, np.zeros_like(covariance), scatters)
