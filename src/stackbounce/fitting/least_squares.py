@@ -1,5 +1,6 @@
 """The minima of chi squared: many trials are screened, descents start at the best."""
 
+import functools
 import math
 from collections.abc import Iterable
 from operator import attrgetter
@@ -191,11 +192,16 @@ def _descend_smooth(objective: Objective, x: Array, fixed: int | None, gain: flo
     free = np.arange(len(x)) != fixed
     if not free.any():
         return Minimum(x, float(objective.chi_squared(x[None])[0]), True)
+
+    @functools.lru_cache(1)  # residuals and slopes are asked for in turn
+    def linearised(*inner: float) -> tuple[Array, Array]:
+        return objective.linearise(_moved(x, free, np.array(inner)))
+
     low, high = objective.spans[free].T
     found = least_squares(
-        lambda inner: objective.residuals(_moved(x, free, inner)[None])[0],
+        lambda inner: linearised(*inner)[0],
         np.clip(x[free], low, high),
-        lambda inner: objective.linearise(_moved(x, free, inner))[1][:, free],
+        lambda inner: linearised(*inner)[1][:, free],
         bounds=(low, high),
         ftol=gain,
         xtol=10.0 * gain,
