@@ -58,7 +58,7 @@ def test_help_does_not_wait_for_heavy_libraries(arguments):
     code = (
         f"import sys; from stackbounce.cli import main; main({arguments}); "
         "heavy = {'numpy', 'pint', 'xarray', 'matplotlib', 'numba', 'uncertainties', 'jinja2', "
-        "'lmfit', 'emcee', 'scipy'}; "
+        "'emcee', 'scipy'}; "
         "sys.exit(', '.join(sorted(heavy & set(sys.modules))))"
     )
     assert process(code=code).stderr.strip() == ""

@@ -115,11 +115,12 @@ def solve_quantities(drop: Drop, rows: Rows, count: int, options: Options) -> So
     (array([[1.]]), array([[0.25]]))
     """
     out = solve(drop, rows, (count,), options)
+    speed, gravity = incidence(drop, rows, count)
     unsolved = np.isin(out.status, (Status.EVENT_LIMIT, Status.INVALID))
     found = {}
     for name, quantity in QUANTITIES.items():
         with np.errstate(all="ignore"):
-            table = np.reshape(quantity.predict(out, *incidence(drop, rows, count)), (count, -1))
+            table = np.reshape(quantity.predict(out, speed, gravity), (count, -1))
         if table.dtype.kind == "f":
             table = np.where(np.isfinite(table) & ~unsolved[:, None], table, np.nan)
         found[name] = table
