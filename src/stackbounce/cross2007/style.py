@@ -5,9 +5,12 @@ apart, and so can readers of a print in grey; line styles and labels carry the s
 """
 
 import io
+import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -78,6 +81,28 @@ class Picture:
     figure: "Figure"
 
 
+def describe(name: str, figure: "Figure", **numbers: object) -> Picture:
+    """Return a figure with its words from ``figures.toml``, in which the numbers are filled in."""
+    words = _read_words()[name]
+    features = (
+        Feature(*(text.format(**numbers) for text in feature))
+        for feature in words.get("features", ())
+    )
+    return Picture(
+        name,
+        words["title"].format(**numbers),
+        words["caption"].format(**numbers),
+        tuple(guess.format(**numbers) for guess in words["guesses"]),
+        tuple(features),
+        figure,
+    )
+
+
+@cache
+def _read_words() -> dict[str, Any]:
+    return tomllib.loads((files(__package__) / "figures.toml").read_text("utf-8"))
+
+
 @contextmanager
 def use_style() -> Iterator[None]:
     """Draw in the paper's style within this context."""
@@ -118,13 +143,13 @@ def make_axes(
     return figure, panels
 
 
-def bracket(ax: "Axes", start: float, end: float, text: str) -> None:
-    """Mark an interval that the paper reports above the curves, with a text."""
+def bracket(ax: "Axes", end: float, text: str) -> None:
+    """Mark an interval from 0 that the paper reports above the curves, with a text."""
     place = ax.get_xaxis_transform()
     ax.annotate(
         "",
         xy=(end, _BRACKET),
-        xytext=(start, _BRACKET),
+        xytext=(0.0, _BRACKET),
         xycoords=place,
         textcoords=place,
         arrowprops={
@@ -137,7 +162,7 @@ def bracket(ax: "Axes", start: float, end: float, text: str) -> None:
     )
     ax.annotate(
         text,
-        xy=(start, _BRACKET),
+        xy=(0.0, _BRACKET),
         xycoords=place,
         xytext=(4.0, 5.0),
         textcoords="offset points",
@@ -170,7 +195,7 @@ def tag(
 
 def render(figure: "Figure") -> dict[str, bytes]:
     """Return a figure as bytes of an SVG and a PNG file; equal figures give equal bytes."""
-    files = {}
+    images = {}
     with use_style():
         for ending, options in (
             ("svg", {"metadata": {"Date": None, "Creator": None}}),
@@ -178,5 +203,5 @@ def render(figure: "Figure") -> dict[str, bytes]:
         ):
             buffer = io.BytesIO()
             figure.savefig(buffer, format=ending, **options)
-            files[ending] = buffer.getvalue()
-    return files
+            images[ending] = buffer.getvalue()
+    return images
