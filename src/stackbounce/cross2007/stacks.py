@@ -13,9 +13,6 @@ from stackbounce.model.drop import Drop
 from stackbounce.model.laws import HollowBall, Hysteretic, Spring
 from stackbounce.run.calibration import calibrate
 
-WITH_105 = "with B1 = 1.040 x 101 g = 105 g"
-"""The reading of the large ball's mass that follows from Table II's mass ratios."""
-
 _HOLLOW = 0.026, 700.0  # s and N/m, where the search for the hollow ball's numbers begins
 
 
