@@ -136,7 +136,14 @@ def half_unit(number: str) -> float:
     >>> half_unit("2.64"), half_unit("5.4e4"), half_unit("106")
     (0.005, 500.0, 0.5)
     """
-    return float(_last_digit(number) / 2)
+    return float(Decimal(5).scaleb(last_place(number) - 1))
+
+
+def last_place(number: str) -> int:
+    """Return the power of ten of the last printed digit."""
+    exponent = Decimal(number).as_tuple().exponent
+    assert isinstance(exponent, int)
+    return exponent
 
 
 def source_of(function: Callable[..., object]) -> str:
@@ -156,7 +163,7 @@ def source_of(function: Callable[..., object]) -> str:
     Examples
     --------
     >>> source_of(half_unit)
-    'float(_last_digit(number) / 2)'
+    'float(Decimal(5).scaleb(last_place(number) - 1))'
     >>> def bounce_of(ball):
     ...     return lambda b: b(f"{ball}.rebound_height")
     >>> source_of(bounce_of("tennis"))
@@ -238,9 +245,3 @@ def _verdict(computed: float, number: float, tolerance: float, error: float) -> 
     # with an error as large as the number itself, every value would pass
     telling = error < abs(number)
     return WITHIN_ERROR if telling and distance <= tolerance + error else DIFFERS
-
-
-def _last_digit(number: str) -> Decimal:
-    exponent = Decimal(number).as_tuple().exponent
-    assert isinstance(exponent, int)
-    return Decimal(1).scaleb(exponent)

@@ -11,8 +11,9 @@ from stackbounce.cross2007.curves import (
     rebound_by_stiffness,
     sample_forces,
 )
-from stackbounce.cross2007.drops import Array, spring_pair
+from stackbounce.cross2007.drops import Array
 from stackbounce.cross2007.lines import AFTER_FIRST, AFTER_SECOND, STIFFNESS, pair_mass_ratios
+from stackbounce.cross2007.stacks import figure_5
 from stackbounce.cross2007.style import (
     BLACK,
     FLOOR,
@@ -70,11 +71,8 @@ def draw_figure_4b(bench: Bench) -> Picture:
 def draw_figure_5(bench: Bench) -> Picture:
     """Draw displacements and forces of two masses whose collisions are nearly separate."""
     figure, (motion, force) = make_axes(4.2, 2)
-    masses = bench("fig5.lower_mass"), bench("fig5.upper_mass")
-    stiffnesses = bench("fig5.floor_stiffness"), bench("fig5.ball_stiffness")
-    drop = spring_pair(masses, stiffnesses, speed=bench("models.speed"))
     times = np.linspace(0.0, 0.040, 401)
-    (floor, between), result = sample_forces(bench, drop, times)
+    (floor, between), result = sample_forces(bench, figure_5(bench), times)
     place = -1e3 * np.asarray(result.sample(times)["position"].values)
     ms = 1e3 * times
     motion.plot(ms, place[0], color=FLOOR)

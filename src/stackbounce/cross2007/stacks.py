@@ -28,23 +28,31 @@ def section_two(b: Bench, ratio: float, stiffness: float) -> Drop:
     return spring_pair(masses, springs, speed=b("models.speed"))
 
 
+def _springs(b: Bench, fit: str) -> Two:
+    """Return the stiffnesses at the floor and between the balls of one of the paper's fits."""
+    return b(f"{fit}floor_stiffness"), b(f"{fit}ball_stiffness")
+
+
+def figure_5(b: Bench) -> Drop:
+    """Return the drop of Fig. 5."""
+    masses = b("fig5.lower_mass"), b("fig5.upper_mass")
+    return spring_pair(masses, _springs(b, "fig5."), speed=b("models.speed"))
+
+
 def better_fit(b: Bench) -> Drop:
     """Return the drop of Fig. 9."""
-    stiffnesses = b("fig9.floor_stiffness"), b("fig9.ball_stiffness")
-    return spring_pair(stack_masses(b), stiffnesses, speed=b("stack.impact_speed"))
+    return spring_pair(stack_masses(b), _springs(b, "fig9."), speed=b("stack.impact_speed"))
 
 
 def other_fit(b: Bench) -> Drop:
     """Return the alternative fit that the text describes beside Fig. 9."""
-    stiffnesses = b("fig9.other_floor_stiffness"), b("fig9.other_ball_stiffness")
-    return spring_pair(stack_masses(b), stiffnesses, speed=b("stack.impact_speed"))
+    return spring_pair(stack_masses(b), _springs(b, "fig9.other_"), speed=b("stack.impact_speed"))
 
 
 def spring_record(b: Bench, gap: float = 0.0) -> Drop:
     """Return the drop of Fig. 8 on Fig. 9's springs, with a gap in m."""
-    stiffnesses = b("fig9.floor_stiffness"), b("fig9.ball_stiffness")
     speed = fallen_speed(b("fig8.drop_height"))
-    return spring_pair(stack_masses(b), stiffnesses, speed=speed, gap=gap)
+    return spring_pair(stack_masses(b), _springs(b, "fig9."), speed=speed, gap=gap)
 
 
 def hollow_record(b: Bench, gap: float = 0.0) -> Drop:
@@ -125,11 +133,11 @@ def smallest_fit(bench: Bench, heavy: float) -> Drop:
 
 def _section_v(bench: Bench, fit: str, heavy: float, upper: str) -> Drop:
     """Return a drop on B1 that loses energy at the floor and none between the balls."""
-    stiffnesses = bench(f"{fit}.floor_stiffness"), bench(f"{fit}.ball_stiffness")
+    below, between = _springs(bench, f"{fit}.")
     speed, gap = superball_speed(bench), bench(f"{fit}.gap")
     masses = heavy, bench(f"{upper}.mass")
-    floor = Hysteretic(stiffnesses[0], unloading_exponent=bench("V.exponent"))
-    return pair(masses, [floor, Spring(stiffnesses[1])], speed=speed, gap=gap)
+    floor = Hysteretic(below, unloading_exponent=bench("V.exponent"))
+    return pair(masses, [floor, Spring(between)], speed=speed, gap=gap)
 
 
 def reversed_pair(bench: Bench, gap: float) -> Drop:
