@@ -35,24 +35,26 @@ def _springs(b: Bench, fit: str) -> Two:
 
 def figure_5(b: Bench) -> Drop:
     """Return the drop of Fig. 5."""
-    masses = b("fig5.lower_mass"), b("fig5.upper_mass")
-    return spring_pair(masses, _springs(b, "fig5."), speed=b("models.speed"))
+    masses, springs = (b("fig5.lower_mass"), b("fig5.upper_mass")), _springs(b, "fig5.")
+    return spring_pair(masses, springs, speed=b("models.speed"))
 
 
 def better_fit(b: Bench) -> Drop:
     """Return the drop of Fig. 9."""
-    return spring_pair(stack_masses(b), _springs(b, "fig9."), speed=b("stack.impact_speed"))
+    springs = _springs(b, "fig9.")
+    return spring_pair(stack_masses(b), springs, speed=b("stack.impact_speed"))
 
 
 def other_fit(b: Bench) -> Drop:
     """Return the alternative fit that the text describes beside Fig. 9."""
-    return spring_pair(stack_masses(b), _springs(b, "fig9.other_"), speed=b("stack.impact_speed"))
+    springs = _springs(b, "fig9.other_")
+    return spring_pair(stack_masses(b), springs, speed=b("stack.impact_speed"))
 
 
 def spring_record(b: Bench, gap: float = 0.0) -> Drop:
     """Return the drop of Fig. 8 on Fig. 9's springs, with a gap in m."""
-    speed = fallen_speed(b("fig8.drop_height"))
-    return spring_pair(stack_masses(b), _springs(b, "fig9."), speed=speed, gap=gap)
+    springs, speed = _springs(b, "fig9."), fallen_speed(b("fig8.drop_height"))
+    return spring_pair(stack_masses(b), springs, speed=speed, gap=gap)
 
 
 def hollow_record(b: Bench, gap: float = 0.0) -> Drop:
