@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -26,34 +27,6 @@ GREY = "#6b6b6b"
 
 WIDTH = 4.2  # inches
 _BRACKET = 0.75  # height of a bracket in its axes
-
-_RC: dict[Any, Any] = {
-    "font.family": "STIXGeneral",
-    "mathtext.fontset": "stix",
-    "font.size": 10.5,
-    "axes.labelsize": 10.5,
-    "axes.linewidth": 0.7,
-    "axes.xmargin": 0.0,
-    "xtick.direction": "in",
-    "ytick.direction": "in",
-    "xtick.top": True,
-    "ytick.right": True,
-    "xtick.minor.visible": True,
-    "ytick.minor.visible": True,
-    "xtick.major.width": 0.7,
-    "ytick.major.width": 0.7,
-    "xtick.minor.width": 0.5,
-    "ytick.minor.width": 0.5,
-    "xtick.labelsize": 9.5,
-    "ytick.labelsize": 9.5,
-    "lines.linewidth": 1.25,
-    "lines.dash_capstyle": "butt",
-    "lines.dashed_pattern": (5.0, 2.2),
-    "figure.facecolor": "white",
-    "savefig.facecolor": "white",
-    "svg.fonttype": "path",
-    "svg.hashsalt": "stackbounce",
-}
 
 
 @dataclass(frozen=True)
@@ -109,8 +82,7 @@ def use_style() -> Iterator[None]:
     import matplotlib as mpl
 
     with mpl.rc_context():
-        mpl.rcdefaults()
-        mpl.rcParams.update(_RC)
+        mpl.rc_file(Path(__file__).with_name("paper.mplstyle"))
         yield
 
 
