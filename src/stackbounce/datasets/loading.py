@@ -164,11 +164,6 @@ def _all() -> dict[str, Description]:
 def published() -> dict[str, Description]:
     """Return the datasets of the folder by their names, in alphabetical order.
 
-    Raises
-    ------
-    InvalidValue
-        If a file is not as `read_description` wants it.
-
     Examples
     --------
     >>> published()["golf-marble-heights"].surface
