@@ -218,21 +218,12 @@ def stored_energy(stack: Stack, i: int, compression: float) -> float:
     """
     if stack.phase[i] == codes.OPEN:
         return 0.0
-    if stack.law[i] == codes.PRODUCT:
-        held = abs(compression) if stack.bonded[i] == 1 else max(0.0, compression)
-        return _elastic_work(stack, i, held)
-    if stack.law[i] == codes.PIECEWISE or stack.depth[i] > 0:
-        return _held_by_elements(stack, i, max(0.0, compression))
+    if stack.law[i] >= codes.PRODUCT or stack.depth[i] > 0:
+        return potential(stack, i, compression)
     exponent = stack.curve_exponent[i]
     if stack.law[i] == codes.HYSTERETIC and stack.top[i] == math.inf:
         exponent = stack.unloading[i]
     return force(stack, i, compression, 0.0, 0.0) * compression / (exponent + 1.0)
-
-
-@kernel
-def _held_by_elements(stack: Stack, i: int, c: float) -> float:
-    """Return the work that a contact with pieces or hysteresis would do until it opens."""
-    return returned_work(stack, i, c) if has_hysteresis(stack, i) else loading_work(stack, i, c)
 
 
 @kernel
@@ -257,8 +248,10 @@ def potential(stack: Stack, i: int, compression: float) -> float:
     c = abs(compression) if stack.bonded[i] == 1 else max(0.0, compression)
     if stack.law[i] == codes.PRODUCT:
         return _elastic_work(stack, i, c)
-    if stack.law[i] in (codes.HYSTERETIC, codes.PIECEWISE):
-        return _held_by_elements(stack, i, c)
+    if has_hysteresis(stack, i):
+        return returned_work(stack, i, c)
+    if stack.law[i] == codes.PIECEWISE:
+        return loading_work(stack, i, c)
     if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
         return 0.5 * stack.rate[i] * c * c
     exponent = stack.curve_exponent[i] + 1.0
