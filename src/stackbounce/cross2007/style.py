@@ -56,7 +56,7 @@ class Picture:
 
 def describe(name: str, figure: "Figure", **numbers: object) -> Picture:
     """Return a figure with its words from ``figures.toml``, in which the numbers are filled in."""
-    words = _read_words()[name]
+    words = read_words()[name]
     features = (
         Feature(*(text.format(**numbers) for text in feature))
         for feature in words.get("features", ())
@@ -72,7 +72,8 @@ def describe(name: str, figure: "Figure", **numbers: object) -> Picture:
 
 
 @cache
-def _read_words() -> dict[str, Any]:
+def read_words() -> dict[str, Any]:
+    """Return the contents of ``figures.toml``: the words of each figure by its number."""
     return tomllib.loads((files(__package__) / "figures.toml").read_text("utf-8"))
 
 
