@@ -20,17 +20,13 @@ _LOSSY = Hysteretic  # the paper's own way to lose energy
 
 def list_choices() -> dict[str, Any]:
     """Return balls, contact laws, examples and the limits of a request."""
-    presets = [
-        {"name": case.name, "group": case.group, "title": case.title, "says": case.says}
-        | {"drop": case.drop.to_mapping()}
-        for case in (*list_examples(), *list_cases())
-    ]
+    cases = (*list_examples(), *list_cases())
     return {
         "stackbounce": __version__,
         "balls": [entry.to_mapping() for entry in (*BALLS, *CLASS_BALLS)],
         "laws": [_describe_law(kind) for kind in LAWS.values()],
         "lossy_law": _LOSSY.__name__,
-        "presets": presets,
+        "presets": [vars(case) | {"drop": case.drop.to_mapping()} for case in cases],
         "limits": LIMITS,
     }
 

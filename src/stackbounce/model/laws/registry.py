@@ -17,8 +17,7 @@ UNLISTED: dict[str, type[ContactLaw]] = {}
 
 def usual_laws() -> list[str]:
     """Return the names of the laws that `standard_models` compares."""
-    rigid = [name for name, law in LAWS.items() if law.rigid and not law.loss_depends_on]
-    return rigid + [name for name, law in LAWS.items() if law.usual_models]
+    return ["Rigid", *(name for name, law in LAWS.items() if law.usual_models)]
 
 
 _JOINED = str.maketrans("", "", "-_")
