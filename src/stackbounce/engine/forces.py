@@ -85,19 +85,14 @@ def take_law(stack: Stack, i: int, kind: int, k: float, p: float, z: float, w: f
             stack.law[i] = codes.HYSTERETIC
             stack.unloading[i] = z
             stack.loss_exponent[i] = z - p
-    elif kind == codes.BOND:
-        stack.law[i] = codes.PRODUCT
-        stack.bonded[i] = 1
-        stack.factor_exponent[i] = 0.0
-        stack.gain_slope[i] = 1.0
-        stack.gain_rate[i] = z / k
     elif kind == codes.TWO_STAGE:
         take_two_stages(stack, i, z, w, p)
     elif kind == codes.TABULATED:
         take_table(stack, i, int(z), w, p)
-    elif kind != codes.POWER and z > 0.0:
+    elif kind == codes.BOND or (kind != codes.POWER and z > 0.0):
         stack.law[i] = codes.PRODUCT
-        if kind == codes.DASHPOT:  # k (c + z/k c')
+        if kind in (codes.BOND, codes.DASHPOT):  # k (c + z/k c')
+            stack.bonded[i] = 1 if kind == codes.BOND else 0
             stack.factor_exponent[i] = 0.0
             stack.gain_slope[i] = 1.0
             stack.gain_rate[i] = z / k

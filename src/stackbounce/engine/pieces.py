@@ -33,8 +33,8 @@ _ROUND_OFF = 4.0 * EPSILON  # of a share
 @kernel
 def take_two_stages(stack: Stack, i: int, knee: float, softening: float, returned: float) -> None:
     """Give contact i a loading curve of two straight pieces: c up to ``knee``, then softer."""
-    _put_piece(stack, i, 0, 0.0, 0.0, 1.0, 0.0)
-    _put_piece(stack, i, 1, knee, knee, softening, 0.0)
+    _put_straight(stack, i, 0, 0.0, 1.0)
+    _put_straight(stack, i, 1, knee, softening)
     take_table(stack, i, 2, 2.0 * (1.0 / returned - 1.0), returned)
 
 
@@ -61,14 +61,12 @@ def take_table(stack: Stack, i: int, loading: int, loss: float, returned: float)
 
 
 @kernel
-def _put_piece(
-    stack: Stack, i: int, j: int, begin: float, constant: float, slope: float, square: float
-) -> None:
+def _put_straight(stack: Stack, i: int, j: int, begin: float, slope: float) -> None:
+    """Give contact i a straight piece that begins where the first one, c, is."""
     at = (i * MOST_PIECES + j) * PIECE_NUMBERS
-    stack.pieces[at + _BEGIN] = begin
-    stack.pieces[at + _CONSTANT] = constant
+    stack.pieces[at + _BEGIN] = stack.pieces[at + _CONSTANT] = begin
     stack.pieces[at + _SLOPE] = slope
-    stack.pieces[at + _SQUARE] = square
+    stack.pieces[at + _SQUARE] = 0.0
 
 
 @kernel
