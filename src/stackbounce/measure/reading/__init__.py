@@ -9,7 +9,7 @@ numbers    the rows below -> an array, by pandas where they are plain
 headings   "Run 1: Time (ms)" -> name, unit, run
 roles      names and units -> what a column is
 layouts    which program wrote a table, and where its columns are
-formats/   a file for each program whose tables are recognised
+formats/   a function for each program whose tables are recognised
 bare       columns without names -> what their numbers look like
 video      frames as times, pixels as lengths, one row for each frame
 dataset    columns -> the Dataset of what they hold
