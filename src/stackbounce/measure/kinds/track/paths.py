@@ -121,25 +121,26 @@ def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
         if name not in found.positions[0]:
             raise InvalidValue(f"axis must be one of the track's, got {shown(axis)}")
         return Upward(name, sign)
-    best = ("y" if "y" in found.positions[0] else "x", 1.0, 0.0)
+    best, most = Upward("y" if "y" in found.positions[0] else "x", 1.0), 0.0
     for name in found.positions[0]:
-        gains = [0.0, 0.0]  # upward, downward
-        for position in found.positions:
-            good = np.isfinite(position[name])
-            times, heights = found.times[good], position[name][good]
-            if good.sum() < 5 or np.ptp(heights) == 0.0:
-                continue
-            told = _moving(times, heights)
-            times, heights = times[told], heights[told]
-            falls = _guesses(times, heights, gravity)
-            both = np.concatenate([[0.0], falls, -_guesses(times, -heights, gravity)])
-            costs = unexplained(times, heights, _noise(heights), both)
-            gains[0] += float(costs[0] - costs[1 : 1 + len(falls)].min())
-            gains[1] += float(costs[0] - costs[1 + len(falls) :].min())
+        gains = sum(_gains(found.times, position[name], gravity) for position in found.positions)
         for sign, gain in zip((1.0, -1.0), gains, strict=True):
-            if gain > best[2]:
-                best = (name, sign, gain)
-    return Upward(*best[:2])
+            if gain > most:
+                best, most = Upward(name, sign), float(gain)
+    return best
+
+
+def _gains(times: Array, heights: Array, gravity: float) -> Array:
+    """Return by how much flights explain a track better than none, upward and downward."""
+    good = np.isfinite(heights)
+    if good.sum() < 5 or np.ptp(heights[good]) == 0.0:
+        return np.zeros(2)
+    told = _moving(times[good], heights[good])
+    times, heights = times[good][told], heights[good][told]
+    falls = _guesses(times, heights, gravity)
+    both = np.concatenate([[0.0], falls, -_guesses(times, -heights, gravity)])
+    none, *costs = unexplained(times, heights, _noise(heights), both).tolist()
+    return none - np.array([min(costs[: len(falls)]), min(costs[len(falls) :])])
 
 
 def _guesses(times: Array, heights: Array, gravity: float) -> Array:

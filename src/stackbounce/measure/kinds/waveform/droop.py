@@ -1,21 +1,19 @@
 """The droop of a piezo sensor: a high-pass of first order, and its inverse."""
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from stackbounce.errors import positive
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.samples import columns
 
 
-def undrooped(times: ArrayLike, values: ArrayLike, time_constant: float) -> Array:
+def undrooped(times: Array, values: Array, time_constant: float) -> Array:
     """Return the input of a high-pass of first order from its output.
 
     Parameters
     ----------
-    times : array_like
+    times : ndarray
         (n,) in s, ascending.
-    values : array_like
+    values : ndarray
         (n,) the output, without any offset of the recorder.
     time_constant : float
         RC in s, above 0, in which the response to a constant force decays to 1/e.
@@ -29,7 +27,7 @@ def undrooped(times: ArrayLike, values: ArrayLike, time_constant: float) -> Arra
     Raises
     ------
     InvalidValue
-        If `time_constant` is not positive and finite, or lengths do not fit.
+        If `time_constant` is not positive and finite.
     InvalidType
         If it is no number.
 
@@ -46,7 +44,6 @@ def undrooped(times: ArrayLike, values: ArrayLike, time_constant: float) -> Arra
     0.0
     """
     rc = positive("time_constant", time_constant, "seconds")
-    t, y = columns((times, values), ("times", "values"))
-    share = np.diff(t) / rc
-    changes = (y[1:] - np.exp(-share) * y[:-1]) * share / -np.expm1(-share)
-    return np.cumsum(np.concatenate([y[:1], changes]))
+    share = np.diff(times) / rc
+    changes = (values[1:] - np.exp(-share) * values[:-1]) * share / -np.expm1(-share)
+    return np.cumsum(np.concatenate([values[:1], changes]))
