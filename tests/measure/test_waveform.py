@@ -11,8 +11,8 @@ import stackbounce as sb
 from measure.near import near
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.waveform.analysis import waveform
-from stackbounce.measure.kinds.waveform.droop import undrooped
 from stackbounce.measure.kinds.waveform.peaks import impulse_of
+from stackbounce.measure.kinds.waveform.record import undrooped
 from stackbounce.plots.measurements.waveform import draw
 from synthetic.waveform import drooped
 from synthetic.waveform import waveform as record_of

@@ -14,9 +14,7 @@ bare       columns without names -> what their numbers look like
 video      frames as times, pixels as lengths, one row for each frame
 dataset    columns -> the Dataset of what they hold
 clock      what a column of times counts: since when, in which unit
-series     the rows in time: runs, gaps, repeats
-rounding   to what steps times were rounded, and the even times that they were
-bounces    the table of phyphox's (in)elastic collision
+series     the rows in time: runs, gaps, repeats, and times that were rounded
 tables     the tables of a file with several, or in a packing of its own, as bytes
 zipped     a zip archive
 sheets     spreadsheets of Excel

@@ -10,17 +10,16 @@ from numpy.typing import ArrayLike, NDArray
 from stackbounce.errors import InvalidValue, positive, shown
 from stackbounce.measure.kinds.waveform.baseline import first_guess, quiet_parts
 from stackbounce.measure.kinds.waveform.contact import Seen, measure_contact
-from stackbounce.measure.kinds.waveform.droop import undrooped
-from stackbounce.measure.kinds.waveform.ends import UNTOLD, ends_of
 from stackbounce.measure.kinds.waveform.intervals import (
     Stretch,
     find_stretches,
     smoothed,
     which_sign,
 )
-from stackbounce.measure.kinds.waveform.record import Record, read_record
+from stackbounce.measure.kinds.waveform.record import Record, read_record, undrooped
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.sensor import sensitivity_of
+from stackbounce.measure.kinds.waveform.shapes import UNTOLD, ends_of
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, known_to, measured_if_given
 from stackbounce.model.laws import ContactLaw

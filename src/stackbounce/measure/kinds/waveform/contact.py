@@ -8,13 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.measure.kinds.waveform.baseline import Quiet, fit_quiet, scatter
-from stackbounce.measure.kinds.waveform.ends import Ends
 from stackbounce.measure.kinds.waveform.flanks import Flank, fit_flank
 from stackbounce.measure.kinds.waveform.intervals import Stretch
 from stackbounce.measure.kinds.waveform.peaks import Peak, find_peaks, flat_top, impulse_of
 from stackbounce.measure.kinds.waveform.result import Contact
-from stackbounce.measure.kinds.waveform.shapes import Shape
-from stackbounce.measure.quantities import Array, known_to
+from stackbounce.measure.kinds.waveform.shapes import Ends, Shape
+from stackbounce.measure.quantities import Array, known_to, nominal
 from stackbounce.measure.samples import quantisation_error
 
 _BESIDE = 2  # times the contact's length: baseline that is looked at on each side
@@ -101,12 +100,11 @@ def measure_contact(
     rise = _flank(part, peaks[0], ends.touch, forward=True) if one.first > 1 else None
     whole = one.last < len(seen.times) - 2
     fall = _flank(part, peaks[-1], ends.release, forward=False) if whole else None
-    inside = (
-        rise.time if rise else float(part.times[part.first]),
-        fall.time if fall else float(part.times[part.last]),
-    )
+    start, end = (flank.time if flank else None for flank in (rise, fall))
+    moments = (part.times[part.first] if start is None else start,
+               part.times[part.last] if end is None else end)  # fmt: skip
+    inside = nominal(moments[0]), nominal(moments[1])
     area = impulse_of(part.times, part.values, part.density, part.offset, inside)
-    start, end = (known_to(flank.time, flank.error) if flank else None for flank in (rise, fall))
     times = [known_to(peak.time, peak.time_error) for peak in peaks]
     forces = [known_to(peak.force, hypot(peak.force_error, part.offset)) for peak in peaks]
     return Contact(
@@ -118,10 +116,7 @@ def measure_contact(
         impulse=known_to(*area),
         rise=None if start is None else times[0] - start,
         fall=None if end is None else end - times[-1],
-        exponents=(
-            known_to(rise.exponent, rise.exponent_error) if rise else None,
-            known_to(fall.exponent, fall.exponent_error) if fall else None,
-        ),
+        exponents=(rise.exponent if rise else None, fall.exponent if fall else None),
         clipped=flat_top(seen.raw[one.first : one.last + 1], seen.quantum),
         samples=len(one),
         flanks=(rise, fall),

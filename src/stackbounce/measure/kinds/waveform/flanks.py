@@ -13,7 +13,7 @@ import numpy as np
 
 from stackbounce.measure.kinds.waveform.intervals import smoothed
 from stackbounce.measure.kinds.waveform.shapes import Shape
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, Number, known_to
 
 _STARTS = 21  # of the force, on the grid
 _ZOOMS = 7  # of the grid
@@ -34,9 +34,9 @@ class Flank:
 
     Parameters
     ----------
-    time, error : float
-        When the force began, in s, and one standard deviation.
-    exponent, exponent_error : float
+    time : UFloat
+        When the force began, in s.
+    exponent : UFloat
         The power with which it began.
     times, force : ndarray
         The fitted curve, for a picture: in s and in the record's unit.
@@ -44,10 +44,8 @@ class Flank:
         Root of chi squared per degree of freedom; above 1 it multiplies the errors.
     """
 
-    time: float
-    error: float
-    exponent: float
-    exponent_error: float
+    time: Number
+    exponent: Number
     times: Array
     force: Array
     misfit: float
@@ -120,7 +118,7 @@ def fit_flank(
     >>> values = np.sin(np.maximum(times - 0.314, 0.0))
     >>> shape = Shape(1.0, 1.5)
     >>> flank = fit_flank(times, values, 1e-3, shape, peak=0.6, offset=0.0, length=1.4)
-    >>> abs(flank.time - 0.314) < 2 * flank.error < 0.02
+    >>> abs(flank.time.n - 0.314) < 2 * flank.time.s < 0.02
     True
     """
     found: Flank | None = None
@@ -192,7 +190,8 @@ def _fit(points: _Points, shape: Shape) -> Flank:
     freedom = max(1, len(times) - 5)
     fits = chi < freedom + _FITS_WITHIN * np.sqrt(2.0 * freedom)
     misfit = 1.0 if fits else float(np.sqrt(chi / freedom))
-    return Flank(t, e * misfit, p, r * misfit, *_curve(points, shape, *best), misfit)
+    start, exponent = known_to(t, e * misfit), known_to(p, r * misfit)
+    return Flank(start, exponent, *_curve(points, shape, *best), misfit)
 
 
 def _closer(
