@@ -134,8 +134,8 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
 
 def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
     """Return columns; those in a role of `_ASSUMED` without a unit are assumed to be in SI."""
-    without = [column for column in columns if column.role in _ASSUMED and not column.unit]
-    bare = [column for column in without if not column.heading.unit]
+    untold = [column for column in columns if not (column.unit or column.heading.unit)]
+    bare = [column for column in untold if column.role in _ASSUMED]
     if bare:
         names = dict.fromkeys(column.heading.name or column.variable for column in bare)
         units = dict.fromkeys(_ASSUMED[column.role] for column in bare)

@@ -79,13 +79,10 @@ def first_row(text: Text, start: int = 0, columns: Sequence[int] | None = None) 
     FileError
         If there is none.
     """
-    for index in range(start, len(text.head)):
-        row = text.head[index]
-        if columns is None:
-            found = count_numbers(row, text.decimal) > 0
-        else:
-            found = all(k < len(row) and count_numbers([row[k]], text.decimal) for k in columns)
-        if found:
+    least = 1 if columns is None else len(columns)
+    for index, row in enumerate(text.head[start:], start):
+        cells = row if columns is None else [row[k] for k in columns if k < len(row)]
+        if count_numbers(cells, text.decimal) >= least:
             return index
     raise FileError("it has a header and no row of numbers below it")
 

@@ -162,13 +162,10 @@ def tabulate(content: str, decimal: str | None = None, name: str = "") -> Text:
     if decimal not in (None, ".", ","):
         raise InvalidValue(about_option("decimal", f' must be "." or ",", got {shown(decimal)}'))
     starts, lines = _head(content)
-    marks = decimal or ".,"
-    found = [_score(lines, delimiter, marks) for delimiter in _DELIMITERS]
-    if decimal == ",":  # a comma is no delimiter then, but where cells are quoted
-        quoted = any('"' in line for line in lines)
-        found[2] = found[2] if quoted else (0, 0)
-    best = max(range(len(found)), key=lambda k: found[k])
-    delimiter = _DELIMITERS[best] if found[best] > (0, 0) else "\t"
+    scores = {delimiter: _score(lines, delimiter, decimal or ".,") for delimiter in _DELIMITERS}
+    if decimal == "," and not any('"' in line for line in lines):
+        del scores[","]  # it is a delimiter only where cells are quoted
+    delimiter = max(scores, key=scores.__getitem__)
     head = [split(line, delimiter) for line in lines]
     wide = max(map(len, head), default=0)
     if wide > COLUMNS:

@@ -18,6 +18,7 @@ from stackbounce.measure.kinds.track.time_base import is_usual
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import resolution
+from stackbounce.measure.statistics.ar_noise import difference_noise
 
 _GRAVITY_RATIO = (0.6, 1.6)  # of the flights' acceleration to gravity, by a wrong scale or clock
 _UNSCALED = 30.0  # the same ratio, from which on only another unit of length explains it
@@ -194,8 +195,7 @@ def _lasting(
 
 def _usual_acceleration(times: Array, heights: Array) -> float:
     """Return the typical size of the accelerations, in windows that are long enough to tell it."""
-    noise = float(np.median(np.abs(np.diff(heights, 3)))) / (0.6745 * math.sqrt(20.0))
-    noise = max(noise, resolution(heights) / math.sqrt(12.0))
+    noise = max(difference_noise(heights, 3), resolution(heights) / math.sqrt(12.0))
     step = float(np.median(np.diff(times)))
     found = 0.0
     for wide in _WINDOWS:

@@ -13,7 +13,7 @@ from stackbounce.measure.kinds.waveform.intervals import Stretch
 from stackbounce.measure.kinds.waveform.peaks import Peak, find_peaks, flat_top, impulse_of
 from stackbounce.measure.kinds.waveform.result import Contact
 from stackbounce.measure.kinds.waveform.shapes import Ends, Shape
-from stackbounce.measure.quantities import Array, known_to, nominal
+from stackbounce.measure.quantities import Array, known_to
 from stackbounce.measure.samples import quantisation_error
 
 _BESIDE = 2  # times the contact's length: baseline that is looked at on each side
@@ -101,9 +101,10 @@ def measure_contact(
     whole = one.last < len(seen.times) - 2
     fall = _flank(part, peaks[-1], ends.release, forward=False) if whole else None
     start, end = (flank.time if flank else None for flank in (rise, fall))
-    moments = (part.times[part.first] if start is None else start,
-               part.times[part.last] if end is None else end)  # fmt: skip
-    inside = nominal(moments[0]), nominal(moments[1])
+    inside = (
+        part.times[part.first] if start is None else start.nominal_value,
+        part.times[part.last] if end is None else end.nominal_value,
+    )
     area = impulse_of(part.times, part.values, part.density, part.offset, inside)
     times = [known_to(peak.time, peak.time_error) for peak in peaks]
     forces = [known_to(peak.force, hypot(peak.force_error, part.offset)) for peak in peaks]
