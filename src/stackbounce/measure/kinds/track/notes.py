@@ -4,10 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.measure.kinds.track.parabolas import Flights
+from stackbounce.measure.kinds.track.parabolas import Parabolas
 from stackbounce.measure.kinds.track.shape import Shape
 from stackbounce.measure.messages import Message, OptionHint
-from stackbounce.measure.quantities import Array
 
 _CORRELATED = 0.2  # correlation of neighbouring points' errors that is mentioned
 _BENT = 0.05  # of the acceleration within a flight: a smaller change is not mentioned
@@ -17,17 +16,16 @@ _NOTICED = 1.0  # standard errors of a speed, from which on its bias is mentione
 
 def notes_of(
     name: str,
-    times: Array,
-    fit: Flights,
+    fit: Parabolas,
     bounces: list[int],
     impact: Any,
     fallen: Any,
-    unit: str = "s",
+    unit: str,
 ) -> tuple[str, ...]:
     """Return the notes on a ball's track; `fallen` is its time of fall from rest, in a unit."""
     notes = []
     first = fit.flights[bounces[0]]
-    late = float(times[first.first] - (impact - fallen).nominal_value)
+    late = float(fit.times[first.first] - (impact - fallen).nominal_value)
     if late > 0.2 * fallen.nominal_value:
         notes.append(
             f"{name}: its track begins {late:.2g} {unit} after the fall did; the drop height is "
@@ -49,11 +47,11 @@ def notes_of(
 
 
 def stays_long(
-    name: str, times: Array, fit: Flights, bounce: int, impact: Any, fall: Any, *, alone: bool
+    name: str, fit: Parabolas, bounce: int, impact: Any, fall: Any, *, alone: bool
 ) -> tuple[str, ...]:
     """Return a note where a long contact biases the speeds at the touch."""
     before, after = fit.flights[bounce].last, fit.flights[bounce + 1].first
-    lasts = max(after - before - 1, 0) * float(np.median(np.diff(times)))  # at least
+    lasts = max(after - before - 1, 0) * float(np.median(np.diff(fit.times)))  # at least
     excess = 0.5 * fall.nominal_value * lasts
     if excess < _NOTICED * impact.std_dev:
         return ()

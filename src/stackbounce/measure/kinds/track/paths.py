@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.measure.kinds.track.flights import Flight, find_flights, unexplained
-from stackbounce.measure.kinds.track.parabolas import Flights, Parabolas, fit_flights
+from stackbounce.measure.kinds.track.parabolas import Parabolas
 from stackbounce.measure.kinds.track.shape import curvatures, own_noise
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns, resolution
@@ -123,24 +123,24 @@ def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
         return Upward(name, sign)
     best, most = Upward("y" if "y" in found.positions[0] else "x", 1.0), 0.0
     for name in found.positions[0]:
-        gains = sum(_gains(found.times, position[name], gravity) for position in found.positions)
-        for sign, gain in zip((1.0, -1.0), gains, strict=True):
+        each = [_gains(found.times, position[name], gravity) for position in found.positions]
+        for sign, gain in zip((1.0, -1.0), map(sum, zip(*each, strict=True)), strict=True):
             if gain > most:
-                best, most = Upward(name, sign), float(gain)
+                best, most = Upward(name, sign), gain
     return best
 
 
-def _gains(times: Array, heights: Array, gravity: float) -> Array:
+def _gains(times: Array, heights: Array, gravity: float) -> tuple[float, float]:
     """Return by how much flights explain a track better than none, upward and downward."""
     good = np.isfinite(heights)
     if good.sum() < 5 or np.ptp(heights[good]) == 0.0:
-        return np.zeros(2)
+        return 0.0, 0.0
     told = _moving(times[good], heights[good])
     times, heights = times[good][told], heights[good][told]
     falls = _guesses(times, heights, gravity)
     both = np.concatenate([[0.0], falls, -_guesses(times, -heights, gravity)])
     none, *costs = unexplained(times, heights, _noise(heights), both).tolist()
-    return none - np.array([min(costs[: len(falls)]), min(costs[len(falls) :])])
+    return none - min(costs[: len(falls)]), none - min(costs[len(falls) :])
 
 
 def _guesses(times: Array, heights: Array, gravity: float) -> Array:
@@ -164,7 +164,7 @@ def _accelerations(times: Array, heights: Array, wide: int) -> Array:
     return curvatures(t, u)
 
 
-def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Flights, list[int]] | None:
+def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Parabolas, list[int]] | None:
     """Return the flights of a ball, and after which of them it bounces, None where it never does.
 
     The acceleration is fitted, as the frame rate and the scale of the track may be wrong. In a long
@@ -190,8 +190,7 @@ def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Flights, l
         fitted, jumps = _joined(times, heights, find_flights(times, heights, sigma, acceleration))
     if fitted is None or fitted.fall <= 0.0:
         return None
-    kept = fitted.together()
-    return fit_flights(times, heights, _released(times, kept, jumps)), jumps
+    return Parabolas(times, heights, _released(fitted, jumps)), jumps
 
 
 def _spread(fitted: Parabolas) -> float:
@@ -210,7 +209,7 @@ def _moving(times: Array, heights: Array) -> NDArray[np.intp] | slice:
     return np.concatenate([np.arange(start, start + _STRETCH) for start in most.tolist()])
 
 
-def _released(times: Array, fitted: Flights, bounces: list[int]) -> list[Flight]:
+def _released(fitted: Parabolas, bounces: list[int]) -> list[Flight]:
     """Return the flights, less the first points of a fall that follows a rest.
 
     Just after its release a ball has moved by less than the error of a point. Such a point may
@@ -224,7 +223,7 @@ def _released(times: Array, fitted: Flights, bounces: list[int]) -> list[Flight]
             continue
         apex = fitted.origins[j] + fitted.values[2 + 2 * j] / fall
         after = apex + math.sqrt(2.0 * _SEEN_FALL * fitted.sigma / fall)
-        start = max(first, int(np.searchsorted(times, after)))
+        start = max(first, int(np.searchsorted(fitted.times, after)))
         if last - start >= _LEAST_FALL:
             flights[j] = Flight(start, last)
     return flights
@@ -297,18 +296,18 @@ def _united(flights: list[Flight], weakest: NDArray[np.intp]) -> list[Flight]:
     return sorted([*rest, *(Flight(flights[j].first, flights[j + 1].last) for j in taken)])
 
 
-def tilt_of(balls: Sequence[tuple[Array, Array, Array, list[Flight]]]) -> tuple[float, float]:
+def tilt_of(fits: Sequence[Parabolas], sides: Sequence[Array]) -> tuple[float, float]:
     """Return the angle in radians between an axis and the vertical, and its error.
 
-    Of each ball `balls` has the times, the positions along the axis and across it, the flights.
+    Of each ball `fits` has the flights along the axis, and `sides` the positions across it.
     """
     angles, weights = [], []
-    for t, up, side, own in balls:
-        good = np.isfinite(up) & np.isfinite(side)
-        kept = [Flight(a, b) for a, b in own if good[a:b].all()]
+    for fit, across in zip(fits, sides, strict=True):
+        known = np.isfinite(across)
+        kept = [flight for flight in fit.flights if known[slice(*flight)].all()]
         if not kept:
             continue
-        first, second = (fit_flights(t, np.where(good, axis, 0.0), kept) for axis in (up, side))
+        first, second = (Parabolas(fit.times, axis, kept) for axis in (fit.heights, across))
         fall, drift = first.values[0], second.values[0]
         angles.append(math.atan2(drift, fall))
         error = math.sqrt(max(second.covariance[0, 0], 0.0)) / max(abs(fall), 1e-300)
