@@ -200,7 +200,7 @@ def _named(text: Text, index: int, width: int) -> list[str]:
         while cells and not cells[-1]:
             cells = cells[:-1]
         return cells
-    line = text.line(index).lstrip("#% ").rstrip()
+    line = text.lines[index].lstrip("#% ").rstrip()
     for pattern in (r"\S+", r"\S+(?: \S+)*", r"\S+(?:\s*[(\[][^)\]]*[)\]])?", r"[^,;]+"):
         found = re.findall(pattern, line)
         if len(found) == width:

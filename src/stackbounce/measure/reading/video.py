@@ -102,11 +102,9 @@ def rows_by_frame(
         return list(columns), values, []
     places = [k for k, column in enumerate(columns) if column.role in ("x", "y")]
     kept = _nearest(values[:, time], values[:, places])
-    if len(kept) == len(values):
-        return list(columns), values, []
     many = len(values) - len(kept)
     doubt = f"{many} rows are further points in a frame: the one next to the point before is taken"
-    return list(columns), values[kept], [doubt]
+    return list(columns), values[kept], [doubt] * (many > 0)
 
 
 def _side_by_side(

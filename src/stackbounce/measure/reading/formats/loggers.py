@@ -65,7 +65,7 @@ def labview(text: Text) -> Layout | None:
 @layout
 def logger_pro(text: Text) -> Layout | None:
     """Recognise Logger Pro: names, short names and units stand on separate lines."""
-    if not text.line(0).startswith("Vernier Format"):
+    if not text.lines[0].startswith("Vernier Format"):
         return None
     first = first_row(text, 3)
     above = [row for row in text.head[:first] if any(row)]

@@ -25,12 +25,12 @@ def avimeca(text: Text) -> Layout | None:
     """Recognise AviMéca: a title, ``t``, ``x``, ``y``, and their units in a line below."""
     head = text.head
     at = line_of(text, "t")
-    if not at or at + 1 >= len(head) or "avim" not in text.line(0).casefold():
+    if not at or at + 1 >= len(head) or "avim" not in text.lines[0].casefold():
         return None
     if not all(map(is_unit, filter(None, head[at + 1]))):
         return None
     columns = columns_of(head[at], len(head[at]), head[at + 1])
-    why = f"its first line {text.line(0).strip()[:40]!r} is that of AviMéca"
+    why = f"its first line {text.lines[0].strip()[:40]!r} is that of AviMéca"
     return Layout("AviMéca", why, columns, first_row(text, at + 2))
 
 
