@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -10,7 +11,7 @@ from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.drag import Drag, with_error_of_drag
 from stackbounce.measure.kinds.track import motion
 from stackbounce.measure.kinds.track.free_flight import comparable, no_flight, no_gain, what_is_seen
-from stackbounce.measure.kinds.track.notes import notes_of, stays_long, uneven
+from stackbounce.measure.kinds.track.notes import notes_of, stays_long
 from stackbounce.measure.kinds.track.parabolas import Parabolas
 from stackbounce.measure.kinds.track.paths import (
     Columns,
@@ -253,13 +254,7 @@ def _track(
     scale = ufloat(1.0, shape.scatter) if shape.scatter > 0.0 else 1.0  # after over before
     height, time = motion.fallen(impacts[0], numbers[bounces[0]][0], drag)
     fall_time = time or impacts[0] / gravity
-    notes = [
-        *uneven(name, shape),
-        *notes_of(name, fit, bounces, moments[0], fall_time, units.time),
-    ]
-    if floor is None and units.known:
-        notes += stays_long(name, fit, bounces[0], impacts[0], gravity, alone=alone)
-    return Track(
+    found = Track(
         name=name,
         impact_times=moments,
         levels=levels,
@@ -276,8 +271,12 @@ def _track(
         heights=ball.fit.heights,
         fit=fit,
         bounces=tuple(bounces),
-        notes=tuple(notes),
+        notes=(),
     )
+    notes = notes_of(found, shape, fall_time, units.time)
+    if floor is None and units.known:
+        notes += stays_long(found, alone=alone)
+    return replace(found, notes=tuple(notes))
 
 
 def _bounce(

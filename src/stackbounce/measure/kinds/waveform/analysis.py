@@ -142,9 +142,8 @@ def waveform(
         notes += _droops(seen, record.step)
     if ends == UNTOLD:
         notes += _steep(contacts)
-    sensitivity, why = sensitivity_of(contacts, record.unit, m, v)
     zero = seen.zero
-    return Waveform(
+    found = Waveform(
         contacts=contacts,
         unit=record.unit,
         noise=zero.noise,
@@ -153,14 +152,16 @@ def waveform(
         hum=zero.hum,
         sign=seen.sign,
         step=record.step,
-        notes=(*notes, *why),
-        sensitivity=sensitivity,
+        notes=tuple(notes),
+        sensitivity=None,
         mass=m,
         impact_speed=v,
         times=record.times,
         force=seen.signal,
         zero=seen.sign * zero.baseline,
     )
+    sensitivity, why = sensitivity_of(found)
+    return replace(found, notes=(*notes, *why), sensitivity=sensitivity)
 
 
 def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) -> Seen:
