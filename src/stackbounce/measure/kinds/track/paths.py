@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,10 @@ _ALIKE = 0.05  # relative difference of two accelerations that are one guess
 _DIFFER = 1.5  # scatter around one acceleration, over that around each flight's own
 _BESIDE = 3  # points between two pieces of one flight, at most
 _AXES = {"x": ("x", 1.0), "y": ("y", 1.0), "-x": ("x", -1.0), "-y": ("y", -1.0)}
+
+
+Bounced: TypeAlias = tuple[Parabolas, list[int]]
+"""The flights of a ball, and after which of them it bounces."""
 
 
 class Columns(NamedTuple):
@@ -164,7 +168,7 @@ def _accelerations(times: Array, heights: Array, wide: int) -> Array:
     return curvatures(t, u)
 
 
-def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Parabolas, list[int]] | None:
+def flights_of(times: Array, heights: Array, gravity: float) -> Bounced | None:
     """Return the flights of a ball, and after which of them it bounces, None where it never does.
 
     The acceleration is fitted, as the frame rate and the scale of the track may be wrong. In a long
@@ -175,22 +179,21 @@ def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Parabolas,
     sigma = _noise(heights)
     guesses = _guesses(t, u, gravity)
     acceleration = float(guesses[np.argmin(unexplained(t, u, sigma, guesses))])
-    fitted: Parabolas | None = None
-    jumps: list[int] = []
+    found: Bounced | None = None
     for _ in range(_ROUNDS):
-        fitted, jumps = _joined(t, u, find_flights(t, u, sigma, acceleration))
-        if fitted is None:
+        found = _joined(t, u, find_flights(t, u, sigma, acceleration))
+        if found is None:
             return None
-        new, wider = fitted.fall, max(_noise_floor(heights), _spread(fitted))
+        new, wider = found[0].fall, max(_noise_floor(heights), _spread(found[0]))
         steady = abs(new / acceleration - 1.0) < 1e-3 and abs(wider / sigma - 1.0) < 0.05
         if new <= 0.0 or steady:
             break
         acceleration, sigma = new, wider
     if len(t) < len(times):
-        fitted, jumps = _joined(times, heights, find_flights(times, heights, sigma, acceleration))
-    if fitted is None or fitted.fall <= 0.0:
+        found = _joined(times, heights, find_flights(times, heights, sigma, acceleration))
+    if found is None or found[0].fall <= 0.0:
         return None
-    return Parabolas(times, heights, _released(fitted, jumps)), jumps
+    return Parabolas(times, heights, _released(*found)), found[1]
 
 
 def _spread(fitted: Parabolas) -> float:
@@ -241,17 +244,12 @@ def _noise_floor(heights: Array) -> float:
     return max(resolution(heights) / math.sqrt(12.0), 1e-5 * float(np.ptp(heights)), 1e-12)
 
 
-def _joined(
-    times: Array, heights: Array, flights: list[Flight]
-) -> tuple[Parabolas | None, list[int]]:
-    """Return the fit of the flights, joined where no bounce separates them, and the bounces.
-
-    The fit is None where there is no bounce.
-    """
+def _joined(times: Array, heights: Array, flights: list[Flight]) -> Bounced | None:
+    """Return the fit of the flights, joined where no bounce separates them, and the bounces."""
     while flights:
         fitted = Parabolas(times, heights, flights)
         if fitted.freedom < 1 or fitted.fall <= 0.0:
-            return None, []
+            return None
         jumps, errors, before = fitted.jumps()
         weak = np.flatnonzero(np.abs(jumps) < _CLEAR_JUMP * errors)
         if weak.size:
@@ -265,11 +263,11 @@ def _joined(
         bounces = np.flatnonzero(bouncing & (jumps > _LEAST_JUMP * jumps.max(initial=0.0))).tolist()
         used = sorted({j for b in bounces for j in (b, b + 1)})
         if not used:
-            return None, []
+            return None
         if len(used) == len(flights):
             return fitted, bounces
         flights = [flights[j] for j in used]
-    return None, []
+    return None
 
 
 def _small(fitted: Parabolas, jumps: Array) -> NDArray[np.intp]:
