@@ -19,23 +19,8 @@ STACK = sb.Drop(
 """The paper's tennis ball on a basketball, on springs."""
 
 
-def contact(stiffness: float, **law: float) -> sb.Spring | sb.Hysteretic:
-    """Return a spring, or a hysteretic contact where more than a stiffness is given."""
-    return sb.Hysteretic(stiffness, **law) if law else sb.Spring(stiffness)
-
-
 def drop_of(case: Mapping[str, Any]) -> sb.Drop:
     """Return the drop of a case of the data files."""
-    return sb.Drop(
-        balls=[sb.Ball(mass) for mass in case["masses"]],
-        contacts=[contact(**law) for law in case["contacts"]],
-        gaps=case["gaps"],
-        velocities=case["velocities"],
-    )
-
-
-def drop_of_laws(case: Mapping[str, Any]) -> sb.Drop:
-    """Return the drop of a case whose contacts have the names of their laws."""
     contacts = []
     for law in case["contacts"]:
         numbers = dict(law or {})
@@ -55,6 +40,21 @@ def interval_table(rows: Sequence[Sequence[Any]]) -> np.ndarray:
     out = np.array(rows).reshape(-1, len(INTERVAL))
     out[~np.isfinite(out)] = math.nan
     return out
+
+
+def table_of(result: sb.Result) -> np.ndarray:
+    """Return the intervals of a result as `interval_table` does."""
+    return interval_table(result.intervals[INTERVAL].tolist())
+
+
+def compared(row: Mapping[str, Any], result: sb.Result, precision: float) -> list[np.ndarray]:
+    """Compare speeds and counts with a row of a data file; return both tables of intervals."""
+    expected = interval_table(row["intervals"])
+    counts = np.bincount(expected[:, 0].astype(int), minlength=len(result.drop.balls))
+    assert result.collisions.tolist() == counts.tolist()
+    error = np.abs(result.rebound_speeds - row["rebound_speeds"])
+    assert error.max() <= precision * result.drop.reference_speed
+    return [table_of(result), expected]
 
 
 def springs(
@@ -100,12 +100,6 @@ def masses_of(drop: sb.Drop) -> np.ndarray:
 def of_contact(result: sb.Result, index: int) -> np.ndarray:
     """Return the intervals of one contact, in order."""
     return result.intervals[result.intervals["contact"] == index]
-
-
-def by_contact(rows: np.ndarray) -> np.ndarray:
-    """Return intervals as a table, contact by contact, each in order of time."""
-    order = np.lexsort((rows["start"], rows["contact"]))
-    return np.stack([rows[name][order].astype(float) for name in INTERVAL], axis=-1)
 
 
 def restitution_of(law, contact, number=mpf):

@@ -96,7 +96,7 @@ def test_stored_values_come_out_again(name, indices):
     """Those of springs were found in normal modes instead."""
     rows = data.read(name)
     for row in [rows[index] for index in indices]:
-        outcome = precise.run(**data.with_names(row["case"]))
+        outcome = precise.run(**row["case"])
         assert [float(v) for v in outcome.velocities] == pytest.approx(
             row["rebound_speeds"], rel=1e-15, abs=1e-15
         )
