@@ -5,11 +5,11 @@ import pytest
 from benchmarks import random_drops
 
 import stackbounce as sb
+from batches import on_two_springs
 from reference import data, precise
-from stackbounce.engine import codes, native
+from stackbounce.engine import codes
 from stackbounce.engine.memory import spring_workspace
 from stackbounce.engine.records import Drops
-from stackbounce.engine.tables import Table
 from stackbounce.engine.two_springs import run_two_springs
 from stackbounce.run.batch import new_outcomes
 
@@ -32,12 +32,11 @@ def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
         velocity=-np.column_stack([speed, speed]),
         gravity=np.zeros(n),
     )
-    out = new_outcomes(n, 2)
-    space = spring_workspace(not plain)
     if plain:
-        run_two_springs(drops, event_limit, out, space)
+        out = new_outcomes(n, 2)
+        run_two_springs(drops, event_limit, out, spring_workspace(compiled=False))
     else:
-        native.compiled("run_two_springs")(Table(drops), event_limit, Table(out), Table(space))
+        out = on_two_springs(drops, event_limit)
     found = {name: getattr(out, name) for name in NAMES}
     ratio = out.velocity / np.asarray(speed)[:, None]
     found["energy"] = (mass * ratio**2).sum(axis=1) / np.sum(mass, axis=1)
