@@ -1,7 +1,8 @@
 """The stored drops of `tests/data`: cases, at random or from the paper, and their solutions.
 
 In the files contacts without a name are springs or hysteretic. The numbers are those of `precise`,
-to 20 or 28 digits; an interval is contact, start, end, peak force, peak compression, impulse.
+to 20 or 28 digits; an interval is contact, start, end, peak force, peak compression, impulse. The
+rows of ``bugs`` have no solutions.
 """
 
 import json
