@@ -20,26 +20,6 @@ def small():
     return race.sets(quiet, most=40, changes=3)
 
 
-def test_random_drops_are_what_they_say():
-    drops = random_drops.random(1000, seed=3)
-    mass, stiffness, gap = drops.ratios.T
-    limits = (random_drops.MASS_RATIOS, random_drops.STIFFNESS_RATIOS)
-    for ratio, (low, high) in zip((mass, stiffness), limits, strict=True):
-        assert low <= ratio.min() < 2 * low
-        assert high / 2 < ratio.max() <= high
-        assert abs(np.median(np.log(ratio)) - np.log([low, high]).mean()) < 0.5
-    assert np.count_nonzero(gap == 0.0) == 500
-    assert 1.9 < gap.max() <= 2.0
-    assert np.array_equal(drops.masses[:, 0] / drops.masses[:, 1], 1.0 / (1.0 / mass))
-
-
-def test_same_seed_same_drops():
-    one, other = (random_drops.random(50, seed=seed).ratios for seed in (4, 5))
-    assert np.array_equal(one, random_drops.random(50, seed=4).ratios)
-    assert not np.array_equal(one, other)
-    assert random_drops.changes(2, seed=4) == random_drops.changes(2, seed=4)
-
-
 @pytest.mark.slow
 def test_counts_change_between_the_hard_drops(small):
     columns = set()
