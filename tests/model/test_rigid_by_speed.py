@@ -1,6 +1,5 @@
 """The laws of rigid collisions by speed: numbers, restitutions, calibration, files and sweeps."""
 
-import numpy as np
 import pytest
 
 import stackbounce as sb
@@ -42,23 +41,6 @@ def test_calibration_takes_the_usual_exponent(kind):
         sb.calibrate(kind, restitution=0.7)
     with pytest.raises(errors.InvalidValue, match="speed must be given, as the restitution of"):
         sb.restitution(law, mass=0.1)
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_sweep_of_all_its_numbers_has_the_bits_of_single_runs(kind):
-    random = np.random.default_rng(4)
-    names = ("restitution", "speed", "speed_exponent", "scatter", "seed")
-    least, most = np.array([[0.1, 0.01, 0.0, 0.0, 0.0], [1.0, 5.0, 1.0, 0.2, 9.0]])
-    values = random.uniform(least, most, (60, 5)).T
-    balls = [sb.Ball(1.0), sb.Ball(0.4)]
-
-    def drop(*numbers):
-        return sb.Drop(balls, [kind(*numbers), sb.Rigid(0.9)], impact_speed=1.3)
-
-    rows = {f"contacts.0.{name}": ("run", one) for name, one in zip(names, values, strict=True)}
-    swept = sb.sweep(drop(*values[:, 0]), rows)
-    single = [sb.simulate(drop(*one)).rebound_ratios.tolist() for one in values.T]
-    assert swept.rebound_ratio.values.tolist() == single
 
 
 def test_scatter_is_described_where_there_is_some():
