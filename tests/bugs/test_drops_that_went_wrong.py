@@ -20,3 +20,7 @@ def test_nothing_is_wrong_any_more(row):
         assert result.status.name == row["status"]
         assert result.energy_retained < 1.0 + rtol
         assert faults_of(result, STOPS) == []
+        if "rebound_speeds" in row:  # by thirty digits
+            within = row["within"] * rtol * result.drop.reference_speed
+            assert result.rebound_speeds == pytest.approx(row["rebound_speeds"], abs=within)
+            assert result.collisions.tolist() == row["collisions"]

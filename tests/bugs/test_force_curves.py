@@ -13,24 +13,6 @@ def test_faint_contact_under_a_weight(rtol):
     assert sb.simulate(drop, rtol=rtol).rebound_ratios == pytest.approx([1.0], abs=10 * rtol)
 
 
-def test_steep_curve_in_one_step():
-    """A force that grows like c^1000 grew beyond the last terms of a step's series."""
-    contacts = [
-        sb.Hysteretic(0.1708730320590105, unloading_exponent=142.08141226878044),
-        sb.Hysteretic(0.22249416497324995, exponent=1.5, unloading_exponent=1.7262365982009555),
-        sb.Hertz(75.15568001174381),
-    ]
-    drop = sb.Drop(
-        [sb.Ball(1.0), sb.Ball(4.0), sb.Ball(0.5)],
-        contacts,
-        [0.5685077972075273, 0.0],
-        velocities=[0.1951582606299207, 0.0, -1.0],
-    )
-    rough, fine, finest = (sb.simulate(drop, rtol=rtol) for rtol in (1e-6, 1e-9, 1e-13))
-    assert rough.rebound_speeds == pytest.approx(finest.rebound_speeds, abs=1e-6)
-    assert fine.rebound_speeds == pytest.approx(finest.rebound_speeds, abs=1e-9)
-
-
 def test_steep_curve_without_a_force():
     """A lossy contact that turned on a steep curve without a force had forces of nan."""
     x = (0.0, 7.782028918825447e-06, 8.258240129118271e-06)
@@ -53,28 +35,3 @@ def test_steep_curve_without_a_force():
     motion = result.sample(np.linspace(0.0, result.end_time, 20))
     assert np.isfinite(motion.force.values).all()
     assert np.isfinite(motion.energy.values).all()
-
-
-def test_reloading_without_loss():
-    """A reloaded contact with no loss took an unloading curve made of round-off."""
-    contacts = [
-        sb.Hysteretic(36.501, exponent=2.0, unloading_exponent=2.0),
-        sb.Spring(26.91283690861319),
-    ]
-    drop = sb.Drop(
-        [sb.Ball(0.22009918560764596), sb.Ball(15.623389984193086)],
-        contacts,
-        [0.6952327150037606],
-        velocities=[-1.0, -1.0],
-    )
-    result = sb.simulate(drop)
-    same = sb.simulate(
-        sb.Drop(
-            drop.balls,
-            [sb.PowerLaw(36.501, 2.0), contacts[1]],
-            drop.gaps,
-            velocities=drop.velocities,
-        )
-    )
-    assert result.status is sb.Status.FINISHED
-    assert result.rebound_speeds == pytest.approx(same.rebound_speeds, abs=1e-10)

@@ -2,7 +2,7 @@
 
 In the files contacts without a name are springs or hysteretic. The numbers are those of `precise`,
 to 20 or 28 digits; an interval is contact, start, end, peak force, peak compression, impulse. The
-rows of ``bugs`` have no solutions.
+rows of ``bugs`` have velocities at most.
 """
 
 import json
