@@ -21,12 +21,6 @@ def address_of_server():
 
 
 @pytest.fixture(scope="session")
-def address(address_of_server):
-    """Return the address of the server."""
-    return address_of_server
-
-
-@pytest.fixture(scope="session")
 def server(address_of_server):
     with httpx.Client(base_url=address_of_server, timeout=120.0) as client:
         yield client
