@@ -82,7 +82,7 @@ def compare_random_drops(batches, count, folder):
                 answer, _ = simulated(drop, own, times)
             options = Options(drawn.until[row], drawn.rtol[row], int(drawn.limit[row]))
             drops = numbers_of(drawn, slice(row, row + 1))
-            jobs.append(job(SIMULATE, drops, rigid, options, times))
+            jobs.append(job(SIMULATE, drops, drop.rigid, options, times))
             expected.append(answer)
         drops, options = numbers_of(drawn), Options(math.inf, 1e-9, LIMIT)
         jobs.append(job(SWEEP, drops, rigid, options))
