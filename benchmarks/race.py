@@ -12,10 +12,10 @@ from time import process_time
 import numpy as np
 
 from benchmarks import random_drops
+from benchmarks.impacts import normal_modes
 from benchmarks.peers import by_cvode, by_cyrk, by_heyoka, by_scipy, by_steps, ours
 from benchmarks.peers.common import Answer, Peer
 from benchmarks.random_drops import Drops
-from reference import springs
 
 OURS = ours.PEER
 PEERS = (
@@ -100,7 +100,7 @@ def check(
         rows = zip(few.masses, few.stiffnesses, few.gaps, *given.truth[key], strict=False)
         for number, (m, k, gap, velocities, counts) in enumerate(rows):
             progress(f"fifty digits: offset {key:g}, drop {number + 1} of {len(few)}")
-            found = springs.run(m.tolist(), k.tolist(), [float(gap)], [-1.0, -1.0])
+            found = normal_modes.run(m.tolist(), k.tolist(), [float(gap)], [-1.0, -1.0])
             off.append(np.abs(velocities - np.array(found.velocities, dtype=float)).max())
             wrong += found.counts(2) != counts.tolist()
     return Check(len(off), np.array(off), wrong)

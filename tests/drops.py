@@ -9,6 +9,7 @@ import numpy as np
 from mpmath import mpf
 
 import stackbounce as sb
+from reference import falling, restitution
 from reference import rigid as rigid_reference
 
 INTERVAL = ["contact", "start", "end", "peak_force", "peak_compression", "impulse"]
@@ -18,23 +19,8 @@ STACK = sb.Drop(
 """The paper's tennis ball on a basketball, on springs."""
 
 
-def contact(stiffness: float, **law: float) -> sb.Spring | sb.Hysteretic:
-    """Return a spring, or a hysteretic contact where more than a stiffness is given."""
-    return sb.Hysteretic(stiffness, **law) if law else sb.Spring(stiffness)
-
-
 def drop_of(case: Mapping[str, Any]) -> sb.Drop:
     """Return the drop of a case of the data files."""
-    return sb.Drop(
-        balls=[sb.Ball(mass) for mass in case["masses"]],
-        contacts=[contact(**law) for law in case["contacts"]],
-        gaps=case["gaps"],
-        velocities=case["velocities"],
-    )
-
-
-def drop_of_laws(case: Mapping[str, Any]) -> sb.Drop:
-    """Return the drop of a case whose contacts have the names of their laws."""
     contacts = []
     for law in case["contacts"]:
         numbers = dict(law or {})
@@ -54,6 +40,21 @@ def interval_table(rows: Sequence[Sequence[Any]]) -> np.ndarray:
     out = np.array(rows).reshape(-1, len(INTERVAL))
     out[~np.isfinite(out)] = math.nan
     return out
+
+
+def table_of(result: sb.Result) -> np.ndarray:
+    """Return the intervals of a result as `interval_table` does."""
+    return interval_table(result.intervals[INTERVAL].tolist())
+
+
+def compared(row: Mapping[str, Any], result: sb.Result, precision: float) -> list[np.ndarray]:
+    """Compare speeds and counts with a row of a data file; return both tables of intervals."""
+    expected = interval_table(row["intervals"])
+    counts = np.bincount(expected[:, 0].astype(int), minlength=len(result.drop.balls))
+    assert result.collisions.tolist() == counts.tolist()
+    error = np.abs(result.rebound_speeds - row["rebound_speeds"])
+    assert error.max() <= precision * result.drop.reference_speed
+    return [table_of(result), expected]
 
 
 def springs(
@@ -76,15 +77,18 @@ def rigid(
     restitutions: Sequence[float | None] | float = 1.0,
     gaps: Sequence[float] | None = None,
     velocities: Sequence[float] | None = None,
+    gravity: float = 0.0,
+    **start: float,
 ) -> sb.Drop:
-    """Return a drop of rigid balls, at speed 1 unless velocities are given; None: no floor."""
+    """Return a drop of rigid balls, at speed 1 unless something else is given; None: no floor."""
     if isinstance(restitutions, float):
         restitutions = [restitutions] * len(masses)
     return sb.Drop(
         balls=[sb.Ball(mass) for mass in masses],
         contacts=[None if e is None else sb.Rigid(e) for e in restitutions],
         gaps=gaps,
-        velocities=velocities or [-1.0] * len(masses),
+        gravity=gravity,
+        **(start or {"velocities": velocities or [-1.0] * len(masses)}),
     )
 
 
@@ -98,32 +102,45 @@ def of_contact(result: sb.Result, index: int) -> np.ndarray:
     return result.intervals[result.intervals["contact"] == index]
 
 
-def by_contact(rows: np.ndarray) -> np.ndarray:
-    """Return intervals as a table, contact by contact, each in order of time."""
-    order = np.lexsort((rows["start"], rows["contact"]))
-    return np.stack([rows[name][order].astype(float) for name in INTERVAL], axis=-1)
+def restitution_of(law, contact, number=mpf):
+    """Return the restitution of a rigid law, where it changes as a function of the speed."""
+    if law is None or type(law) is sb.Rigid:
+        return law and number(law.restitution)
+    make = {
+        sb.RigidBySpeed: restitution.falling_power,
+        sb.RigidLossBySpeed: restitution.loss_power,
+    }[type(law)]
+    mean = make(law.restitution, law.speed, law.speed_exponent)
+    return restitution.scattered(mean, law.scatter, law.seed, contact) if law.scatter else mean
+
+
+def precise(drop, limit=100_000, number=mpf):
+    """Return the solution of a drop of rigid balls to fifty digits."""
+    return rigid_reference.run(
+        [number(ball.mass) for ball in drop.balls],
+        [restitution_of(law, i, number) for i, law in enumerate(drop.contacts)],
+        [number(gap) for gap in drop.gaps],
+        [number(v) for v in drop.start_velocities],
+        limit,
+    )
 
 
 def exact(drop, limit=2000):
     """Return the exact solution of a drop of rigid balls."""
-    return rigid_reference.run(
-        [Fraction(ball.mass) for ball in drop.balls],
-        [None if law is None else Fraction(law.restitution) for law in drop.contacts],
-        [Fraction(gap) for gap in drop.gaps],
-        [Fraction(v) for v in drop.start_velocities],
-        limit,
-    )
+    return precise(drop, limit, Fraction)
 
 
-def precise(drop, limit=100_000):
-    """Return the solution of a drop of rigid balls to fifty digits."""
-    return rigid_reference.run(
-        [mpf(ball.mass) for ball in drop.balls],
-        [None if law is None else mpf(law.restitution) for law in drop.contacts],
-        [mpf(gap) for gap in drop.gaps],
-        [mpf(v) for v in drop.start_velocities],
-        limit,
+def fallen(drop, until):
+    """Return the solution of rigid balls under gravity to fifty digits, and the last heights."""
+    collisions, heights, velocities = falling.fall(
+        [ball.mass for ball in drop.balls],
+        [restitution_of(law, i) for i, law in enumerate(drop.contacts)],
+        drop.gaps,
+        drop.start_velocities,
+        drop.gravity,
+        until,
     )
+    return rigid_reference.RigidOutcome(velocities, collisions, True), heights
 
 
 def assert_collisions(result, expected, precision=1e-11):

@@ -28,3 +28,9 @@ def write_some(out, values=VALUES, block=64):
     except Stopped:
         return seen
     raise AssertionError(f"not stopped: {seen}")
+
+
+def content(store):
+    """Return the bytes of every file of a store, by its name."""
+    files = [path for path in store.rglob("*") if path.is_file()]
+    return {str(path.relative_to(store)): path.read_bytes() for path in files}

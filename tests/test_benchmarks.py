@@ -20,39 +20,6 @@ def small():
     return race.sets(quiet, most=40, changes=3)
 
 
-def test_random_drops_are_what_they_say():
-    drops = random_drops.random(1000, seed=3)
-    mass, stiffness, gap = drops.ratios.T
-    limits = (random_drops.MASS_RATIOS, random_drops.STIFFNESS_RATIOS)
-    for ratio, (low, high) in zip((mass, stiffness), limits, strict=True):
-        assert low <= ratio.min() < 2 * low
-        assert high / 2 < ratio.max() <= high
-        assert abs(np.median(np.log(ratio)) - np.log([low, high]).mean()) < 0.5
-    assert np.count_nonzero(gap == 0.0) == 500
-    assert 1.9 < gap.max() <= 2.0
-    assert np.array_equal(drops.masses[:, 0] / drops.masses[:, 1], 1.0 / (1.0 / mass))
-
-
-def test_same_seed_same_drops():
-    one, other = (random_drops.random(50, seed=seed).ratios for seed in (4, 5))
-    assert np.array_equal(one, random_drops.random(50, seed=4).ratios)
-    assert not np.array_equal(one, other)
-    assert random_drops.changes(2, seed=4) == random_drops.changes(2, seed=4)
-
-
-@pytest.mark.slow
-def test_counts_change_between_the_hard_drops(small):
-    columns = set()
-    for offset in random_drops.OFFSETS:
-        ratios, counts = small.drops[offset].ratios, small.truth[offset][1]
-        for below, above in zip(ratios[::2], ratios[1::2], strict=True):
-            (column,) = np.flatnonzero(below != above)
-            columns.add(int(column))
-            assert above[column] / below[column] - 1.0 == pytest.approx(2.0 * offset, rel=1e-3)
-        assert (counts[::2] != counts[1::2]).any(axis=1).all()
-    assert columns == {0, 1, 2}
-
-
 @pytest.mark.slow
 def test_the_truth_agrees_with_fifty_digits(small):
     check = race.check(small, quiet, sample=4, hard=2)

@@ -15,16 +15,8 @@ from itertools import pairwise
 
 from mpmath import mp, mpf
 
-from reference.common import (
-    DIGITS,
-    TINY,
-    Interval,
-    Number,
-    Outcome,
-    first_zero,
-    kinetic,
-    leading_order,
-)
+from benchmarks.impacts.first_zero import first_zero, leading_order
+from reference.common import DIGITS, TINY, Interval, Number, Outcome, kinetic
 
 TERMS = 44  # of a Taylor series
 PRECISION = mpf(10) ** -27  # of a step, in units of the problem's length

@@ -21,8 +21,8 @@ from unittest.mock import patch
 
 from mpmath import mp, mpf
 
-from benchmarks.impacts import hysteretic_series
-from reference import falling, precise, rigid, springs, taylor
+from benchmarks.impacts import hysteretic_series, normal_modes
+from reference import falling, precise, rigid, taylor
 from reference.common import Outcome
 
 FOLDER = Path(__file__).parent
@@ -116,10 +116,10 @@ def by_finer_series(problem: Problem) -> Solution:
 
 
 def by_modes(problem: Problem) -> Solution:
-    """Solve springs without gravity by closed forms (`springs`)."""
+    """Solve springs without gravity by closed forms (`normal_modes`)."""
     masses, contacts, gaps, velocities = _inputs(problem)
     stiffnesses = [law and law["stiffness"] for law in contacts]
-    return finite(problem, springs.run(masses, stiffnesses, gaps, velocities))
+    return finite(problem, normal_modes.run(masses, stiffnesses, gaps, velocities))
 
 
 def by_older_series(problem: Problem) -> Solution:
@@ -238,7 +238,7 @@ def methods(problem: Problem) -> tuple[Solver, Solver]:
         if begun.status == "parted" and sum(begun.counts) <= EXACT:
             return by_fractions, by_collisions
         return partial(by_collisions, digits=80), partial(by_collisions, limit=9_000)
-    few = len(problem["masses"]) <= springs.MOST
+    few = len(problem["masses"]) <= normal_modes.MOST
     if laws == {"Spring"} and not problem["gravity"] and few:
         return by_finer_series, by_modes
     older = laws <= set(SMOOTH) and len(problem["masses"]) <= FEW

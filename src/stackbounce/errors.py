@@ -115,10 +115,7 @@ def non_negative(name: str, value: object, of: str = "") -> float:
     >>> non_negative("gap", 0)
     0.0
     """
-    if type(value) is float and 0.0 <= value < math.inf:
-        return value
-    right = "a number" + _of(of) + ", 0 or above"
-    return _checked(name, value, right, lambda number: number >= 0.0)
+    return between(name, value, 0.0, of=of)
 
 
 def fraction(name: str, value: object, *, zero: bool = True) -> float:
@@ -130,7 +127,7 @@ def fraction(name: str, value: object, *, zero: bool = True) -> float:
     0.78
     """
     if zero:
-        return _checked(name, value, "a number from 0 to 1", lambda number: 0.0 <= number <= 1.0)
+        return between(name, value, 0.0, 1.0)
     right = "a number above 0 and at most 1"
     return _checked(name, value, right, lambda number: 0.0 < number <= 1.0)
 

@@ -5,7 +5,7 @@ from importlib.util import find_spec
 from stackbounce.errors import MissingExtra
 
 _MEASURE = ("pandas", "scipy", "uncertainties")
-_FIT = (*_MEASURE, "emcee", "lmfit")
+_FIT = (*_MEASURE, "emcee")
 _PLOTS = ("corner", "matplotlib")
 _PAPER = (*_FIT, *_PLOTS, "jinja2")
 

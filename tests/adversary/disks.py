@@ -4,16 +4,19 @@ A small file system in memory is filled up to a random place. Each command ends 
 the files that were there, and with room again makes what it makes undisturbed.
 """
 
+import contextlib
+import functools
 import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
-from adversary.processes import Ended, content, random_of, run, sweep
-from adversary.table import Failure, NotPermitted, begin
+from adversary.processes import content, run, sweep
+from adversary.table import Case, NotPermitted, begin, expect
 
 SIZE = 2**22  # bytes of the disk
 _INSIDE = "STACKBOUNCE_OWN_MOUNTS"
@@ -33,68 +36,66 @@ COMMANDS = (
 )
 
 
-def attack(count: int, seed: int, folder: Path) -> list[Failure]:
-    """Run commands on a disk with so little room, each so often that all are run `count` times."""
-    disk = folder / "disk"
+@contextlib.contextmanager
+def attack(folder: Path) -> Iterator[Case]:
+    """Run a command on a disk with so little room, all of them in turn."""
+    disk, logs = folder / "disk", folder / "logs"
     disk.mkdir()
     mount = ["mount", "-t", "tmpfs", "-o", f"size={SIZE}", "none", str(disk)]
     done = subprocess.run(mount, capture_output=True, text=True, check=False)
     if done.returncode:
         raise NotPermitted(f"mounting is not permitted: {done.stderr.strip()}")
+
+    @functools.cache
+    def undisturbed(number: int) -> dict[str, bytes]:
+        """Return the files of a command that has room enough."""
+        ended = run(COMMANDS[number], disk, logs)
+        if ended.code:
+            raise RuntimeError(f"{' '.join(COMMANDS[number])} does not run at all: {ended.err}")
+        return _emptied(disk)
+
+    def case(index: int, random: np.random.Generator, _: Path) -> None:
+        number = index % len(COMMANDS)
+        files = undisturbed(number)
+        try:
+            _fail_and_go_on(COMMANDS[number], disk, logs, files, random)
+        finally:
+            _emptied(disk)
+
     try:
-        return _attack(count, seed, disk, folder / "logs")
+        yield case
     finally:
         subprocess.run(["umount", str(disk)], check=True)
 
 
-def _attack(count: int, seed: int, disk: Path, logs: Path) -> list[Failure]:
-    failures = []
-    whole: dict[int, tuple[Ended, dict[str, bytes]]] = {}
-    for index in range(count):
-        random, number = random_of(seed, index), index % len(COMMANDS)
-        arguments = COMMANDS[number]
-        if number not in whole:
-            whole[number] = _emptied(disk, run(arguments, disk, logs))
-        ended, files = whole[number]
-        if ended.code:
-            raise RuntimeError(f"{' '.join(arguments)} does not run at all: {ended.err}")
-        wrong, said = _wrong(arguments, disk, logs, files, random)
-        if wrong:
-            failures.append(Failure(wrong, f"{index} ({' '.join(arguments)}): {said.strip()}"))
-        _emptied(disk, ended)
-    return failures
-
-
-def _wrong(
+def _fail_and_go_on(
     arguments: list[str],
     disk: Path,
     logs: Path,
     files: dict[str, bytes],
     random: np.random.Generator,
-) -> tuple[str, str]:
-    """Run a command on a disk that is full somewhere, then with room; return what is wrong."""
+) -> None:
+    """Run a command on a disk that is full somewhere, then with room."""
     old = {name: b"a good old file" for name in files if name.startswith("new.")}
     if random.integers(2):
         for name, text in old.items():
             (disk / name).write_bytes(text)
     before = content(disk)
     most = SIZE if random.integers(3) == 0 else 1.2 * sum(map(len, files.values()))
-    room = int(random.integers(0, most))
-    _fill(disk / "ballast", room)
+    _fill(disk / "ballast", int(random.integers(0, most)))
     ended = run(arguments, disk, logs)
     (disk / "ballast").unlink()
-    if ended.inner or (ended.code and not ended.refused):
-        return "inner error", ended.err
+    said = f"({' '.join(arguments)}): {ended.err}"
+    expect(not ended.inner and (ended.refused or not ended.code), "inner error", said)
     if ended.code:
         now = content(disk)
-        if any(now.get(name) != text for name, text in before.items()):
-            return "a good file lost", ended.err
-        if new := [name for name in old if name in now and name not in before]:
-            return "half a file", f"{new}: {ended.err}"
+        kept = all(now.get(name) == text for name, text in before.items())
+        expect(kept, "a good file lost", said)
+        new = [name for name in old if name in now and name not in before]
+        expect(not new, "half a file", f"{new} {said}")
     again = run(arguments, disk, logs)
-    if again.code or content(disk) != files:
-        return "not as undisturbed", f"{ended.err} {again.err} {sorted(content(disk))[:9]}"
-    return "", ""
+    same = not again.code and content(disk) == files
+    expect(same, "not as undisturbed", f"{said} {again.err} {sorted(content(disk))[:9]}")
 
 
 def _fill(path: Path, room: int) -> None:
@@ -104,12 +105,12 @@ def _fill(path: Path, room: int) -> None:
         file.write(bytes(max(0, space.f_bavail * space.f_frsize - room)))
 
 
-def _emptied(disk: Path, ended: Ended) -> tuple[Ended, dict[str, bytes]]:
-    """Remove all from a disk; return how a command ended, and all its files."""
+def _emptied(disk: Path) -> dict[str, bytes]:
+    """Remove all from a disk; return its files."""
     files = content(disk)
     for path in disk.iterdir():
         shutil.rmtree(path) if path.is_dir() else path.unlink()
-    return ended, files
+    return files
 
 
 def _with_own_mounts() -> int:

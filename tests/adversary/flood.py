@@ -143,7 +143,7 @@ def main() -> int:
     arguments = parser.parse_args()
     slow = False
     for name in arguments.kinds.split(","):
-        with serving() as server:
+        with serving("--host", "0.0.0.0") as server:
             request = {"drop": make_drop(2, _SPRING)}
             httpx.post(f"{server.address}api/simulate", json=request, timeout=60.0)
             seen = flood(server, name, arguments.seconds)

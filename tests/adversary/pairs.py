@@ -3,22 +3,17 @@
 A writer that succeeds leaves a whole store; one that is refused is told who writes since when.
 """
 
+import contextlib
 import re
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
-from adversary.processes import (
-    STORE,
-    Ended,
-    Forked,
-    Undisturbed,
-    content,
-    random_of,
-    sweep,
-    undisturbed,
-)
-from adversary.table import Failure, begin
+import numpy as np
+
+from adversary.processes import STORE, Forked, content, sweep, undisturbed
+from adversary.table import Case, begin, expect
 
 MASSES = (30, 29)  # of a sweep, and of another one for the same store
 _TOLD = re.compile(
@@ -27,43 +22,31 @@ _TOLD = re.compile(
 _ANOTHER = re.compile(r"map\.\w+ exists, and is not this sweep")
 
 
-def attack(count: int, seed: int, folder: Path) -> list[Failure]:
-    """Start so many pairs; in every fourth the second writer has another sweep."""
+@contextlib.contextmanager
+def attack(folder: Path) -> Iterator[Case]:
+    """Start a pair; in every fourth the second writer has another sweep."""
     whole = {masses: undisturbed(folder, masses) for masses in MASSES}
-    failures = []
-    for index in range(count):
-        random, both = random_of(seed, index), [MASSES[0], MASSES[index % 4 == 0]]
-        own = folder / str(index)
-        own.mkdir()
+
+    def case(index: int, random: np.random.Generator, own: Path) -> None:
+        both = [MASSES[0], MASSES[index % 4 == 0]]
         delay = random.uniform(0.0, 1.2 * whole[MASSES[0]].seconds)
         writers = []
         for masses, wait in zip(both, (0.0, delay * random.integers(2)), strict=True):
             time.sleep(wait)
             writers.append(Forked(sweep(STORE, masses), own, folder / "logs"))
         ends = [writer.wait() for writer in writers]
-        wrong = _wrong(own, ends, [whole[masses] for masses in both])
-        if wrong:
-            said = " / ".join(f"{end.code} {end.err.strip()}" for end in ends)
-            failures.append(Failure(wrong, f"{index}: {said}"))
-    return failures
+        said = " / ".join(f"{end.code} {end.err.strip()}" for end in ends)
+        expect(not any(end.inner for end in ends), "inner error", said)
+        done = [whole[masses] for end, masses in zip(ends, both, strict=True) if end.code == 0]
+        expect(bool(done), "no success", said)
+        store = content(own / STORE)
+        expect(all(store == one.files for one in done), "success with a damaged store", said)
+        for end in ends:
+            told = _TOLD.search(end.err) or (_ANOTHER.search(end.err) and both[0] != both[1])
+            expect(not end.code or bool(end.refused and told), "not told who writes", said)
+        expect([path.name for path in own.iterdir()] == [STORE], "junk left", said)
 
-
-def _wrong(own: Path, ends: list[Ended], wholes: list[Undisturbed]) -> str:
-    """Return what is wrong with the ends of both writers, and with what they left."""
-    if any(end.inner for end in ends):
-        return "inner error"
-    done = [whole for end, whole in zip(ends, wholes, strict=True) if end.code == 0]
-    if not done:
-        return "no success"
-    store = content(own / STORE)
-    if any(store != whole.files for whole in done):
-        return "success with a damaged store"
-    same = wholes[0] is wholes[1]
-    for end in ends:
-        told = _TOLD.search(end.err) or (_ANOTHER.search(end.err) and not same)
-        if end.code and not (end.refused and told):
-            return "not told who writes"
-    return "junk left" if [path.name for path in own.iterdir()] != [STORE] else ""
+    yield case
 
 
 if __name__ == "__main__":

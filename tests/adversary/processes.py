@@ -16,8 +16,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
-
 PATIENCE = 60.0  # s; what takes longer hangs
 _TICK = 0.002  # s
 _STOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -172,8 +170,3 @@ def undisturbed(folder: Path, masses: int = 30) -> Undisturbed:
     if ended.code:
         raise RuntimeError(f"the sweep does not run at all: {ended.err}")
     return Undisturbed(content(folder / STORE), ended.out, seconds)
-
-
-def random_of(seed: int, index: int) -> np.random.Generator:
-    """Return the random numbers of a case: the same for the same seed and number."""
-    return np.random.default_rng([seed, index])

@@ -5,9 +5,10 @@ import dataclasses
 import subprocess
 import sys
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
+
+import psutil
 
 __all__ = ["LONG_RUN", "Server", "make_drop", "serving"]
 
@@ -36,17 +37,16 @@ class Server:
         parts = urlsplit(self.address)
         return str(parts.hostname), int(parts.port or 0)
 
-    def children(self) -> list[int]:
-        """Return the ids of its processes."""
-        tasks = Path(f"/proc/{self.process.pid}/task").glob("*/children")
-        return [int(child) for task in tasks for child in task.read_text().split()]
+    def children(self) -> list[psutil.Process]:
+        """Return its processes."""
+        return psutil.Process(self.process.pid).children()
 
 
 @contextlib.contextmanager
-def serving(*, workers: int = 2, **pipes: Any) -> Iterator[Server]:
+def serving(*options: str, workers: int = 2, **pipes: Any) -> Iterator[Server]:
     """Run a server at a free port of this machine."""
     command = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--port", "0"]
-    command += ["--host", "0.0.0.0", "--workers", str(workers)]
+    command += ["--workers", str(workers), *options]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, **pipes) as process:
         try:
             assert process.stdout is not None

@@ -4,19 +4,21 @@ No traceback, an exit status that says so, no half a file, no wait; afterwards t
 answers as if it had never been stopped.
 """
 
+import contextlib
+import functools
 import itertools
 import re
-import shutil
 import signal
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from adversary.processes import Ended, Started, content, random_of, run, sweep
-from adversary.table import Failure, begin
+from adversary.processes import Ended, Started, content, run, sweep
+from adversary.table import Case, begin, expect
 
 START = 0.15  # s; every third signal comes that early
 ANSWERED = 1.0  # s from a signal to the end; half of it on an idle machine
@@ -55,55 +57,46 @@ COMMANDS = (
 _ATTACKS = tuple(itertools.product(COMMANDS, SIGNALS))
 
 
-def attack(count: int, seed: int, folder: Path) -> list[Failure]:
-    """Send so many signals."""
-    whole: dict[int, tuple[Ended, dict[str, bytes], float]] = {}
-    failures = []
-    for index in range(count):
-        random = random_of(seed, index)
+@contextlib.contextmanager
+def attack(folder: Path) -> Iterator[Case]:
+    """Send a signal."""
+    logs = folder / "logs"
+
+    @functools.cache
+    def undisturbed(number: int) -> tuple[Ended, dict[str, bytes], float]:
+        """Return how a command ends that nothing stops, its files, and how long it runs."""
+        own = folder / f"undisturbed-{number}"
+        own.mkdir()
+        (own / "ball.csv").write_text(_RECORD)
+        begun = time.monotonic()
+        ended = run(COMMANDS[number].arguments, own, logs, Started)
+        if ended.code:
+            raise RuntimeError(f"{COMMANDS[number]} does not run at all: {ended.err}")
+        return ended, content(own), time.monotonic() - begun
+
+    def case(index: int, random: np.random.Generator, own: Path) -> None:
         place = 7 * index % len(_ATTACKS)  # each command soon, with another signal
-        (command, number), key = _ATTACKS[place], place // len(SIGNALS)
-        own = folder / str(index)
-        if key not in whole:
-            whole[key] = _undisturbed(command, own, folder / "logs")
-        _begin(own)
-        delay = random.uniform(
-            0.0, START if index % 3 == index // len(_ATTACKS) % 3 else whole[key][2]
+        (command, number), (whole, files, lasts) = (
+            _ATTACKS[place],
+            undisturbed(place // len(SIGNALS)),
         )
-        process = Started(command.arguments, own, folder / "logs")
+        (own / "ball.csv").write_text(_RECORD)
+        early = index % 3 == index // len(_ATTACKS) % 3
+        delay = random.uniform(0.0, START if early else lasts)
+        process = Started(command.arguments, own, logs)
         process.send(number, delay)
         sent = time.monotonic()
         ended = process.wait()
-        late = time.monotonic() - sent > ANSWERED
-        wrong = "late" if late else judge(command, number, ended, own, whole[key][1])
-        if not wrong:
-            again = run(command.arguments, own, folder / "logs", Started)
-            if (again.code, again.out) != (0, whole[key][0].out):
-                wrong = "another answer afterwards"
-            elif content(own) != whole[key][1]:
-                wrong = "other files afterwards"
-        if wrong:
-            what = f"{index} ({command.arguments[0]}, {number.name} after {delay:.3f} s)"
-            failures.append(Failure(wrong, f"{what}: {ended.code} {ended.err[-1500:]}"))
-        shutil.rmtree(own)
-    return failures
+        what = f"({command.arguments[0]}, {number.name} after {delay:.3f} s)"
+        said = f"{what}: {ended.code} {ended.err[-1500:]}"
+        expect(time.monotonic() - sent <= ANSWERED, "late", said)
+        wrong = judge(command, number, ended, own, files)
+        expect(not wrong, wrong, said)
+        again = run(command.arguments, own, logs, Started)
+        expect((again.code, again.out) == (0, whole.out), "another answer afterwards", said)
+        expect(content(own) == files, "other files afterwards", said)
 
-
-def _begin(own: Path) -> None:
-    own.mkdir()
-    (own / "ball.csv").write_text(_RECORD)
-
-
-def _undisturbed(command: Command, own: Path, logs: Path) -> tuple[Ended, dict[str, bytes], float]:
-    """Return how a command ends that nothing stops, its files, and how long it runs."""
-    _begin(own)
-    begun = time.monotonic()
-    ended = run(command.arguments, own, logs, Started)
-    if ended.code:
-        raise RuntimeError(f"{' '.join(command.arguments)} does not run at all: {ended.err}")
-    made = ended, content(own), time.monotonic() - begun
-    shutil.rmtree(own)
-    return made
+    yield case
 
 
 def judge(

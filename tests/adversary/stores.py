@@ -4,17 +4,18 @@ The same command says what is damaged, and mends it or refuses. It never takes a
 a whole one, and it never deletes what is not its own.
 """
 
+import contextlib
 import shutil
 import signal
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 
-from adversary.processes import STORE, Forked, content, random_of, run, sweep, undisturbed
-from adversary.table import Failure, begin
+from adversary.processes import STORE, Forked, content, run, sweep, undisturbed
+from adversary.table import Case, begin, expect
 
 FOREIGN = b"somebody's own notes"
 _RESULTS = "collisions energy_retained first_touch last_release rebound_ratio status".split()
@@ -93,38 +94,30 @@ def nothing(_: Path, __: Random) -> None:
 HARMS: tuple[Harm, ...] = (chunk, chunk, metadata, array, log, nothing)
 
 
-def attack(count: int, seed: int, folder: Path) -> list[Failure]:
-    """Damage so many stores, half of them complete, the others part of a sweep; sweep again."""
-    whole = undisturbed(folder)
-    failures = []
-    for index in range(count):
-        random = random_of(seed, index)
-        own = folder / str(index)
-        own.mkdir()
-        store = _made(own, folder / "logs", complete=bool(index % 2))
+@contextlib.contextmanager
+def attack(folder: Path) -> Iterator[Case]:
+    """Damage a store, every other one complete and the others part of a sweep; sweep again."""
+    whole, logs = undisturbed(folder), folder / "logs"
+
+    def case(index: int, random: Random, own: Path) -> None:
+        store = _made(own, logs, complete=bool(index % 2))
         harm = HARMS[int(random.integers(len(HARMS)))]
         before = content(store)
         harm(store, random)
         harmed = content(store) != before
         foreign = _add_foreign(store, random)
-        ended = run(sweep(STORE), own, folder / "logs")
-        wrong = ""
-        if ended.inner or (ended.code and not ended.refused):
-            wrong = "inner error"
-        elif [path for path in foreign if not _is_kept(path, own)]:
-            wrong = "foreign file deleted"
-        elif ended.code == 0:
+        ended = run(sweep(STORE), own, logs)
+        said = f"({store.name}, {harm.__name__}): {ended.code} {ended.err}"
+        expect(not ended.inner and (ended.refused or not ended.code), "inner error", said)
+        expect(all(_is_kept(path, own) for path in foreign), "foreign file deleted", said)
+        if ended.code == 0:
             files = content(own / STORE)
             ours = {name: file for name, file in files.items() if file != FOREIGN}
-            if ours != whole.files:
-                wrong = "wrong success"
-            elif harmed and store.suffix != ".partial" and not ended.err:
-                wrong = "mended without a word"
-        if wrong:
-            case = f"{index} ({store.name}, {harm.__name__}): {ended.code} {ended.err.strip()}"
-            failures.append(Failure(wrong, case))
-        shutil.rmtree(own)
-    return failures
+            expect(ours == whole.files, "wrong success", said)
+            silent = harmed and store.suffix != ".partial" and not ended.err
+            expect(not silent, "mended without a word", said)
+
+    yield case
 
 
 def _made(own: Path, logs: Path, *, complete: bool) -> Path:

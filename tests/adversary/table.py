@@ -2,51 +2,70 @@
 
 import argparse
 import collections
+import shutil
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import NamedTuple
+
+import numpy as np
 
 SHOWN = 5  # failures of a kind
 
 
-class Failure(NamedTuple):
-    """What was wrong with one case: the kind of failure, and all that is needed to find it."""
+class Failure(Exception):
+    """What is wrong with a case: the kind of failure, and what was said."""
 
-    kind: str
-    case: str
+    def __init__(self, kind: str, said: str = "") -> None:
+        super().__init__(kind, said)
+        self.kind, self.said = kind, said
 
 
 class NotPermitted(Exception):
     """The system does not allow an attack; its message says why."""
 
 
-Attack = Callable[[int, int, Path], list[Failure]]
-"""From a count, a seed and an empty folder to all failures."""
+Case = Callable[[int, np.random.Generator, Path], None]
+"""Attacks once: from a number, random numbers and an empty folder to a `Failure` or nothing."""
 
 
-def row(name: str, count: int, failures: list[Failure]) -> str:
+def expect(fine: bool, kind: str, said: str = "") -> None:
+    """Fail unless something is fine."""
+    if not fine:
+        raise Failure(kind, said.strip())
+
+
+def row(name: str, count: int, kinds: Sequence[str]) -> str:
     """Return a row of the table: the attack, how often, and how many failures of each kind."""
-    kinds = collections.Counter(failure.kind for failure in failures)
-    found = ", ".join(f"{number} {kind}" for kind, number in kinds.most_common())
+    counted = collections.Counter(kinds).most_common()
+    found = ", ".join(f"{number} {kind}" for kind, number in counted)
     return f"| {name} | {count} | {found or '0'} |\n"
 
 
-def begin(name: str, attack: Attack, count: int) -> int:
+def begin(name: str, attack: Callable[[Path], AbstractContextManager[Case]], count: int) -> int:
     """Attack as the command line asks; print a row; return 1 after a failure."""
     parser = argparse.ArgumentParser(prog=f"python -m adversary.{name}")
     parser.add_argument("--count", type=int, default=count)
     parser.add_argument("--seed", type=int, default=1)
     asked = parser.parse_args()
-    try:
-        with tempfile.TemporaryDirectory(prefix=f"{name}-") as folder:
-            failures = attack(asked.count, asked.seed, Path(folder))
-    except NotPermitted as reason:
-        sys.stdout.write(f"| {name} | skipped | {reason} |\n")
-        return 0
-    sys.stdout.write(row(name, asked.count, failures))
-    for kind in dict.fromkeys(failure.kind for failure in failures):
-        cases = [failure.case for failure in failures if failure.kind == kind]
-        sys.stderr.writelines(f"{kind}: {case}\n" for case in cases[:SHOWN])
-    return int(bool(failures))
+    kinds: list[str] = []
+    with tempfile.TemporaryDirectory(prefix=f"{name}-") as made:
+        folder = Path(made)
+        try:
+            with attack(folder) as case:
+                for index in range(asked.count):
+                    own = folder / str(index)
+                    own.mkdir()
+                    try:
+                        case(index, np.random.default_rng([asked.seed, index]), own)
+                    except Failure as failure:
+                        kinds.append(failure.kind)
+                        if kinds.count(failure.kind) <= SHOWN:
+                            sys.stderr.write(f"{failure.kind}: {index} {failure.said}\n")
+                    shutil.rmtree(own)
+        except NotPermitted as reason:
+            sys.stdout.write(f"| {name} | skipped | {reason} |\n")
+            return 0
+    sys.stdout.write(row(name, asked.count, kinds))
+    return int(bool(kinds))

@@ -18,7 +18,7 @@ RECORD = files("stackbounce.explorer") / "static" / "examples" / "floor-force.cs
 
 @pytest.fixture(scope="module")
 def server():
-    with serving() as made:
+    with serving("--host", "0.0.0.0") as made:
         asyncio.run(measured(made.address, ["127.0.0.1"]))
         yield made
 

@@ -6,7 +6,7 @@ The end was where the sign of the force was clear of its round-off. An end is no
 import pytest
 
 import stackbounce as sb
-from drops import drop_of_laws
+from drops import drop_of
 from reference import data
 
 ROWS = data.read("laws")
@@ -24,7 +24,7 @@ ROWS = data.read("laws")
 def test_one_viscoelastic_ball(time, rtol, error):
     law = {"law": "Viscoelastic", "stiffness": 2e5, "dissipative_time": time}
     row = next(row for row in ROWS if row["case"]["contacts"] == [law])
-    drop = drop_of_laws(row["case"])
+    drop = drop_of(row["case"])
     ends = {sb.simulate(drop, rtol=rtol, compiled=c).intervals["end"][0] for c in (True, False)}
     assert len(ends) == 1
     assert ends.pop() == pytest.approx(row["intervals"][0][2], rel=error)

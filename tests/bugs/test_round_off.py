@@ -96,3 +96,12 @@ def test_every_sample_of_a_record_has_a_force():
     for start in starts:
         (forces,) = objective.forces("", np.array([objective.spans[0, 0], start]))
         assert forces.shape == objective.measured[""].waveforms[0].times.shape
+
+
+@pytest.mark.parametrize("gap", [7.601865069378338, 7.601865069378339, 7.601865069378181])
+def test_a_touch_long_after_a_tie(gap):
+    """A touch 1e14 contact times later began with its position's round-off as stored energy."""
+    balls, springs = [sb.Ball(1.0), sb.Ball(6.0)], [sb.Spring(1.0), sb.Spring(0.2)]
+    result = sb.simulate(sb.Drop(balls, springs, [gap], impact_speed=1.0))
+    assert result.rebound_ratios == pytest.approx([1.0, 1.0], abs=1e-11)
+    assert result.energy_retained == pytest.approx(1.0, abs=1e-12)

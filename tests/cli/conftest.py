@@ -1,5 +1,7 @@
 """The command line as a function, in a folder of its own."""
 
+import json
+
 import pytest
 
 from stackbounce.cli import main
@@ -20,6 +22,24 @@ def run(capfd):
         return code, out, err
 
     return run_main
+
+
+@pytest.fixture
+def printed(run):
+    """Runs a command that has to succeed without complaints; returns what it printed."""
+
+    def run_well(*arguments):
+        code, out, err = run(*arguments)
+        assert (code, err) == (0, "")
+        return out
+
+    return run_well
+
+
+@pytest.fixture
+def told(printed):
+    """Runs such a command; returns what it tells machines."""
+    return lambda *arguments: json.loads(printed(*arguments, "--json"))
 
 
 @pytest.fixture

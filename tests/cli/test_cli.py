@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 import stackbounce as sb
 from stackbounce import cross2007, plots
-from stackbounce.cli import app, descriptions, main, tables
+from stackbounce.cli import app, descriptions, main
 from stackbounce.cli.drop_options import read_contact
 from stackbounce.cli.scenario import read
 from stackbounce.model import LAWS
@@ -37,10 +37,9 @@ def rows(text, first):
     return [row for row in cells if row[0] == first and len(row) > 1]
 
 
-def test_version_and_help(run):
+def test_version_and_help(printed, run):
     assert run("--version") == (0, f"stackbounce {__version__}\n", "")
-    code, out, err = run("--help")
-    assert (code, err) == (0, "")
+    out = printed("--help")
     assert all(command in out for command in ("simulate", "balls", "paper"))
     assert run() == (0, out, "")
     assert run("-h") == (0, out, "")
@@ -59,7 +58,7 @@ def test_help_does_not_wait_for_heavy_libraries(arguments):
     code = (
         f"import sys; from stackbounce.cli import main; main({arguments}); "
         "heavy = {'numpy', 'pint', 'xarray', 'matplotlib', 'numba', 'uncertainties', 'jinja2', "
-        "'lmfit', 'emcee', 'scipy'}; "
+        "'emcee', 'scipy'}; "
         "sys.exit(', '.join(sorted(heavy & set(sys.modules))))"
     )
     assert process(code=code).stderr.strip() == ""
@@ -111,9 +110,8 @@ def test_the_shells_script_asks_this_program(monkeypatch, capsys):
     assert "_STACKBOUNCE_COMPLETE=complete_bash" in capsys.readouterr().out
 
 
-def test_a_table_for_people(run):
-    code, out, err = run(*PAIR)
-    assert (code, err) == (0, "")
+def test_a_table_for_people(printed):
+    out = printed(*PAIR)
     assert "basketball + tennis from 0.63 m, at 3.515 m/s" in out
     assert "contact 1, basketball – tennis: Spring, stiffness 1000 N/m  [Cross 2007, Fig" in out
     assert "gap 0, basketball – tennis: 2 mm  [--gap]" in out
@@ -166,10 +164,8 @@ def test_a_reader_that_goes_away_is_no_error():
     assert done.stderr == ""
 
 
-def test_json_for_machines(run):
-    code, out, err = run(*PAIR, "--json", "--plot", "drop.svg")
-    assert (code, err) == (0, "")
-    got = json.loads(out)
+def test_json_for_machines(told):
+    got = told(*PAIR, "--plot", "drop.svg")
     result = sb.simulate(sb.Drop.from_mapping(got["drop"]))
     assert got["stackbounce"] == __version__
     assert got["status"] == "FINISHED"
@@ -183,9 +179,8 @@ def test_json_for_machines(run):
     assert got["separate"]["rebound_speeds"] == textbook.rebound_speeds.tolist()
 
 
-def test_json_has_null_where_numbers_are_not_finite(run):
-    code, out, _ = run("simulate", "B1", "--contact", "Rigid restitution=0.8", "--json")
-    assert code == 0
+def test_json_has_null_where_numbers_are_not_finite(printed):
+    out = printed("simulate", "B1", "--contact", "Rigid restitution=0.8", "--json")
     got = json.loads(out, parse_constant=pytest.fail)
     assert got["intervals"][0]["peak_force"] is None
     assert got["separate"] is None
@@ -198,19 +193,17 @@ def test_a_rigid_drop_needs_no_textbook_beside_it(run):
     assert rows(out, "B1")[0][3:6] == ["1.000", "0.5000", "0.2500"]
 
 
-def test_a_scenario_file_and_changes_to_it(run):
+def test_a_scenario_file_and_changes_to_it(printed, told):
     laws = [sb.Spring(1e4), sb.Hysteretic(5e3, restitution=0.8)]
     drop = sb.Drop([sb.Ball(0.1, name="lower"), sb.Ball(0.05)], laws, height=0.5)
     Path("drop.toml").write_text(drop.to_toml())
-    code, out, err = run("simulate", "drop.toml")
-    assert (code, err) == (0, "")
+    out = printed("simulate", "drop.toml")
     assert "lower + ball 1 from 0.5 m, at 3.132 m/s" in out
     assert "Hysteretic, stiffness 5000 N/m, restitution 0.8  [drop.toml]" in out
     numbers = ("--speed", "2 m/s", "--gap", "1mm", "--gravity", "9.81m/s^2")
     laws = ("--contact", "Spring stiffness='20 kN/m'", "--contact", "spring stiffness=1000")
-    code, out, _ = run("simulate", "./drop.toml", *numbers, *laws, "--json")
-    assert code == 0
-    assert sb.Drop.from_mapping(json.loads(out)["drop"]) == sb.Drop(
+    found = told("simulate", "./drop.toml", *numbers, *laws)
+    assert sb.Drop.from_mapping(found["drop"]) == sb.Drop(
         drop.balls, [sb.Spring(2e4), sb.Spring(1e3)], gaps=[0.001], impact_speed=2.0, gravity=9.81
     )
 
@@ -223,20 +216,18 @@ def test_names_cannot_write_on_the_terminal(run):
     assert "a?[31mb?c[red] at 1.000 m/s" in out
 
 
-def test_highest_points_are_shown(run):
+def test_highest_points_are_shown(printed, run):
     contact = "Rigid restitution=0.5"
     given = ("--height", "1m", "--gravity", "9.81m/s^2", "--until", "60s", "--contact", contact)
-    code, out, _ = run("simulate", "B1", *given)
-    assert code == 0
+    out = printed("simulate", "B1", *given)
     assert "Highest points" in out
     assert re.search(r"B1 +\d+ +0\.2258 +0\.2500 +0\.5644 +0\.06250", out)
     assert "Status: SETTLED" in out
     assert "Highest points" not in run("simulate", "B1")[1]
 
 
-def test_a_run_that_did_not_finish_says_what_to_do(run):
-    code, out, _ = run("simulate", "B1", "B2", "--until", "3ms")
-    assert code == 0
+def test_a_run_that_did_not_finish_says_what_to_do(printed, run):
+    out = printed("simulate", "B1", "B2", "--until", "3ms")
     assert "not yet" in out
     assert re.search(r"Status: TIME_REACHED: .*until", out)
     rigid = ["--contact", "Rigid restitution=0.1"] * 2
@@ -252,66 +243,22 @@ def one_ball(name, law, mass=0.1, **how):
     return f"{name}.toml"
 
 
-def test_balls_of_a_file_each_are_stacked(run):
+def test_balls_of_a_file_each_are_stacked(told):
     lower = one_ball("lower", sb.Hysteretic(3e4, restitution=0.8), 0.3)
     upper = one_ball("upper", sb.Hysteretic(1e4, restitution=0.6), 0.05, height=2.0)
-    code, out, _ = run("simulate", lower, upper, "--gap", "1mm", "--json")
-    assert code == 0
-    told = json.loads(out)
-    drop = sb.Drop.from_mapping(told["drop"])
+    found = told("simulate", lower, upper, "--gap", "1mm")
+    drop = sb.Drop.from_mapping(found["drop"])
     assert [ball.name for ball in drop.balls] == ["lower", "upper"]
     assert (drop.height, drop.gaps) == (0.5, (0.001,))
     assert drop.contacts[1].stiffness == pytest.approx(7500.0)
     assert drop.contacts[1].restitution == pytest.approx(math.sqrt(0.25 * 0.64 + 0.75 * 0.36))
-    assert told["contact_sources"] == ["lower.toml", "lower.toml and upper.toml in series"]
+    assert found["contact_sources"] == ["lower.toml", "lower.toml and upper.toml in series"]
 
 
-def test_files_that_cannot_be_stacked(run, refused):
-    lower = one_ball("lower", sb.Spring(3e4))
-    upper = one_ball("upper", sb.Rigid(0.6))
-    err = refused("simulate", lower, upper)
-    assert "lower.toml and upper.toml: law_b must be a law with a compression" in err
-    assert err.strip().endswith("give all contacts with --contact")
+def test_rigid_balls_are_stacked_by_their_contacts_alone(printed):
+    balls = [one_ball("lower", sb.Spring(3e4)), one_ball("upper", sb.Rigid(0.6))]
     contacts = ["--contact", "Rigid restitution=0.8", "--contact", "Rigid restitution=0.5"]
-    assert run("simulate", lower, upper, *contacts)[0] == 0
-    pair = sb.Drop([sb.Ball(1.0)] * 2, [sb.Spring(1.0)] * 2, height=1.0)
-    Path("pair.toml").write_text(pair.to_toml())
-    err = refused("simulate", lower, "pair.toml")
-    assert "pair.toml must have one ball and its contact with the floor, to be stacked" in err
-
-
-@pytest.mark.parametrize(
-    ("arguments", "expected"),
-    [
-        (["tenis"], "ball must be one of the catalogue, got 'tenis'; did you mean tennis? Known: "),
-        (["B1", "--height", "-1m"], "height must be a positive number of metres, got -1.0"),
-        (["B1", "--height", "3 kg"], "--height must be a length (a number of m or a string such"),
-        (["B1", "--speed", "inf"], "--speed must be a speed"),
-        (["B1", "--speed", "1", "--height", "1"], "--height and --speed: only one of the two"),
-        (["B1", "--gap", "1mm"], "gaps must hold one number per neighbouring pair of balls (0)"),
-        (["B1", "--until", "-1s"], "until must be"),
-        (["B1", "--contact", ""], "--contact 0 must be 'LAW key=value …', such as 'Spring stiff"),
-        (["B1", "--contact", "Spring stiffness="], "--contact 0 must be 'LAW key=value …'"),
-        (["B1", "--contact", "Sprung stiffness=1"], "--contact 0.law must be a contact law, got"),
-        (["B1", "--contact", "Spring stifness=1"], "--contact 0.stifness is not a known key; did"),
-        (["B1", "--contact", "Spring stiffness=-1"], "--contact 0.stiffness must be a positive"),
-        (["B1", "--contact", "Spring stiffness=1kg"], "--contact 0.stiffness must be a stiffness"),
-        (["B1", "--contact", "Spring a=1 a=2"], "--contact 0 must give each key once, got 'Spring"),
-        (["B1", "--contact", "Spring law=Rigid"], "--contact 0 must give each key once, got 'Spr"),
-        (["./B1"], "./B1 cannot be read: No such file or directory"),
-        (["."], ". is a folder: give one of its files"),
-        (["a.toml", "b.toml"], "a.toml cannot be read: No such file or directory"),
-        (["a.toml", "B1"], "either scenario files or balls of the catalogue must be given, got"),
-        (["B1", "--plot", "drop.gif"], "--plot must end in .svg, .png, .pdf, got drop.gif"),
-        (["B1", "--plot", "no/drop.svg"], "no/drop.svg cannot be written: there is no folder no"),
-        (["B1", "--plot", "folder.svg"], "folder.svg cannot be written: it is a folder\n"),
-        (["bad.toml"], "bad.toml is not TOML: "),
-    ],
-)
-def test_bad_input_is_one_line(refused, arguments, expected):
-    Path("bad.toml").write_text("[[balls]\nmass = 1")
-    Path("folder.svg").mkdir()
-    assert refused("simulate", *arguments).startswith(expected)
+    assert "Rigid, restitution 0.5" in printed("simulate", *balls, *contacts)
 
 
 @pytest.mark.fast_cases(1)
@@ -331,14 +278,6 @@ def test_a_sweep_says_how_many_drops_have_no_result(run):
     assert code == 3
     assert "1 FINISHED" in out
     assert err == "stackbounce: error: no result for 1 of 2 drops: 1 INVALID\n"
-
-
-@pytest.mark.parametrize("option", ["--out", "--plot"])
-def test_a_missing_folder_is_named(refused, option):
-    files = {"--out": "a.zarr", "--plot": "a.svg"} | {option: f"no/{option[2:]}.svg"}
-    given = [word for pair in files.items() for word in pair]
-    err = refused("sweep", "B1", "--over", "balls.0.mass=1,2", *given)
-    assert err == f"no/{option[2:]}.svg cannot be written: there is no folder no\n"
 
 
 def test_a_number_of_many_digits_is_refused(refused):
@@ -452,19 +391,16 @@ def test_a_standard_output_that_cannot_be_written_to(arguments, streams, line):
     assert done.stderr == ("" if line is None else f"stackbounce: error: {line}\n")
 
 
-def test_the_catalogue_as_a_table(run):
-    code, out, err = run("balls")
-    assert (code, err) == (0, "")
+def test_the_catalogue_as_a_table(printed):
+    out = printed("balls")
     assert rows(out, "tennis")[0] == ["tennis", *"57.00 66.00 0.7506 5.000 22500 10300".split()]
     assert rows(out, "basketball")[0][4] == "–"
     assert "Cross 2007, Table I" in out
     assert rows(out, "B1")[1][:5] == ["B1", "B2", "56000", "16000", "1.000"]
 
 
-def test_the_catalogue_as_json(run):
-    code, out, _ = run("balls", "--json")
-    assert code == 0
-    got = json.loads(out)
+def test_the_catalogue_as_json(told):
+    got = told("balls")
     tennis = got["balls"][1]
     assert (tennis["name"], tennis["mass"], tennis["stiffness"]) == ("tennis", 0.057, 22500.0)
     assert tennis["sources"]["mass"] == "Cross 2007, section III"
@@ -498,13 +434,8 @@ def test_paper_says_what_it_does_and_what_came_out(run, write):
     assert rows(out, "all") == [["all", "3"]]
     assert "Rows that disagree without an explanation: 1\n" in out
     assert out.endswith("Open new/folder/index.html\n")
-    told = json.loads(run("paper", "--out", "new", "--json")[1])
-    assert told == {"counts": {"agrees": 2, "differs": 1}, "computed": None}
-
-
-def test_an_output_folder_needs_a_name(refused, write):
-    assert refused("paper", "--out", "") == "--out must name a folder, got ''\n"
-    assert write == []
+    found = json.loads(run("paper", "--out", "new", "--json")[1])
+    assert found == {"counts": {"agrees": 2, "differs": 1}, "computed": None}
 
 
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write everywhere")
@@ -512,14 +443,6 @@ def test_an_output_folder_without_permission(refused):
     Path("shut").mkdir(mode=0o500)
     assert refused("paper", "--out", "shut") == "shut cannot be written to: Permission denied\n"
     assert list(Path("shut").iterdir()) == []
-
-
-@pytest.mark.parametrize("folder", ["file", "file/new/deep", "/proc/new"])
-def test_an_output_folder_that_cannot_be_written_to(refused, folder):
-    Path("file").write_text("kept")
-    assert refused("paper", "--out", folder).startswith(f"{folder} cannot be written to: ")
-    assert Path("file").read_text() == "kept"
-    assert list(Path().iterdir()) == [Path("file")]
 
 
 @pytest.mark.parametrize(
@@ -536,28 +459,15 @@ def test_a_law_is_read_and_described(words, law, text):
     assert descriptions.law_text(law).startswith(text)
 
 
-@pytest.mark.parametrize(
-    ("value", "text"),
-    [
-        (1e-300, "0"), (1e-11, "1.000e-11"), (0.1, "0.1000"), (999.96, "1000."), (1234.5, "1234"),
-        (123456.0, "123456"), (1e12, "1.000e+12"), (-math.inf, "-∞"), (-2.0, "-2.000"),
-    ],
-)  # fmt: skip
-def test_numbers_for_people(value, text):
-    assert tables.number(value) == text.removesuffix(".")
-
-
-def test_sweep_writes_a_store_and_a_picture(run, tmp_path):
+def test_sweep_writes_a_store_and_a_picture(printed, told, tmp_path):
     over = ["--over", "balls.0.mass=50g:500g:4:log", "--over", "gaps.0=0mm,2mm"]
     files = ["--out", "map.zarr", "--plot", "map.png"]
-    code, out, err = run("sweep", "basketball", "tennis", *over, *files)
-    assert (code, err) == (0, "")
+    out = printed("sweep", "basketball", "tennis", *over, *files)
     assert "8 drops, over\n  balls.0.mass: 4, 0.05 to 0.5 kg\n  gaps.0: 2, 0 to 0.002 m\n" in out
     assert "  energy_retained: 1\n" in out
     assert "8 FINISHED" in out
     assert (tmp_path / "map.png").stat().st_size > 5000
-    again = run("sweep", "basketball", "tennis", *over, "--out", "map.zarr", "--json")
-    found = json.loads(again[1])
+    found = told("sweep", "basketball", "tennis", *over, "--out", "map.zarr")
     assert found["status"] == {"FINISHED": 8}
     assert found["over"] == {"balls.0.mass": 4, "gaps.0": 2}
     low, high = found["ranges"]["rebound_ratio"]["ball 1"]
@@ -572,36 +482,3 @@ def test_sweep_draws_the_ball_that_is_asked_for(run, monkeypatch):
     for asked in ("rebound_ratio.0", "collisions"):
         assert run("sweep", "B1", "B2", *over, "--plot", "a.png", "--show", asked)[0] == 0
     assert drawn == [(("rebound_ratio",), {"index": 0}), (("collisions",), {})]
-
-
-THREE = ["--over", "gaps.0=0", "--over", "height=1", "--over", "gravity=0", "--plot", "a.png"]
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["--over", "balls.0.mass=-1kg,1kg"], "balls.0.mass must be a positive number"),
-        (["--over", "gaps.0=0", "--cluster", "tcp://127.0.0.1:9"], "--cluster must be the address"),
-        (["--over", "gaps.0=0,1", "--plot", "a.png", "--show", "colisions"], "did you mean coll"),
-        (["--over", "gaps.0=0,1", "--plot", "a.png", "--show", "collisions.2"], "from 0 to 1, got"),
-        (["--over", "gaps.0=0", "--plot", "a.png", "--show", "energy_retained.0"], "whole stack"),
-        (["--over", "mass=1:2:3"], "mass is not a parameter of this drop"),
-        (["--over", "balls.2.mass=1:2:3"], "did you mean balls.1.mass?"),
-        (["--over", "speed=1:2:3"], "speed is not a parameter of this drop"),
-        (["--over", "contacts.0.restitution=1"], "did you mean contacts.0.stiffness?"),
-        (["--over", "gaps.0=0:1mm:9:log"], "of one sign for :log, not from or to 0, got 0:1mm"),
-        (THREE, "--plot needs one or two parameters that vary, got 3"),
-        ([], "nothing is to vary: give --over PATH=VALUES or --draws FILE"),
-    ],
-)
-def test_sweep_says_what_is_wrong_in_one_line(refused, tmp_path, arguments, message):
-    assert message in refused("sweep", "basketball", "tennis", *arguments, "--out", "map.zarr")
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize("out", ["map.csv", "map", "map.nc"])
-def test_sweep_writes_a_zarr_store(refused, tmp_path, out):
-    err = refused("sweep", "tennis", "--over", "balls.0.mass=1,2", "--out", out)
-    assert f"must end in .zarr, got '{out}'" in err
-    assert ("to_netcdf('map.nc') makes one of it" in err) == (out == "map.nc")
-    assert not list(tmp_path.iterdir())

@@ -1,6 +1,5 @@
 """The command highest: tables, JSON, files, and what it refuses."""
 
-import json
 from pathlib import Path
 
 import pytest
@@ -10,11 +9,9 @@ import stackbounce as sb
 RIGID = ["--contact", "Rigid restitution=1"] * 3
 
 
-def test_highest_for_machines_and_to_a_file(run):
+def test_highest_for_machines_and_to_a_file(told):
     words = ["B1", "B2", "B3", "--balls", "2", "--gap", "1mm", "--speed", "2", "--law", "spring"]
-    code, out, err = run("highest", *words, "--save", "best.toml", "--json")
-    assert (code, err) == (0, "")
-    found = json.loads(out)
+    found = told("highest", *words, "--save", "best.toml")
     names = ["B1", "B2", "B3"]
     ds = sb.highest(names, 2, gaps=[0.001], law=sb.Spring, impact_speed=2.0)
     assert [stack["balls"] for stack in found["stacks"]] == ds.balls.values.tolist()
@@ -24,29 +21,20 @@ def test_highest_for_machines_and_to_a_file(run):
     assert best.rebound_ratios == pytest.approx(ds.rebound_ratio.values[0, 0], abs=1e-12)
 
 
-def test_highest_of_balls_that_have_a_file_each(run):
+def test_highest_of_balls_that_have_a_file_each(printed):
     for name, mass in (("a", 0.2), ("b", 0.02)):
         drop = sb.Drop([sb.Ball(mass, name=name)], [sb.Spring(1e4)], height=1.0)
         Path(f"{name}.toml").write_text(drop.to_toml(), encoding="utf-8")
-    code, out, _ = run("highest", "a.toml", "b.toml", "--balls", "2", "--gap", "0", "--rows", "1")
-    assert code == 0
+    out = printed("highest", "a.toml", "b.toml", "--balls", "2", "--gap", "0", "--rows", "1")
     assert "The best 1 of 2 stacks" in out
     stack = sb.Drop([sb.Ball(0.2), sb.Ball(0.02)], [sb.Spring(1e4), sb.Spring(5e3)], height=1.0)
     height = sb.simulate(stack).rebound_ratios[1]
     assert f"{height:.3f}" in next(line for line in out.splitlines() if line.startswith("a + b"))
 
 
-def test_highest_says_which_stack_another_gap_favours(run):
-    code, out, _ = run("highest", "B1", "B2", "B3", "--balls", "2")
-    assert code == 0
-    assert "With gaps of 5 mm B1 + B3 is first." in out
-
-
-def test_the_best_masses_for_machines_and_to_a_file(run):
+def test_the_best_masses_for_machines_and_to_a_file(told):
     words = ["B1", "B2", "B3", *RIGID, "--masses", "--save", "best.toml"]
-    code, out, err = run("highest", *words, "--json")
-    assert (code, err) == (0, "")
-    found = json.loads(out)
+    found = told("highest", *words)
     masses = {stack["name"]: stack["masses"] for stack in found["stacks"]}
     best, means = (masses[f"B1 + 29.3 g + B3 ({n})"] for n in ("best masses", "geometric means"))
     assert best[1] == pytest.approx((0.101 * 0.0085) ** 0.5, rel=1e-5)
@@ -57,23 +45,7 @@ def test_the_best_masses_for_machines_and_to_a_file(run):
 
 
 @pytest.mark.slow
-def test_it_says_when_the_best_masses_lie_beyond(run):
-    code, out, _ = run("highest", "B1", "B2", "B3", "--in-order", "--within", "40g:50g")
-    assert code == 0
+def test_it_says_when_the_best_masses_lie_beyond(printed):
+    out = printed("highest", "B1", "B2", "B3", "--in-order", "--within", "40g:50g")
     assert "The mass of ball 1 lies at the end of what was tried, 0.04 kg to 0.05 kg" in out
     assert out.count("B1 + ") == 3
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["B9"], "ball must be one of the catalogue"),
-        (["--height", "1m", "--speed", "1"], "only one of the two can be given"),
-        (["--height", "-1m"], "--height must be a positive number of metres"),
-        (["--save", "best.txt"], "--save must end in .toml"),
-        (["no.toml"], "no.toml cannot be read"),
-        (["--within", "1g"], "--within must be MASS:MASS"),
-    ],
-)
-def test_what_is_wrong_is_said_in_one_line(refused, arguments, message):
-    assert message in refused("highest", *arguments)

@@ -1,13 +1,12 @@
 """`stackbounce measure`: a contact law, heights, points on the ball, the floor of a track."""
 
-import json
 import shutil
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 import stackbounce as sb
-from stackbounce.cli import main
 from stackbounce.errors import InvalidValue
 from stackbounce.measure import analyse, heights, one_law
 from stackbounce.measure.kinds.contact.kind import of_numbers
@@ -23,16 +22,10 @@ HEIGHTS = "1.00, 0.64, 0.4096 m"
 
 
 @pytest.fixture
-def run(capfd, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def run(told, tmp_path):
     for name in ("tennis.wav", "tennis-force.csv"):
         shutil.copy(LAB / name, tmp_path)
-
-    def run_main(*arguments):
-        assert main(["measure", *arguments, "--json"]) == 0
-        return json.loads(capfd.readouterr().out)
-
-    return run_main
+    return partial(told, "measure")
 
 
 def rows(found):

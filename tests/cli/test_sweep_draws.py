@@ -1,6 +1,5 @@
 """Draws of the numbers of a drop: ``stackbounce fit --draws`` and ``sweep --draws``."""
 
-import json
 from pathlib import Path
 
 import numpy as np
@@ -10,16 +9,14 @@ import xarray as xr
 MEASURED = ("basketball", "tennis", "--measured", "rebound_ratios.1=1.64 ± 0.02")
 
 
-def test_the_draws_of_a_fit_are_drops_of_a_sweep(run):
+def test_the_draws_of_a_fit_are_drops_of_a_sweep(printed):
     tie = "contacts.0.stiffness=1500+0.5*contacts.1.stiffness"
     what = (*MEASURED, "--height", "63cm")
     vary = ("--vary", "contacts.1.stiffness=0.7kN/m:2.5kN/m", "--tie", tie)
     files = ("--sample", "1600", "--draws", "draws.csv", "--save", "fitted.toml")
-    code, out, err = run("fit", *what, *vary, *files)
-    assert (code, err) == (0, "")
+    out = printed("fit", *what, *vary, *files)
     assert "Draws: draws.csv; now: stackbounce sweep … --draws draws.csv\n" in out
-    code, out, err = run("sweep", "fitted.toml", "--draws", "draws.csv", "--out", "bounce.zarr")
-    assert (code, err) == (0, "")
+    out = printed("sweep", "fitted.toml", "--draws", "draws.csv", "--out", "bounce.zarr")
     with xr.open_zarr("bounce.zarr") as data:
         upper, lower = data["contacts.1.stiffness"].values, data["contacts.0.stiffness"].values
         assert lower == pytest.approx(1500.0 + 0.5 * upper)
@@ -27,48 +24,14 @@ def test_the_draws_of_a_fit_are_drops_of_a_sweep(run):
     assert np.loadtxt("draws.csv", delimiter=",", skiprows=1).shape == (data.sizes["draw"], 2)
 
 
-@pytest.mark.parametrize(
-    ("more", "message"),
-    [
-        (["--draws", "draws.csv"], "--draws writes the draws of --sample: give both"),
-        (["--draws", "draws.txt", "--sample", "1600"], "--draws must end in .csv, got draws.txt"),
-    ],
-)
-def test_draws_that_cannot_be_written(refused, more, message):
-    assert message in refused("fit", *MEASURED, "--vary", "gaps.0", *more)
-
-
-def test_a_sweep_of_draws_has_one_drop_for_each_row(run):
+def test_a_sweep_of_draws_has_one_drop_for_each_row(printed, told):
     Path("draws.csv").write_text("gaps.0 (mm);balls.0.mass (g)\n1,5;24,8\n\n2;30\n")
     given = ("sweep", "basketball", "tennis", "--draws", "draws.csv", "--out", "draws.zarr")
-    code, out, err = run(*given, "--over", "height=1,2,3")
-    assert (code, err) == (0, "")
+    out = printed(*given, "--over", "height=1,2,3")
     assert "draw: 2, each with its own\n" in out
     assert "    gaps.0: 0.0015 to 0.002 m\n" in out
     with xr.open_zarr("draws.zarr") as data:
         assert data.rebound_ratio.dims == ("draw", "height", "ball")
         assert data["balls.0.mass"].values.tolist() == [0.0248, 0.03]
         assert data["gaps.0"].dims == ("draw",)
-    found = json.loads(run(*given, "--over", "height=1,2,3", "--json")[1])
-    assert found["over"] == {"draw": 2, "height": 3}
-
-
-@pytest.mark.parametrize(
-    ("table", "more", "message"),
-    [
-        ("gaps.0 (mm)\n", [], "draws.csv: it must have a heading, and a row for each draw"),
-        ("gap (mm)\n1\n", [], "draws.csv: gap is not a parameter of this drop; did you mean gaps"),
-        ("gaps.0,gaps.0\n1,1\n", [], "draws.csv: column gaps.0 is there twice"),
-        ("gaps.0,height\n1,1\n1\n", [], "draws.csv: row 3 must have 2 cells, got 1"),
-        ("gaps.0\n\n1e-3\nnone\n", [], "draws.csv: row 4, gaps.0, must be a number, got 'none'"),
-        ("gaps.0\n-1\n", [], "gaps.0 must be a number of metres, 0 or above, got -1.0 (at draw 0)"),
-        ("gaps.0\n1\n", ["--over", "gaps.0=1mm"], "gaps.0 is in --over and in --draws"),
-        ("gaps.0\n1\n", ["--plot", "a.png"], "has no picture of --draws"),
-        ("", [], "draws.csv is empty"),
-    ],
-)
-def test_a_table_of_draws_that_cannot_be_used(refused, table, more, message):
-    Path("draws.csv").write_text(table)
-    given = ("sweep", "basketball", "tennis", "--draws", "draws.csv", "--out", "map.zarr")
-    assert message in refused(*given, *more)
-    assert not Path("map.zarr").exists()
+    assert told(*given, "--over", "height=1,2,3")["over"] == {"draw": 2, "height": 3}

@@ -203,7 +203,7 @@ def test_all_other_inputs_leave_a_row_alone(name):
 @pytest.mark.slow
 def test_every_input_is_used():
     used = set()
-    computed = [reading.compute for readings in READINGS.values() for reading in readings]
+    computed = [compute for readings in READINGS.values() for compute in readings]
     computed += COMPUTED.values()
     with use_style():
         for make in (*computed, make_table_one, make_table_two, *FIGURES.values()):

@@ -11,8 +11,6 @@ from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.cross2007.curves import (
     after_collision,
-    rebound_by_mass,
-    rebound_by_stiffness,
     sample_forces,
 )
 from stackbounce.cross2007.drops import bisect, force_above, newton, peak_times, spring_pair
@@ -99,39 +97,8 @@ def test_figures_follow_the_data(drawn):
     assert lighter.features != drawn["9"].features
 
 
-@pytest.mark.parametrize("e", [1.0, 0.8])
-def test_first_collision_follows_equations_1_and_2(bench, e):
-    m = np.array([0.1, 1.0, 3.0, 10.0])
-    lower = (e * m - (1.0 + e + e * e)) / (m + 1.0)  # eq. 1
-    upper = (e * (2.0 + e) * m - 1.0) / (m + 1.0)  # eq. 2
-    np.testing.assert_allclose(after_collision(bench, m, e, 1), [lower, upper], atol=1e-13)
-
-
-@pytest.mark.parametrize("e", [1.0, 0.8])
-def test_second_collision_follows_equations_3_and_4(bench, e):
-    m = np.array([0.1, 0.3, 0.9])
-    v1, v2 = after_collision(bench, m, e, 1)
-    v3 = ((1.0 + e) * v2 + e * (e - m) * v1) / (m + 1.0)  # eq. 3
-    v4 = ((1.0 - e * m) * v2 - e * (1.0 + e) * m * v1) / (m + 1.0)  # eq. 4
-    np.testing.assert_allclose(after_collision(bench, m, e, 2), [v3, v4], atol=1e-12)
-
-
 def test_heavy_lower_balls_collide_once(bench):
     assert np.isnan(after_collision(bench, np.array([2.0]), 1.0, 2)).all()
-
-
-def test_energy_is_kept_on_springs(bench):
-    m = np.array([0.05, 0.5, 2.63, 10.0])
-    lower, upper = rebound_by_mass(bench, m, 20.0)
-    np.testing.assert_allclose(m * lower**2 + upper**2, m + 1.0, rtol=1e-12)
-    lower, upper = rebound_by_stiffness(bench, 4.23, np.array([0.1, 1.0, 100.0]))
-    np.testing.assert_allclose(4.23 * lower**2 + upper**2, 5.23, rtol=1e-12)
-
-
-def test_a_stiff_lower_spring_comes_near_to_separate_collisions(bench):
-    lower, upper = rebound_by_stiffness(bench, 10.0, np.array([1e6]))
-    separate = after_collision(bench, np.array([10.0]), 1.0, 1)
-    np.testing.assert_allclose([lower, upper], separate, atol=1e-2)
 
 
 def test_forces_start_at_zero_and_end_with_the_contacts(bench):

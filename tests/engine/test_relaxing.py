@@ -195,21 +195,6 @@ def test_a_balls_energy_after_all_is_kinetic():
     assert soon > 1.001 * late  # the surface still holds some
 
 
-@pytest.mark.parametrize("varied", ["stiffness", "relaxation_strength", "relaxation_time"])
-def test_a_sweep_gives_the_bits_of_single_drops(varied):
-    drop = drop_of("three")
-    base = getattr(drop.contacts[1], varied)
-    values = base * np.array([0.3, 1.0, 2.5])
-    swept = sb.sweep(drop, {f"contacts.1.{varied}": values})
-    for row, value in enumerate(values):
-        contacts = list(drop.contacts)
-        contacts[1] = contacts[1].replaced({varied: value})
-        balls, gaps = list(drop.balls), list(drop.gaps)
-        alone = sb.simulate(sb.Drop(balls, contacts, gaps, impact_speed=1.0))
-        assert np.array_equal(swept.rebound_ratio.values[row], alone.rebound_ratios)
-        assert np.array_equal(swept.collisions.values[row], alone.collisions)
-
-
 def test_a_stack_comes_to_rest():
     solids = [Solid(2e4, 0.6, 2e-3), Solid(3e4, 0.4, 1e-3)]
     drop = sb.Drop([sb.Ball(0.1), sb.Ball(0.05)], solids, height=0.2, gravity=9.81)

@@ -5,37 +5,12 @@ from random import Random
 
 import numpy as np
 import pytest
-from mpmath import mpf
 
 import stackbounce as sb
-from drops import assert_collisions
-from reference import falling, restitution, rigid
+from drops import assert_collisions, fallen, precise
+from reference import rigid
 
-PRECISION = 1e-11
 G = 9.81
-
-
-def restitution_of(law, contact):
-    """Return the restitution of a law with many digits, as a function of the speed."""
-    if type(law) is sb.Rigid:
-        return mpf(law.restitution)
-    make = {
-        sb.RigidBySpeed: restitution.falling_power,
-        sb.RigidLossBySpeed: restitution.loss_power,
-    }[type(law)]
-    mean = make(law.restitution, law.speed, law.speed_exponent)
-    return restitution.scattered(mean, law.scatter, law.seed, contact) if law.scatter else mean
-
-
-def precise(drop, limit=100_000):
-    """Return the solution without gravity to fifty digits."""
-    return rigid.run(
-        [mpf(ball.mass) for ball in drop.balls],
-        [law and restitution_of(law, i) for i, law in enumerate(drop.contacts)],
-        [mpf(gap) for gap in drop.gaps],
-        [mpf(v) for v in drop.start_velocities],
-        limit,
-    )
 
 
 def random_law(random):
@@ -84,13 +59,9 @@ def test_random_stacks_under_gravity():
         stopped = result.status is sb.Status.TIME_REACHED
         if not stopped or -1 in result.collisions or result.conditioning.max() > 1e2:
             continue
-        laws = [law and restitution_of(law, i) for i, law in enumerate(drop.contacts)]
-        masses = [ball.mass for ball in drop.balls]
-        collisions, _, velocities = falling.fall(
-            masses, laws, drop.gaps, drop.start_velocities, G, until
-        )
-        assert_collisions(result, rigid.RigidOutcome(velocities, collisions, True))
-        compared += len(collisions) > 2
+        expected, _ = fallen(drop, until)
+        assert_collisions(result, expected)
+        compared += len(expected.collisions) > 2
 
 
 @pytest.mark.parametrize("masses", [(1.0, 0.5), (1.0, 3.0), (1.0, 5.0)])

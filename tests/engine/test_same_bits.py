@@ -8,13 +8,11 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
+from batches import bits, numbers_of, on_two_springs, swept
 from fuzz.draw import balls_of, drops_of, is_rigid
 from fuzz.replay import drop_of, options_of
 from stackbounce.engine import native
-from stackbounce.engine.memory import FINITE, RIGID, memory, spring_workspace
-from stackbounce.engine.records import Drops, Outcomes
-from stackbounce.engine.tables import Table
-from stackbounce.run.batch import new_outcomes
+from stackbounce.engine.memory import FINITE, RIGID
 from stackbounce.run.options import Options
 
 SEED = 11
@@ -22,14 +20,6 @@ BATCHES = [batch for batch in range(50) if balls_of(batch) > 1]  # of 2 to 6 bal
 EVENTS = 100  # at most
 TIMES = 20  # of samples
 EACH = 500  # drops of a batch that the processor levels are given
-
-
-def bits(values):
-    """Return the bits of numbers, where all that is not a number is alike."""
-    array = np.asarray(values)
-    if array.dtype.kind == "f":
-        array = np.where(np.isnan(array), np.nan, array)
-    return array.tobytes()
 
 
 def everything(result):
@@ -114,29 +104,17 @@ def at_level(monkeypatch):
 @functools.cache
 def batches():
     """Return ten thousand random drops as kernels take them, and how precisely to run them."""
-    found = []
-    for batch in BATCHES[: 10_000 // EACH]:
-        drawn = drops_of(SEED, batch, EACH)
-        kept = [getattr(drawn, name) for name in Drops._fields]
-        options = Options(np.inf, 1e-6, EVENTS)
-        found.append((RIGID if is_rigid(batch) else FINITE, Drops(*kept), options))
-    return found
-
-
-def empty(drops):
-    """Return room for outcomes; some of them are not computed."""
-    return Outcomes._make(map(np.zeros_like, new_outcomes(*drops.mass.shape)))
+    return [
+        (RIGID if is_rigid(batch) else FINITE, numbers_of(drops_of(SEED, batch, EACH)))
+        for batch in BATCHES[: 10_000 // EACH]
+    ]
 
 
 def outcomes():
     """Return the bits of all outcomes of the drops of `batches`, by the level that is chosen."""
     found, statuses = [], set()
-    for engine, drops, options in batches():
-        out = empty(drops)
-        memory(engine, drops.mass.shape[1], compiled=True).run_batch(
-            engine.run_batch, drops, options, out
-        )
-        native.compiled("find_ratios")(Table(drops), Table(out))
+    for engine, drops in batches():
+        out = swept(engine, drops, Options(np.inf, 1e-6, EVENTS))
         found.append([bits(array) for array in out])
         statuses |= set(out.status.tolist())
     assert sb.Status.FINISHED in statuses
@@ -145,12 +123,9 @@ def outcomes():
 
 def springs():
     """Return the bits of the outcomes of ten thousand drops of two balls on springs."""
-    drawn = drops_of(SEED, 0, 10_000)
-    kept = [getattr(drawn, name) for name in Drops._fields]
-    drops = Drops(*kept)._replace(velocity=np.repeat(-np.abs(drawn.velocity[:, :1]), 2, axis=1))
-    out = empty(drops)
-    run = native.compiled("run_two_springs")
-    run(Table(drops), 10_000, Table(out), Table(spring_workspace(compiled=True)))
+    drops = numbers_of(drops_of(SEED, 0, 10_000))
+    drops = drops._replace(velocity=np.repeat(-np.abs(drops.velocity[:, :1]), 2, axis=1))
+    out = on_two_springs(drops, 10_000)
     done = out.status == sb.Status.FINISHED
     assert done.any()
     return [bits(array[done]) for array in out] + [bits(out.status)]

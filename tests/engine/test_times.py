@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
-from drops import INTERVAL, drop_of_laws, interval_table
+from drops import drop_of, interval_table, table_of
 from reference import data
 
 ROWS = data.read("laws")
@@ -25,7 +25,7 @@ CUT = 1e-6  # of the peak compression: above it a contact has ended because its 
 
 def kept(drop, expected, fine, rtol, until):
     """Assert that the times of a run are as near to the expected ones as is promised."""
-    found = interval_table(sb.simulate(drop, until=until, rtol=rtol).intervals[INTERVAL].tolist())
+    found = table_of(sb.simulate(drop, until=until, rtol=rtol))
     assert found[:, 0].tolist() == expected[:, 0].tolist()
     error = rtol * max(1.0, fine.conditioning.max()) * drop.reference_speed
     ends = np.concatenate([expected[:, 1], expected[:, 2]])
@@ -66,14 +66,14 @@ def lead_of(law):
 @pytest.mark.parametrize("index", range(len(ROWS)))
 def test_times_against_thirty_digits(index, rtol):
     row = ROWS[index]
-    drop, until = drop_of_laws(row["case"]), row["case"].get("until")
+    drop, until = drop_of(row["case"]), row["case"].get("until")
     kept(drop, interval_table(row["intervals"]), exact_run(drop, until), rtol, until)
 
 
 @pytest.mark.parametrize("rtol", [1e-8, 1e-10, 1e-12])  # coarser ones may part what all but parts
 @pytest.mark.parametrize("index", range(len(GENTLE)))
 def test_gentle_times_against_thirty_digits(index, rtol):
-    drop = drop_of_laws(GENTLE[index]["case"])
+    drop = drop_of(GENTLE[index]["case"])
     expected = interval_table(GENTLE[index]["intervals"])
     kept(drop, expected, exact_run(drop, None), rtol, None)
 
@@ -103,12 +103,12 @@ def test_times_of_random_stacks_against_a_finer_run(seed):
         if random.random() < 0.3:
             case["gravity"] = 10.0 ** random.uniform(-2.0, 1.0)
             until = 10.0 ** random.uniform(0.0, 1.5)
-        drop = drop_of_laws(case)
+        drop = drop_of(case)
         fine = exact_run(drop, until)
         if fine.status in (sb.Status.FINISHED, sb.Status.TIME_REACHED):
             compared += 1
             for rtol in (1e-6, 1e-9, 1e-11):
-                kept(drop, interval_table(fine.intervals[INTERVAL].tolist()), fine, rtol, until)
+                kept(drop, table_of(fine), fine, rtol, until)
     assert compared > 20
 
 
@@ -116,7 +116,7 @@ def test_gentle_means_gentle():
     """The stored stacks have starts and ends at hardly any speed; the impact speed is 1."""
     rates = []
     for row in GENTLE:
-        drop, expected = drop_of_laws(row["case"]), interval_table(row["intervals"])
+        drop, expected = drop_of(row["case"]), interval_table(row["intervals"])
         fine = exact_run(drop, None)
         moments = fine.sample(np.minimum(expected[:, 1:3].ravel(), fine.end_time))
         for k in range(moments.time.size):

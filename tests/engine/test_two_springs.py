@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
+from benchmarks import random_drops
 
 import stackbounce as sb
+from batches import on_two_springs
 from reference import data, precise
-from stackbounce.engine import codes, native
+from stackbounce.engine import codes
 from stackbounce.engine.memory import spring_workspace
 from stackbounce.engine.records import Drops
-from stackbounce.engine.tables import Table
 from stackbounce.engine.two_springs import run_two_springs
 from stackbounce.run.batch import new_outcomes
 
@@ -31,12 +32,11 @@ def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
         velocity=-np.column_stack([speed, speed]),
         gravity=np.zeros(n),
     )
-    out = new_outcomes(n, 2)
-    space = spring_workspace(not plain)
     if plain:
-        run_two_springs(drops, event_limit, out, space)
+        out = new_outcomes(n, 2)
+        run_two_springs(drops, event_limit, out, spring_workspace(compiled=False))
     else:
-        native.compiled("run_two_springs")(Table(drops), event_limit, Table(out), Table(space))
+        out = on_two_springs(drops, event_limit)
     found = {name: getattr(out, name) for name in NAMES}
     ratio = out.velocity / np.asarray(speed)[:, None]
     found["energy"] = (mass * ratio**2).sum(axis=1) / np.sum(mass, axis=1)
@@ -128,7 +128,7 @@ def two_balls():
     for row in data.read("springs"):
         case = row["case"]
         together = len(set(case["velocities"])) == 1
-        sprung = all(contact and set(contact) == {"stiffness"} for contact in case["contacts"])
+        sprung = all(law and law["law"] == "Spring" for law in case["contacts"])
         if len(case["masses"]) == 2 and together and sprung:
             yield row
 
@@ -158,45 +158,13 @@ def test_reference():
             assert (np.abs(found - expected) <= TIME * np.maximum(unit, expected)).all()
 
 
-def counts(ratio, stiffness, gap):
-    return simulated((1.0, 1.0 / ratio), (1.0, 1.0 / stiffness), gap, 1.0).collisions.tolist()
-
-
-def changes(random, tries):
-    """Yield drops at which the number of contacts changes, found by halving a random line."""
-    for _ in range(tries):
-        ends = [
-            np.array([*np.log(log_uniform(random, 0.05, 50.0, 2)), 2.0 * random.random()])
-            for _ in range(2)
-        ]
-        for end in ends:
-            end[2] *= random.random() < 0.7
-
-        def at(where, ends=ends):
-            ratio, stiffness, gap = ends[0] + where * (ends[1] - ends[0])
-            return float(np.exp(ratio)), float(np.exp(stiffness)), float(gap)
-
-        low, high = 0.0, 1.0
-        first = counts(*at(low))
-        if first == counts(*at(high)):
-            continue
-        while high - low > 1e-15:
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if counts(*at(middle)) == first else (low, middle)
-        yield at, low
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize(("distance", "most"), [(1e-4, 0.2), (1e-7, 0.7), (1e-10, 1.0)])
-def test_where_the_number_of_contacts_changes(distance, most):
-    random = np.random.default_rng(3)
-    points = [at(here + s * distance) for at, here in changes(random, 60) for s in (-1.0, 1.0)]
-    assert len(points) > 40
-    ratio, softness, gap = (np.array(column) for column in zip(*points, strict=True))
-    mass = np.stack([np.ones_like(gap), 1.0 / ratio], axis=1)
-    stiffness = np.stack([np.ones_like(gap), 1.0 / softness], axis=1)
-    drops = mass, stiffness, gap, np.ones_like(gap)
-    assert compare(drops, solve(*drops)) <= most * len(points)
+@pytest.mark.parametrize(("offset", "most"), [(1e-4, 0.2), (1e-7, 0.7), (1e-10, 1.0)])
+def test_where_the_number_of_contacts_changes(offset, most):
+    hard = random_drops.hard(25, seed=3)[offset]
+    drops = hard.masses, hard.stiffnesses, hard.gaps, np.ones(len(hard))
+    left = compare(drops, solve(*drops), loose=4.0)  # up to twelve contacts: errors grow
+    assert left <= most * len(hard)
 
 
 def test_units_change_no_bit():

@@ -1,12 +1,11 @@
 """A server of the explorer, as `stackbounce app` runs it."""
 
-import contextlib
 import copy
-import subprocess
-import sys
 
 import httpx
 import pytest
+
+from adversary.server import serving
 
 DROP = {
     "balls": [{"mass": "150 g", "name": "basketball"}, {"mass": "57 g"}],
@@ -15,27 +14,10 @@ DROP = {
 }
 
 
-@contextlib.contextmanager
-def served(*options):
-    """Serve the explorer at a free port; yield its address."""
-    command = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--port", "0", *options]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        try:
-            yield process.stdout.readline().split()[2]
-        finally:
-            process.terminate()
-
-
 @pytest.fixture(scope="session")
 def address_of_server():
-    with served("--workers", "2") as address:
-        yield address
-
-
-@pytest.fixture(scope="session")
-def address(address_of_server):
-    """Return the address of the server."""
-    return address_of_server
+    with serving() as server:
+        yield server.address
 
 
 @pytest.fixture(scope="session")

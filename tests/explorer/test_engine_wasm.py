@@ -9,12 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import stackbounce as sb
+from batches import bits, find_ratios, numbers_of, on_two_springs, swept
 from fuzz import draw
+from fuzz.replay import drop_of, options_of
 from stackbounce.engine import codes, native
-from stackbounce.engine.memory import FINITE, RIGID, memory, spring_workspace
-from stackbounce.engine.records import AFTER, BEGIN_WITH_PEAKS, CONTINUE, END, Drops
-from stackbounce.engine.tables import Table
-from stackbounce.run.batch import new_outcomes
+from stackbounce.engine.memory import FINITE, RIGID
+from stackbounce.engine.records import Drops
 from stackbounce.run.options import Options
 
 SEED = 3
@@ -28,54 +29,29 @@ ENGINE = files("stackbounce.explorer").joinpath("static/js/engine/engine.js")
 pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="node is not installed")
 
 
-def bits(numbers):
-    """Return the bits of numbers; all nans are one, as processors differ in their sign."""
-    numbers = np.asarray(numbers, dtype=float)
-    return np.where(np.isnan(numbers), np.nan, numbers).view(np.uint64)
-
-
 def job(kind, drops, rigid, options, times=()):
     """Return the numbers that tell node what to run."""
     head = [kind, *drops.mass.shape, rigid, options.rtol, options.until, options.event_limit]
     return np.concatenate([[*head, len(times), *times], *map(np.ravel, drops)])
 
 
-def numbers_of(drops, rows):
-    """Return some random drops as the engine takes them."""
-    return Drops._make(np.ascontiguousarray(getattr(drops, name)[rows]) for name in Drops._fields)
-
-
-def simulated(drop, rigid, options, times=()):
+def simulated(drop, options, times=()):
     """Return what `engine.js` returns of one drop, and the time of its end."""
-    engine, balls = RIGID if rigid else FINITE, drop.mass.shape[1]
-    room = memory(engine, balls, compiled=True)
-    room.put(Drops._make(array[0] for array in drop))
-    samples = room.samples(list(times))
-    run, log, stage, status = room.run_with(samples), [], BEGIN_WITH_PEAKS, 0
-    while status == codes.RUNNING:
-        status, stage = run(stage, *options), CONTINUE
-        log += room.take_log()
-    infinite = room.stack.infinite if rigid else np.zeros(balls)
-    after = room.space.after.copy()
-    parts = [[status, after[END], len(log)], after[AFTER:], log, infinite, *samples[1:]]
-    return np.concatenate(parts), after[END]
+    result = sb.simulate(drop, **options, compiled=True)
+    samples = result.rerun(list(times)).samples if len(times) else ()
+    head = [result.status, result.end_time, len(result.log)]
+    parts = [head, result.final_velocities, result.log, result.infinite, *samples[1:]]
+    return np.concatenate(parts), result.end_time
 
 
-def swept(drops, rigid, options, springs=False):
-    """Return the outcomes of many drops."""
-    engine, (count, balls) = RIGID if rigid else FINITE, drops.mass.shape
-    out = new_outcomes(count, balls)
-    if springs:
-        table, space = Table(out), Table(spring_workspace(compiled=True))
-        native.compiled("run_two_springs")(Table(drops), options.event_limit, table, space)
-        asked = np.flatnonzero(out.status == codes.ASK)
-        answers = swept(Drops._make(array[asked] for array in drops), rigid, options)
-        for array, answer in zip(out, answers, strict=True):
-            array[asked] = answer
-    else:
-        room = memory(engine, balls, compiled=True)
-        room.run_batch(engine.run_batch, drops, options, out)
-    native.compiled("find_ratios")(Table(drops), Table(out))
+def swept_springs(drops, options):
+    """Return the outcomes of two balls on springs, some of them by the general engine."""
+    out = on_two_springs(drops, options.event_limit)
+    asked = np.flatnonzero(out.status == codes.ASK)
+    answers = swept(FINITE, Drops._make(array[asked] for array in drops), options)
+    for array, answer in zip(out, answers, strict=True):
+        array[asked] = answer
+    find_ratios(drops, out)
     return out
 
 
@@ -88,7 +64,8 @@ def compare(jobs, expected, folder):
     assert (done.returncode, done.stderr) == (0, "")
     found, wanted = np.fromfile(folder / "answered", dtype="<f8"), np.concatenate(expected)
     assert len(found) == len(wanted)
-    assert np.flatnonzero(bits(found) != bits(wanted)).tolist() == []
+    same = bits(found) == bits(wanted)
+    assert same
 
 
 def compare_random_drops(batches, count, folder):
@@ -97,18 +74,19 @@ def compare_random_drops(batches, count, folder):
     for batch in range(batches):
         drawn, rigid = draw.drops_of(SEED, batch, count), draw.is_rigid(batch)
         for row in range(count):
-            drop = numbers_of(drawn, slice(row, row + 1))
-            options = Options(drawn.until[row], drawn.rtol[row], int(drawn.limit[row]))
-            answer, end = simulated(drop, rigid, options)
+            drop, own = drop_of(drawn, row), options_of(drawn, row)
+            answer, end = simulated(drop, own)
             times = ()
             if row % SAMPLED == 0 and 0.0 < end < math.inf:
                 times = [0.0, 0.3 * end, 0.7 * end, end, 1.1 * end]
-                answer, _ = simulated(drop, rigid, options, times)
-            jobs.append(job(SIMULATE, drop, rigid, options, times))
+                answer, _ = simulated(drop, own, times)
+            options = Options(drawn.until[row], drawn.rtol[row], int(drawn.limit[row]))
+            drops = numbers_of(drawn, slice(row, row + 1))
+            jobs.append(job(SIMULATE, drops, drop.rigid, options, times))
             expected.append(answer)
-        drops, options = numbers_of(drawn, slice(None)), Options(math.inf, 1e-9, LIMIT)
+        drops, options = numbers_of(drawn), Options(math.inf, 1e-9, LIMIT)
         jobs.append(job(SWEEP, drops, rigid, options))
-        expected += map(np.ravel, swept(drops, rigid, options))
+        expected += map(np.ravel, swept(RIGID if rigid else FINITE, drops, options))
     compare(jobs, expected, folder)
 
 
@@ -135,18 +113,17 @@ def two_springs(count):
 @pytest.mark.parametrize("count", [1, 300, pytest.param(10_800, marks=pytest.mark.slow)])
 def test_two_springs(tmp_path, count):
     drops, options = two_springs(count), Options(math.inf, 1e-12, 1_000_000)
-    out = swept(drops, rigid=False, options=options, springs=True)
+    out = swept_springs(drops, options)
     compare([job(SPRINGS, drops, False, options)], list(map(np.ravel, out)), tmp_path)
     assert (out.status == codes.FINISHED).any()
     if count > 1:
-        raw, space = new_outcomes(count, 2), Table(spring_workspace(compiled=True))
-        native.compiled("run_two_springs")(Table(drops), 1_000_000, Table(raw), space)
-        assert 0 < (raw.status == codes.ASK).sum() < count // 2
+        asked = on_two_springs(drops, options.event_limit).status == codes.ASK
+        assert 0 < asked.sum() < count // 2
 
 
 def test_memory_grows_while_stacks_are_kept(tmp_path):
     options, stacks = Options(math.inf, 1e-12, 1_000_000), [two_springs(n) for n in (5, 4000, 5)]
-    outs = [swept(drops, rigid=False, options=options) for drops in stacks]
+    outs = [swept(FINITE, drops, options) for drops in stacks]
     jobs = [job(SWEEP, drops, False, options) for drops in stacks]
     compare(jobs, [np.ravel(array) for out in outs for array in out], tmp_path)
 
@@ -155,9 +132,10 @@ def test_a_log_longer_than_its_room(tmp_path):
     """A ball on a spring bounces for ever, if it is watched so long."""
     one = np.ones((1, 1))
     kind = np.full((1, 1), codes.POWER)
-    drop = Drops(one, kind, 1e3 * one, one, *[0.0 * one] * 3, -one, np.full(1, 9.8))
+    drops = Drops(one, kind, 1e3 * one, one, *[0.0 * one] * 3, -one, np.full(1, 9.8))
+    drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1e3)], velocities=[-1.0], gravity=9.8)
     options = Options(1e4, 1e-9, 3000)
-    answer, _ = simulated(drop, False, options)
+    answer, _ = simulated(drop, {"until": 1e4, "rtol": 1e-9, "event_limit": 3000})
     assert answer[0] == codes.EVENT_LIMIT
     assert answer[2] == 2000 * codes.LOG_COLUMNS  # without the changes that are not logged
-    compare([job(SIMULATE, drop, False, options)], [answer], tmp_path)
+    compare([job(SIMULATE, drops, False, options)], [answer], tmp_path)

@@ -26,10 +26,10 @@ def test_other_sites_are_kept_out(server):
             assert server.get("/api/places", headers={name: value}).status_code == status, value
 
 
-def test_the_page_itself_may_ask_by_each_name_of_this_machine(server, address, drop):
-    asked = {"json": {"drop": drop}, "headers": {"origin": address.rstrip("/")}}
+def test_the_page_itself_may_ask_by_each_name_of_this_machine(server, address_of_server, drop):
+    asked = {"json": {"drop": drop}, "headers": {"origin": address_of_server.rstrip("/")}}
     assert server.post("/api/simulate", **asked).status_code == 200
-    port = address.rstrip("/").rpartition(":")[2]
+    port = address_of_server.rstrip("/").rpartition(":")[2]
     own = socket.gethostname()
     for name in ("localhost", "[::1]", "192.168.0.7", own, f"{own.partition('.')[0]}.local"):
         assert server.get("/api/places", headers={"host": f"{name}:{port}"}).status_code == 200

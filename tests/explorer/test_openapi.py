@@ -28,8 +28,8 @@ OPERATIONS = [
 
 
 @pytest.fixture(scope="session")
-def description(address):
-    return schemathesis.openapi.from_url(f"{address}api/openapi.json")
+def description(address_of_server):
+    return schemathesis.openapi.from_url(f"{address_of_server}api/openapi.json")
 
 
 def test_the_list_above_is_whole(description):

@@ -14,6 +14,7 @@ import time
 from pathlib import Path
 
 import httpx
+import psutil
 import pytest
 
 from adversary.server import LONG_RUN, Server, serving
@@ -55,13 +56,6 @@ def test_a_port_that_is_taken(capsys):
     assert f"127.0.0.1, port {port} cannot be used" in capsys.readouterr().err
 
 
-def runs(pid):
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except FileNotFoundError:
-        return False
-
-
 @pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
 def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
@@ -81,14 +75,9 @@ def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
     assert not left_of(workers)
 
 
-def left_of(pids):
+def left_of(processes):
     """Return those of the processes that do not end by themselves."""
-    for _ in range(100):
-        pids = [pid for pid in pids if runs(pid)]
-        if not pids:
-            break
-        time.sleep(0.1)
-    return pids
+    return psutil.wait_procs(processes, timeout=10.0)[1]
 
 
 @pytest.mark.slow

@@ -4,7 +4,6 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.cross2007.datasets import NAMES, load_dataset, load_pair
-from stackbounce.errors import InvalidValue
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -33,8 +32,3 @@ def test_the_two_large_balls_are_not_equal():
     drop, data = load_pair("B1", "B1")
     assert drop.balls[0].mass / drop.balls[1].mass == pytest.approx(1.040)
     assert data["rebound_ratios"] == [(0.76, 0.02), (0.76, 0.02)]
-
-
-def test_an_unknown_name_is_answered_with_the_nearest():
-    with pytest.raises(InvalidValue, match="did you mean cross2007/B1-B2"):
-        load_dataset("cross2007/B1B2")

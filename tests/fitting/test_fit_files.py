@@ -6,8 +6,6 @@ import pytest
 import stackbounce as sb
 from stackbounce.errors import FileError, InvalidType, InvalidValue, ScenarioError
 from stackbounce.fitting import FitProblem, Range, read_drops, read_question
-from stackbounce.fitting.files import Parts
-from stackbounce.fitting.question import build_problem
 
 STACK = """
 [[balls]]
@@ -268,16 +266,3 @@ def test_what_is_wrong_in_a_table_is_one_line_with_row_and_column(write, text, e
 def test_a_table_that_is_none_is_refused(write, text, expected):
     with pytest.raises(FileError, match=expected):
         read_drops(BASE, write(text, "drops.csv", "latin-1"))
-
-
-def test_a_table_of_drops_belongs_to_one_drop_of_which_nothing_is_measured(tmp_path):
-    path = tmp_path / "drops.csv"
-    path.write_text("height (cm);rebound_ratios.0\n30;0.80 ± 0.01\n60;0.70 ± 0.01\n")
-    drop = sb.Drop([sb.Ball(1.0)], [sb.Rigid(0.8)], height=1.0)
-    vary = ["contacts.0.restitution"]
-    problem = build_problem(Parts({"": drop}, {}, {}, {}), data=path, vary=vary)
-    assert [fall.height for fall in problem.drops.values()] == pytest.approx([0.3, 0.6])
-    measured = {"": {"rebound_ratios.0": (0.8, 0.1)}}
-    for parts in (Parts({"a": drop, "b": drop}, {}, {}, {}), Parts({"": drop}, measured, {}, {})):
-        with pytest.raises(InvalidValue, match="the file must have one drop and nothing measured"):
-            build_problem(parts, data=path, vary=vary)

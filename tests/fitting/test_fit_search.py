@@ -8,7 +8,7 @@ import pytest
 import stackbounce as sb
 from drops import STACK
 from stackbounce.fitting import FitProblem
-from stackbounce.fitting.least_squares import find_minima, spread_trials
+from stackbounce.fitting.least_squares import find_minima
 
 STIFFNESS = "contacts.1.stiffness"
 
@@ -86,16 +86,6 @@ def test_the_same_seed_gives_the_same_bits_on_any_number_of_threads(monkeypatch)
     one, other = ([minimum.x.tobytes() for minimum in fit.minima] for fit in found)
     assert one == other
     assert len({fit.covariance.values.tobytes() for fit in found}) == 1
-
-
-def test_trials_are_spread_over_all_of_the_bounds():
-    vary = {STIFFNESS: (300.0, 1e5), "gaps.0": (0.0, 0.01)}
-    objective = FitProblem(stack(), {"rebound_ratios": [(1, 0.1)] * 2}, vary).objective
-    trials = spread_trials(objective, 256, 0)
-    for k, (low, high) in enumerate(objective.spans):
-        counts, _ = np.histogram(trials[:, k], bins=16, range=(low, high))
-        assert np.all(counts == 16)
-    assert np.array_equal(spread_trials(objective, 100, 0), spread_trials(objective, 128, 0)[:100])
 
 
 def test_a_valley_is_one_minimum():

@@ -10,21 +10,21 @@ from stackbounce import datasets
 from stackbounce.fitting.validation import comparison
 from stackbounce.fitting.validation.comparison import AGREES, REFUTED, compare_laws
 from stackbounce.fitting.validation.family import Family, families, reason_to_skip
-from stackbounce.fitting.validation.series import CONTACT_TIME, RESTITUTION, Series, make_series
+from stackbounce.fitting.validation.series import Series, make_series
 from stackbounce.model import LAWS
 
 SPEEDS = np.array([4.0, 3.0, 2.0, 1.0, 0.5])
 ERROR = 0.004
 
 
-def series_of(law_class, generator=None, *, quantity=RESTITUTION, value=0.8, error=ERROR):
-    family = Family(law_class, quantity, 4.0, restitution=0.9)
+def series_of(law_class, generator=None, *, value=0.8, error=ERROR):
+    family = Family(law_class, 4.0)
     values = family.at(value, SPEEDS)
     covariance = np.diag(np.full(SPEEDS.size, error**2))
     if generator is not None:
         values = values + error * generator.standard_normal(SPEEDS.size)
     nothing = np.zeros_like(covariance)
-    return Series("made", "made", "a ball", quantity, SPEEDS, values, covariance, nothing, 0.0, 0.9)
+    return Series("made", "made", "a ball", SPEEDS, values, covariance, nothing, 0.0)
 
 
 def outcome(found, law):
@@ -111,16 +111,6 @@ def test_every_law_is_asked_or_has_a_reason_and_one_curve_is_one_outcome():
     assert found.skipped["Spring"] == "it loses nothing"
 
 
-def test_contact_times_tell_a_spring_from_hertz(monkeypatch):
-    monkeypatch.setattr(comparison, "families", only("Spring", "Hertz", "Rigid"))
-    made = series_of(sb.Hertz, quantity=CONTACT_TIME, value=5e-3, error=5e-5)
-    found = compare_laws(made)
-    assert outcome(found, "Hertz").verdict == AGREES
-    assert outcome(found, "Spring").verdict == REFUTED
-    assert found.exponent == pytest.approx(-0.2, abs=1e-3)
-    assert "no duration" in found.skipped["Rigid"]
-
-
 def test_the_exponent_of_the_loss_is_that_of_weak_viscoelasticity(monkeypatch):
     monkeypatch.setattr(comparison, "families", only())
     found = compare_laws(series_of(sb.Viscoelastic, value=0.99, error=1e-4))
@@ -158,7 +148,7 @@ class Narrow(Family):
 
 
 def test_a_law_that_cannot_be_fitted_is_skipped(monkeypatch):
-    family = Narrow(sb.HuntCrossley, RESTITUTION, 4.0)
+    family = Narrow(sb.HuntCrossley, 4.0)
     monkeypatch.setattr(comparison, "families", lambda _: [("HuntCrossley", family)])
     found = compare_laws(series_of(sb.Rigid))
     assert found.outcomes == ()
@@ -166,6 +156,6 @@ def test_a_law_that_cannot_be_fitted_is_skipped(monkeypatch):
 
 
 def test_a_calibration_that_depends_on_the_speed_is_skipped():
-    family = Forgetful(sb.Rigid, RESTITUTION, 4.0)
+    family = Forgetful(sb.Rigid, 4.0)
     reason = reason_to_skip(family, series_of(sb.Rigid))
     assert reason == "what it gives depends on the speed at which it is calibrated"

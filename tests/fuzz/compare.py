@@ -8,13 +8,9 @@ import numpy as np
 from mpmath import mpf
 
 import stackbounce as sb
-from fuzz import drive
-from fuzz.batch import Batch
 from fuzz.draw import EVENTS
-from fuzz.replay import drop_of, options_of
 from reference import precise, taylor
 from reference.common import Outcome
-from stackbounce.engine import codes
 
 SAME, DIFFERENT, DOUBTFUL, UNFINISHED = "same", "different", "doubtful", "not finished"
 _EVENTS = 100  # with plain Python
@@ -28,44 +24,34 @@ _SHIFT = 3e-11  # of a velocity, in that unit, to see what errors of the steps c
 _BEGUN = 1e-14  # of the momentum: what an interval under way has exerted if it counts
 
 
-def plainly(batch: Batch, row: int) -> str:
-    """Return whether a drop has the same status, velocities and counts as plain Python."""
-    size = batch.drops.mass.shape[1]
-    found = batch.found[row]
-    plain = sb.simulate(drop_of(batch.drops, row), **options_of(batch.drops, row), compiled=False)
-    counts = np.where(plain.collisions < 0, -1, found[drive.COLUMNS + size :])
-    same = (
-        plain.status == found[drive.STATUS]
-        and plain.end_time == found[drive.END]
-        and np.array_equal(plain.rebound_speeds, found[drive.COLUMNS : drive.COLUMNS + size])
-        and np.array_equal(plain.collisions, counts)
-    )
-    return SAME if same else DIFFERENT
+def plainly(result: sb.Result, options: Mapping[str, float]) -> str:
+    """Return whether a drop has the same log, end and velocities in plain Python."""
+    plain = sb.simulate(result.drop, **options, compiled=False)
+    names = ("status", "end_time", "log", "final_velocities", "infinite")
+    pairs = [(getattr(result, name), getattr(plain, name)) for name in names]
+    return SAME if all(np.array_equal(*pair) for pair in pairs) else DIFFERENT
 
 
-def can_be_compared_plainly(batch: Batch, row: int) -> bool:
+def can_be_compared_plainly(result: sb.Result) -> bool:
     """Return whether a drop is not too long a story for plain Python."""
-    found = batch.found[row]
-    return bool(found[drive.STATUS] != codes.EVENT_LIMIT and found[drive.EVENT_COUNT] < _EVENTS)
+    return result.status is not sb.Status.EVENT_LIMIT and len(result.events) < _EVENTS
 
 
-def can_be_integrated(batch: Batch, row: int) -> bool:
+def can_be_integrated(result: sb.Result) -> bool:
     """Return whether a drop has contacts, the reference knows all of them, and the drop its end."""
-    law = batch.drops.law[row]
-    known = np.any(law != drive.NONE) and not np.any(law == drive.RELAXING)
-    ended = batch.found[row, drive.STATUS] in (sb.Status.FINISHED, sb.Status.TIME_REACHED)
-    return bool(known and ended)
+    laws = [law for law in result.drop.contacts if law is not None]
+    known = laws and not any(isinstance(law, sb.StandardLinearSolid) for law in laws)
+    return bool(known) and result.status in (sb.Status.FINISHED, sb.Status.TIME_REACHED)
 
 
-def otherwise(batch: Batch, row: int) -> str:
+def otherwise(result: sb.Result, options: Mapping[str, float]) -> str:
     """Return whether a drop has the velocities and counts of the reference.
 
     Where they differ, the reference begins again, each time with the velocity of one ball slightly
     changed: counts that change with it are doubtful, and velocities may differ as much. An
     interval that has only just begun at the end is not counted.
     """
-    drop = drop_of(batch.drops, row)
-    options = options_of(batch.drops, row) | {"rtol": 1e-12, "event_limit": EVENTS[1]}
+    drop, options = result.drop, {**options, "rtol": 1e-12, "event_limit": EVENTS[1]}
     ours = sb.simulate(drop, **options, compiled=True)
     if ours.status not in (sb.Status.FINISHED, sb.Status.TIME_REACHED):
         return UNFINISHED

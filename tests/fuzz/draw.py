@@ -4,18 +4,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fuzz.drive import (
-    DASHPOT,
-    HERTZ,
-    HUNT_CROSSLEY,
-    HYSTERETIC,
-    NONE,
-    RELAXING,
-    RIGID,
-    SPRING,
-    VISCOELASTIC,
-)
 from stackbounce.engine import codes
+
+# laws of random drops
+NONE, SPRING, HERTZ, POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY = range(7)
+HYSTERETIC, RIGID, RELAXING = range(7, 10)
 
 BATCH = 500
 BALLS = (2, 3, 1, 2, 4, 3, 2, 1, 5, 2, 3, 4, 2, 1, 3, 2, 6, 1, 2, 3, 4, 2, 5, 1, 2)  # by batch
@@ -28,7 +21,7 @@ PULLED = 0.1  # with gravity
 STOPPED = (0.04, 0.5)  # run until a given time, without gravity and with it
 IN_PARTS = 0.05  # run once more, with stops in between
 TOLERANCES = (1e-6, 1e-7, 1e-9, 1e-12, 1e-3, 1e-14)
-KINDS = (  # of the laws by their numbers in `drive`
+KINDS = (  # of the laws by their numbers
     codes.ABSENT,
     codes.POWER,
     codes.POWER,
@@ -47,7 +40,7 @@ class Drops(NamedTuple):
     """Drops of one height: rows of drops, columns of balls or of the contacts below them."""
 
     mass: np.ndarray
-    law: np.ndarray  # by the numbers of `drive`
+    law: np.ndarray  # by the numbers above
     form: np.ndarray  # of its force, by `engine.codes`, with its four numbers
     first: np.ndarray  # stiffness
     second: np.ndarray  # exponent

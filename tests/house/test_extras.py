@@ -59,8 +59,8 @@ def test_a_missing_extra_is_named(extra, monkeypatch):
 
 def test_what_is_installed_of_an_extra_is_not_named(monkeypatch):
     need("fit", "stackbounce fit")
-    monkeypatch.setitem(sys.modules, "lmfit", None)
-    with pytest.raises(MissingExtra, match=r"^a fit needs lmfit: pip install 'stackbounce\[fit\]'"):
+    monkeypatch.setitem(sys.modules, "emcee", None)
+    with pytest.raises(MissingExtra, match=r"^a fit needs emcee: pip install 'stackbounce\[fit\]'"):
         need("fit", "a fit")
 
 

@@ -6,10 +6,13 @@ from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
+from uncertainties import ufloat
 
+from stackbounce.measure import Drag
 from synthetic.falls import Falls
 
 BALL = 2.7e-3, 0.040  # a table tennis ball: kg, m
+AIR, UNSURE = Drag(*BALL, 0.45), Drag(*BALL, ufloat(0.45, 0.05))
 GRAVITY, DENSITY = 9.80665, 1.204
 AT_REST, SLOPE = 0.92, 0.012  # restitution at no speed, and its fall per m/s
 

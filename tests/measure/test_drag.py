@@ -8,8 +8,8 @@ import xarray as xr
 from uncertainties import correlation_matrix, ufloat
 
 import stackbounce as sb
-from measure.falls_in_air import AT_REST, BALL, SLOPE, falls_in_air, kept
-from measure.near import near, possible
+from measure.falls_in_air import AIR, AT_REST, BALL, SLOPE, UNSURE, falls_in_air, kept
+from measure.near import near, nominal, possible
 from stackbounce import plots
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.explorer.answers import records
@@ -18,8 +18,6 @@ from stackbounce.measure import Drag, analyse, bounces, heights, knocks, one_bal
 from stackbounce.measure.kinds.sound.few_bounces import few_bounces
 from synthetic.sound import sound
 
-AIR = Drag(*BALL, 0.45)
-UNSURE = Drag(*BALL, ufloat(0.45, 0.05))
 UGLY = {"uneven": 0.2, "room": 0.4, "alike": 0.5, "wind": 0.01, "coarse": 0.4, "level": 2.0}
 TYPED = {"mass": "2.7 g", "diameter": "40 mm", "drag_coefficient": "0.45 ± 0.05"}
 
@@ -28,10 +26,6 @@ FALL = falls_in_air(0.5, kept, bounces=9)
 
 
 KNOCKS = xr.Dataset({"knock_time": ("knock", FALL.touches)}, attrs={"holds": "knocks"})
-
-
-def nominal(numbers):
-    return [number.nominal_value for number in numbers]
 
 
 def test_exact_times_give_what_went_in():

@@ -3,19 +3,14 @@
 import numpy as np
 import pytest
 import xarray as xr
-from uncertainties import ufloat
 
-from measure.falls_in_air import BALL, falls_in_air, kept
+from measure.falls_in_air import AIR, BALL, UNSURE, falls_in_air, kept
 from measure.near import possible
 from stackbounce import plots
 from stackbounce.errors import InvalidValue
 from stackbounce.measure import Drag, analyse, track
 from synthetic.falls import falls
 from synthetic.track import track as tracked
-
-AIR = Drag(*BALL, 0.45)
-UNSURE = Drag(*BALL, ufloat(0.45, 0.05))
-
 
 FALL = falls_in_air(1.0, kept, bounces=5)
 UGLY = {

@@ -11,8 +11,8 @@ import stackbounce as sb
 from measure.near import near
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.waveform.analysis import waveform
-from stackbounce.measure.kinds.waveform.droop import undrooped
 from stackbounce.measure.kinds.waveform.peaks import impulse_of
+from stackbounce.measure.kinds.waveform.record import undrooped
 from stackbounce.plots.measurements.waveform import draw
 from synthetic.waveform import drooped
 from synthetic.waveform import waveform as record_of
@@ -336,15 +336,6 @@ def test_the_two_undo_each_other(time_constant):
     assert back == pytest.approx(force, abs=1e-8)
 
 
-def test_a_half_sine_after_a_high_pass_has_its_known_end():
-    rc, tau = 2e-3, 4e-3
-    times = np.linspace(0.0, tau, 4001)
-    out = drooped(times, np.sin(np.pi * times / tau), rc)
-    w = np.pi / tau * rc
-    expected = -w / (1.0 + w**2) * (1.0 + np.exp(-tau / rc))
-    assert out[-1] == pytest.approx(expected, abs=1e-6)
-
-
 @pytest.mark.parametrize("time_constant", [4e-3, 2e-2, 0.5])
 @pytest.mark.parametrize("offset", [0.0, -7.0])
 def test_droop_is_put_back(time_constant, offset):
@@ -359,10 +350,3 @@ def test_droop_that_is_not_put_back_is_said_with_its_time_constant():
     (note,) = [one for one in waveform(record).notes if "droop" in one]
     assert float(re.search(r"about (0\.0\d+) s", note)[1]) == pytest.approx(0.04, abs=0.005)
     assert not any("droop" in one for one in waveform(record, time_constant=0.04).notes)
-
-
-def test_wrong_times_are_refused():
-    with pytest.raises(InvalidValue, match="time_constant must be a positive number of seconds"):
-        undrooped([0.0, 1.0], [0.0, 1.0], -1.0)
-    with pytest.raises(InvalidValue, match="times and values of one length"):
-        undrooped([0.0, 1.0], [0.0], 1.0)

@@ -71,11 +71,17 @@ def goes_through_every_face(kind, tmp_path, capfd):
     assert result.last_release[0] == pytest.approx(lasts, rel=1e-8)
     assert sb.separate(alone(law)).contacts == (sb.Rigid(kept),)
 
-    first = next(iter(kind.quantities()))
-    values = getattr(law, first) * np.array([0.9, 1.0])
-    swept = sb.sweep(alone(law), {f"contacts.0.{first}": values})
-    assert swept.rebound_ratio[-1, 0] == pytest.approx(result.rebound_ratios[0], rel=1e-9)
-    assert swept.attrs["laws"] == json.dumps({name: kind.formula})
+    for field in kind.quantities():
+        if field == getattr(law, "derived", None):
+            continue
+        balls, value = [sb.Ball(part * MASS) for part in (1.0, 0.4, 0.1)], getattr(law, field)
+        laws = [law.replaced({field: other}) for other in (value, 1.05 * value or 0.01)]
+        stacks = [sb.Drop(balls, [law, one, law], impact_speed=SPEED) for one in laws]
+        values = [getattr(one, field) for one in laws]
+        swept = sb.sweep(stacks[0], {f"contacts.1.{field}": values})
+        single = [sb.simulate(stack).rebound_ratios.tolist() for stack in stacks]
+        assert swept.rebound_ratio.values.tolist() == single
+        assert swept.attrs["laws"] == json.dumps({name: kind.formula})
 
     file = tmp_path / "drop.toml"
     file.write_text(alone(law).to_toml(), encoding="utf-8")

@@ -65,28 +65,50 @@ def test_stiffness_is_positive_and_finite(law, value):
     assert refusal(errors.InvalidType, dataclasses.replace, law, stiffness="1").endswith("got '1'")
 
 
+NOT_FINITE = math.nan, math.inf
+FROM_1 = (0.5, 0.99, 1.1e6, 1e308, *NOT_FINITE), 1e6, "a number from 1 to 1e+06"
+NO_LOSS = (-1e-300, *NOT_FINITE), 0.0
+BY_SPEED = {
+    "restitution": ((0.0, 1.1), 1.0, "a number above 0 and at most 1"),
+    "speed": ((0.0, 1e10), 1e9, "a number of m/s from 1e-09 to 1e+09"),
+    "speed_exponent": ((-0.1, 4.1), 0.0, "a number from 0 to 4"),
+    "scatter": ((-0.1, 1.1), 1.0, "a number from 0 to 1"),
+    "seed": ((-1.0, 2.0**32), 0.0, "a number from 0 to 4.29497e+09"),
+}
+NUMBERS = [  # a law, one of its fields, values that are wrong, one that is not, and what is right
+    (RIGID[0], "restitution", (-0.1, 1.1, *NOT_FINITE), 0.0, "a number from 0 to 1"),
+    (FINITE[2], "exponent", *FROM_1),
+    (FINITE[3], "damping", *NO_LOSS, "a number of N s/m, 0 or above"),
+    (FINITE[4], "relaxation_strength", *NO_LOSS, "a number, 0 or above"),
+    (FINITE[5], "dissipative_time", *NO_LOSS, "a number of seconds, 0 or above"),
+    (FINITE[6], "exponent", *FROM_1),
+    (FINITE[6], "dissipation", *NO_LOSS, "a number of s/m, 0 or above"),
+    *((law, field, *numbers) for law in RIGID[1:] for field, numbers in BY_SPEED.items()),
+]
+
+
+@pytest.mark.parametrize(("law", "field", "wrong", "right", "words"), NUMBERS)
+def test_numbers_have_ranges(law, field, wrong, right, words):
+    for value in wrong:
+        got = refusal(errors.InvalidValue, dataclasses.replace, law, **{field: value})
+        assert got == f"{field} must be {words}, got {value}"
+    refusal(errors.InvalidType, dataclasses.replace, law, **{field: "1"})
+    assert getattr(dataclasses.replace(law, **{field: right}), field) == right
+
+
 @pytest.mark.parametrize(
-    ("law", "field", "unit"),
+    ("field", "wrong", "words"),
     [
-        (FINITE[3], "damping", " of N s/m"),
-        (FINITE[4], "relaxation_strength", ""),
-        (FINITE[5], "dissipative_time", " of seconds"),
-        (FINITE[6], "dissipation", " of s/m"),
+        ("restitution", (-0.1, 0, 1.1, *NOT_FINITE), "a number above 0 and at most 1"),
+        ("unloading_exponent", *FROM_1[::2]),
+        ("exponent", *FROM_1[::2]),
     ],
 )
-def test_losses_are_not_negative(law, field, unit):
-    for value in (-1e-300, math.nan, math.inf):
-        got = refusal(errors.InvalidValue, dataclasses.replace, law, **{field: value})
-        assert got == f"{field} must be a number{unit}, 0 or above, got {value}"
-    assert getattr(dataclasses.replace(law, **{field: 0}), field) == 0.0
-
-
-@pytest.mark.parametrize("law", [FINITE[2], FINITE[6]])
-def test_exponents_lie_from_1_to_the_steepest(law):
-    for value in (0.99, 1.1e6, math.nan):
-        got = refusal(errors.InvalidValue, dataclasses.replace, law, exponent=value)
-        assert got == f"exponent must be a number from 1 to 1e+06, got {value}"
-    assert dataclasses.replace(law, exponent=1e6).exponent == 1e6
+def test_numbers_of_hysteresis_have_ranges(field, wrong, words):
+    other = {"unloading_exponent": 9.0} if field == "exponent" else {}
+    for value in wrong:
+        got = refusal(errors.InvalidValue, sb.Hysteretic, 1.0, **other, **{field: value})
+        assert got == f"{field} must be {words}, got {value}"
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,7 @@ from stackbounce.model import (
     Hysteretic,
     PowerLaw,
     Rigid,
+    RigidBySpeed,
     Spring,
     Viscoelastic,
 )
@@ -83,7 +84,11 @@ laws = st.one_of(
     st.builds(Viscoelastic, numbers, numbers | st.just(0.0)),
     st.builds(HuntCrossley, numbers, st.floats(1.0, 1e6), numbers | st.just(0.0)),
 )
-rigid_laws = st.builds(Rigid, st.floats(0.0, 1.0))
+shares = st.floats(0.0, 1.0)
+by_speed = st.builds(
+    RigidBySpeed, st.floats(0.01, 1.0), st.floats(1e-9, 1e9), scatter=shares, seed=shares
+)
+rigid_laws = st.builds(Rigid, shares) | by_speed
 texts = st.text(st.characters(exclude_categories=["Cs"]), min_size=1).filter(str.strip)
 ratios = st.floats(-1.0, 0.5, exclude_min=True)
 optional = [st.none() | one for one in (numbers, texts, numbers, ratios)]

@@ -6,7 +6,7 @@ import pytest
 
 import stackbounce as sb
 from stackbounce import plots
-from stackbounce.plots.sweep_curves import TITLES
+from stackbounce.plots.sweep_curves import SHOWN
 
 DROP = sb.Drop([sb.Ball(1.0)] * 2, [sb.Rigid(0.9), sb.Rigid(0.5)], impact_speed=1.0)
 MASS, LOSS = np.geomspace(0.001, 1.0, 12), np.linspace(0.05, 1.0, 9)
@@ -63,7 +63,7 @@ def test_unfinished_drops_are_told_and_left_out():
     assert np.array_equal(np.isnan(axes.get_lines()[0].get_ydata()), unfinished)
 
 
-@pytest.mark.parametrize("show", TITLES)
+@pytest.mark.parametrize("show", SHOWN)
 def test_nothing_to_draw(show):
     ds = sb.sweep(DROP, OVER_BOTH)
     ds["status"][:] = int(sb.Status.INVALID)
@@ -178,7 +178,7 @@ def test_many_counts_are_grouped():
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (1, 7), (2, 2), (7, 1)])
-@pytest.mark.parametrize("show", TITLES)
+@pytest.mark.parametrize("show", SHOWN)
 def test_small_maps_fill_their_axes(shape, show):
     ds = sb.sweep(DROP, OVER_BOTH)
     few = ds[{"balls.0.mass": slice(shape[0]), "contacts.1.restitution": slice(shape[1])}]

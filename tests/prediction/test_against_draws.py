@@ -16,16 +16,10 @@ HEAVY = [sb.Ball(0.6), sb.Ball(0.06)]
 SUPER = [sb.Ball(0.105), sb.Ball(0.0248)]
 LOSSY = [sb.Hysteretic(5.6e4, restitution=0.78), sb.Spring(1.6e4)]
 
-HUNT = [sb.HuntCrossley(2e6, 1.5, 0.1), sb.HuntCrossley(1e5, 1.2, 0.2)]
-
 STACKS = {
     "springs": (
         sb.Drop(HEAVY, [sb.Spring(2e4), sb.Spring(1e4)], gaps=[2e-3], height=0.63),
         {"height": (0.63, 0.01), "balls.1.mass": (0.06, 1e-3)},
-    ),
-    "three springs": (
-        sb.Drop([*HEAVY, sb.Ball(0.02)], [sb.Spring(2e4)] * 3, gaps=[2e-3, 1e-3], height=0.63),
-        {"height": (0.63, 0.01), "balls.1.mass": (0.06, 2e-3), "gaps.1": (1e-3, 1e-4)},
     ),
     "rigid": (
         sb.Drop(HEAVY, [sb.Rigid(0.8), sb.Rigid(0.9)], height=1.0),
@@ -34,22 +28,6 @@ STACKS = {
     "hertz": (
         sb.Drop(SUPER, [sb.Hertz(5e6), sb.Hertz(1e6)], gaps=[1e-4], impact_speed=2.0),
         {"impact_speed": (2.0, 0.02), "contacts.1.stiffness": (1e6, 5e4)},
-    ),
-    "power law": (
-        sb.Drop(SUPER, [sb.PowerLaw(1e5, 1.1), sb.PowerLaw(1e6, 1.4)], impact_speed=2.0),
-        {"contacts.0.exponent": (1.1, 2e-3), "balls.0.mass": (0.105, 1e-3)},
-    ),
-    "dashpots": (
-        sb.Drop(SUPER, [sb.Dashpot(5e4, 10.0), sb.Dashpot(2e4, 3.0)], impact_speed=2.0),
-        {"contacts.0.damping": (10.0, 1.0), "contacts.1.damping": (3.0, 0.1)},
-    ),
-    "viscoelastic": (
-        sb.Drop(SUPER, [sb.Viscoelastic(5e6, 2e-5), sb.Viscoelastic(1e6, 5e-5)], impact_speed=2.0),
-        {"contacts.0.dissipative_time": (2e-5, 2e-6), "contacts.1.stiffness": (1e6, 3e4)},
-    ),
-    "hunt and crossley": (
-        sb.Drop(HEAVY, HUNT, gaps=[1e-3], height=0.63),
-        {"height": (0.63, 0.01), "contacts.1.dissipation": (0.2, 0.02)},
     ),
     "hysteretic": (
         sb.Drop(SUPER, LOSSY, gaps=[1e-3], height=0.2),

@@ -1,7 +1,8 @@
 """The stored drops of `tests/data`: cases, at random or from the paper, and their solutions.
 
-Contacts are springs or hysteretic where they have no name. The numbers are those of `precise`, to
-20 or 28 digits; an interval is contact, start, end, peak force, peak compression, impulse.
+In the files contacts without a name are springs or hysteretic. The numbers are those of `precise`,
+to 20 or 28 digits; an interval is contact, start, end, peak force, peak compression, impulse. The
+rows of ``bugs`` have velocities at most.
 """
 
 import json
@@ -13,13 +14,11 @@ Case = dict[str, Any]
 
 
 def read(name: str) -> list[Case]:
-    """Return the rows of a data file, their numbers as floats."""
-    return json.loads((DATA / f"{name}.json").read_text())
-
-
-def with_names(case: Case) -> Case:
-    """Return a case whose contacts have the names of their laws."""
-    contacts = [
-        c and {"law": "Hysteretic" if len(c) > 1 else "Spring", **c} for c in case["contacts"]
-    ]
-    return {**case, "contacts": contacts}
+    """Return the rows of a data file, their numbers as floats, each contact with its law's name."""
+    rows = json.loads((DATA / f"{name}.json").read_text())
+    for row in rows:
+        row["case"]["contacts"] = [
+            c and {"law": "Hysteretic" if len(c) > 1 else "Spring", **c}
+            for c in row["case"]["contacts"]
+        ]
+    return rows

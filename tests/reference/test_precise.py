@@ -3,7 +3,7 @@
 import pytest
 from mpmath import mp, mpf
 
-from reference import data, precise, springs
+from reference import data, precise
 
 CLOSE = mpf(10) ** -34
 
@@ -61,22 +61,6 @@ def test_power_law(p):
         assert abs(interval.impulse - 2) < CLOSE
 
 
-def test_springs_are_on_the_modes_of_equations_5_and_6():
-    """Equal balls and springs: until the first contact opens, golden-ratio frequencies."""
-    spring = {"law": "Spring", "stiffness": 1}
-    with mp.workdps(40):
-        modes = [(mp.sqrt(5) - 1) / 2, (mp.sqrt(5) + 1) / 2]
-        shapes = [2 - w**2 for w in modes]  # of the upper ball where the lower one's is 1
-        weights = [(s - 1) * (1 + s) / (1 + s**2) / w for s, w in zip(shapes, modes, strict=True)]
-        pairs = list(zip(weights, modes, strict=True))
-        release = mp.findroot(lambda t: sum(a * mp.sin(w * t) for a, w in pairs), 4.5)
-        interval = precise.run([1, 1], [spring] * 2, [0], [-1, -1]).intervals[1]
-        assert interval.contact == 1
-        assert abs(interval.end - release) < mpf(10) ** -30
-        impulse = sum(a * (1 - mp.cos(w * release)) / w for a, w in pairs)
-        assert abs(interval.impulse - impulse) < mpf(10) ** -30
-
-
 @pytest.mark.parametrize(
     ("name", "indices"),
     [
@@ -96,7 +80,7 @@ def test_stored_values_come_out_again(name, indices):
     """Those of springs were found in normal modes instead."""
     rows = data.read(name)
     for row in [rows[index] for index in indices]:
-        outcome = precise.run(**data.with_names(row["case"]))
+        outcome = precise.run(**row["case"])
         assert [float(v) for v in outcome.velocities] == pytest.approx(
             row["rebound_speeds"], rel=1e-15, abs=1e-15
         )
@@ -106,9 +90,3 @@ def test_stored_values_come_out_again(name, indices):
             known = [float(x) for x in a if x is not None]
             expected = [x for x in b[:3] if x is not None]
             assert known == pytest.approx(expected, rel=1e-15, abs=1e-14 * row["end_time"])
-
-
-def test_springs_leaves_tall_stacks_to_precise():
-    """The ninth of touching balls moves as t**17 at first, beyond the orders that it looks at."""
-    with pytest.raises(ValueError, match="there are 9 balls"):
-        springs.run([1] * 9, [1] * 9, [0] * 8, [-1] * 9)

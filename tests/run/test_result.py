@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 
 import stackbounce as sb
+from refusals import refusal
 from stackbounce import errors
 
 BALL, SPRING = sb.Ball(1.0), sb.Spring(1.0)
@@ -22,29 +23,22 @@ def result():
     return sb.simulate(DROP)
 
 
-def message(error, make, *arguments, **parameters):
-    with pytest.raises(error) as caught:
-        make(*arguments, **parameters)
-    assert "\n" not in str(caught.value)
-    return str(caught.value)
-
-
 # what simulate refuses
 
 
 def test_only_a_drop_is_run():
-    assert message(errors.InvalidType, sb.simulate, 3) == "drop must be a Drop, got 3"
+    assert refusal(errors.InvalidType, sb.simulate, 3) == "drop must be a Drop, got 3"
 
 
 @pytest.mark.parametrize("value", [0, 1, "yes", np.True_, [True]])
 def test_compiled_is_true_false_or_none(value):
-    got = message(errors.InvalidType, sb.simulate, DROP, compiled=value)
+    got = refusal(errors.InvalidType, sb.simulate, DROP, compiled=value)
     assert got == f"compiled must be True, False or None, got {errors.shown(value)}"
 
 
 @pytest.mark.parametrize("value", [0, 2**62, 2**64])
 def test_a_limit_that_a_counter_can_hold(value):
-    got = message(errors.InvalidValue, sb.simulate, DROP, event_limit=value)
+    got = refusal(errors.InvalidValue, sb.simulate, DROP, event_limit=value)
     assert got == f"event_limit must be a whole number from 1 to 1e+18, got {value}"
 
 
@@ -54,7 +48,7 @@ def test_the_largest_limit_runs_compiled():
 
 def test_a_stack_too_tall_to_run():
     drop = sb.Drop([BALL] * 2001, [SPRING] * 2001, impact_speed=1.0)
-    got = message(errors.InvalidValue, sb.simulate, drop)
+    got = refusal(errors.InvalidValue, sb.simulate, drop)
     assert got == "balls must be at most 2000 for a run, got 2001"
 
 
@@ -118,7 +112,7 @@ class Unreadable:
     ],
 )
 def test_times_that_are_no_real_numbers(result, times):
-    assert message(errors.InvalidType, result.sample, times).startswith("times")
+    assert refusal(errors.InvalidType, result.sample, times).startswith("times")
 
 
 @pytest.mark.parametrize(
@@ -133,7 +127,7 @@ def test_times_that_are_no_real_numbers(result, times):
     ],
 )
 def test_times_out_of_range(result, times, expected):
-    assert message(errors.InvalidValue, result.sample, times) == expected
+    assert refusal(errors.InvalidValue, result.sample, times) == expected
 
 
 # what comes back

@@ -11,33 +11,16 @@ import stackbounce as sb
 from stackbounce.errors import FileError
 from stackbounce.sweeps import grid, write
 from stackbounce.sweeps.progress import only_writer
-from stopped_sweep import DROP, OVER, VALUES, write_some
-
-
-def content(store):
-    files = [path for path in store.rglob("*") if path.is_file()]
-    return {str(path.relative_to(store)): path.read_bytes() for path in files}
-
-
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory):
-    return write(tmp_path_factory.mktemp("whole") / "map.zarr", DROP, VALUES, block=64)
-
-
-@pytest.fixture
-def out(whole, tmp_path):
-    return tmp_path / whole.name
+from stopped_sweep import DROP, OVER, VALUES, content, write_some
 
 
 def log_of(out):
     return out.with_name(f"{out.name}.progress")
 
 
-def test_a_damaged_store_beside_one_that_is_not_complete(tmp_path):
-    out, kept = tmp_path / "map.zarr", tmp_path / "kept"
-    shutil.move(write(out, DROP, VALUES, block=64), kept)
+def test_a_damaged_store_beside_one_that_is_not_complete(whole, out, tmp_path):
     write_some(out)
-    shutil.move(kept, out)
+    shutil.copytree(whole, out)
     (out / "status" / "0.0").unlink()
     before = content(tmp_path)
     with pytest.raises(FileError, match=r"map\.zarr has lost blocks, and .*partial is a second"):
@@ -47,8 +30,7 @@ def test_a_damaged_store_beside_one_that_is_not_complete(tmp_path):
     assert write(out, DROP, VALUES, block=64) == out
 
 
-def test_files_of_others_in_a_store_are_kept(tmp_path):
-    out = tmp_path / "map.zarr"
+def test_files_of_others_in_a_store_are_kept(out, tmp_path):
     write_some(out)
     own = tmp_path / "map.zarr.partial" / "status" / "notes.partial"
     own.write_text("mine")
@@ -56,9 +38,8 @@ def test_files_of_others_in_a_store_are_kept(tmp_path):
     assert (out / "status" / "notes.partial").read_text() == "mine"
 
 
-def test_a_log_that_is_no_file_is_refused(tmp_path):
-    out = tmp_path / "map.zarr"
-    os.mkfifo(tmp_path / "map.zarr.progress")
+def test_a_log_that_is_no_file_is_refused(out):
+    os.mkfifo(log_of(out))
     with pytest.raises(FileError, match="is no ordinary file"):
         write(out, DROP, VALUES, block=64)
 

@@ -17,7 +17,6 @@ def accelerometer(
     before: float = 0.5,
     noise: float = 0.05,
     full_range: float = 157.0,
-    smear: float = 0.0,
     spin: float = 0.0,
     linear: bool = False,
     missing: float = 0.0,
@@ -26,16 +25,15 @@ def accelerometer(
     """Return the record of an accelerometer that goes through a fall and its bounces.
 
     A pulse is half a sine and lasts for the law's contact time. The record begins `before` the
-    release, with `noise` on each axis, clipped at `full_range` (m/s²), averaged over the time
-    `smear`; `spin` is an acceleration in flight, and `linear` subtracts gravity as it was before
-    the release. A fraction of samples is `missing`.
+    release, with `noise` on each axis, clipped at `full_range` (m/s²); `spin` is an acceleration in
+    flight, and `linear` subtracts gravity as it was before the release. A fraction of samples is
+    `missing`.
     """
     step = 1.0 / rate
     random = np.random.default_rng(seed)
     last = fall.releases[-1] + 0.5 * (2.0 * fall.rebounds[-1] / fall.gravity)
     times = np.arange(-before + step * random.uniform(), last, step)
-    shares = np.linspace(-0.5, 0.5, 41) * smear if smear else np.zeros(1)
-    size = np.mean([_felt(fall, times + one, spin) for one in shares], axis=0)
+    size = _felt(fall, times, spin)
     tilt = random.normal(size=3)
     parts = (size - fall.gravity * linear) * (tilt / np.linalg.norm(tilt))[:, None]
     parts = parts + random.normal(0.0, noise, parts.shape)

@@ -28,7 +28,6 @@ def press_record(
     drift: float = 0.0,
     offset: float = 0.0,
     force_step: float = 0.0,
-    compression_step: float = 0.0,
     compliance: float = 0.0,
     seed: int = 0,
 ) -> xr.Dataset:
@@ -60,11 +59,12 @@ def press_record(
     force = force + offset + drift * np.linspace(0.0, 1.0, count)
     correlation = np.exp(-1.0 / memory) if memory else 0.0
     force = force + noise * ar_noise(generator, (count,), correlation)
+    if force_step:
+        force = force_step * np.round(force / force_step)
     compression = compression + jitter * generator.standard_normal(count)
-    compression = _rounded(compression, compression_step)
     columns = {
         "compression": ("point", compression, {"units": "m", "long_name": "Compression (m)"}),
-        "force": ("point", _rounded(force, force_step), {"units": "N", "long_name": "Force (N)"}),
+        "force": ("point", force, {"units": "N", "long_name": "Force (N)"}),
     }
     return xr.Dataset(columns, attrs=attributes("press curve"))
 
@@ -80,7 +80,3 @@ def _force(law: Any, way: Array, inward: int, hold: int, peak: float, relaxation
     if hold:
         kept[inward : inward + hold] = 1.0 - relaxation * np.linspace(0.0, 1.0, hold + 1)[1:]
     return np.asarray(force * kept)
-
-
-def _rounded(values: Array, step: float) -> Array:
-    return values if step == 0.0 else step * np.round(values / step)

@@ -3,7 +3,7 @@
 import os
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Annotated, Any
 
 import typer
@@ -15,11 +15,11 @@ from stackbounce.cli import (
     fit,
     highest,
     measure,
-    paper,
+    reports,
     simulate,
     sweep,
-    validate,
 )
+from stackbounce.cli.options import add_command
 from stackbounce.cli.output import Unsolved
 from stackbounce.errors import StackbounceError
 
@@ -46,16 +46,20 @@ def stackbounce(
         typer.echo(context.get_help())
 
 
-app.command("simulate", epilog=simulate.EPILOG)(simulate.run)
-app.command("sweep", epilog=sweep.EPILOG)(sweep.run)
-app.command("measure", epilog=measure.EPILOG)(measure.run)
-app.command("fit", epilog=fit.EPILOG)(fit.run)
-app.command("highest", epilog=highest.EPILOG)(highest.run)
-app.command("balls")(balls.run)
-app.command("datasets", epilog=datasets.EPILOG)(datasets.run)
-app.command("paper")(paper.run)
-app.command("validate")(validate.run)
-app.command("app", epilog=explorer.EPILOG)(explorer.run)
+_COMMANDS: dict[str, Callable[..., None]] = {
+    "simulate": simulate.run,
+    "sweep": sweep.run,
+    "measure": measure.run,
+    "fit": fit.run,
+    "highest": highest.run,
+    "balls": balls.run,
+    "datasets": datasets.run,
+    "paper": reports.paper,
+    "validate": reports.validate,
+    "app": explorer.run,
+}
+for _name, _run in _COMMANDS.items():
+    add_command(app, _name, _run)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

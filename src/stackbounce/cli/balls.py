@@ -4,7 +4,6 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from stackbounce.cli.options import AsJson
 from stackbounce.cli.output import console, print_json
 
 if TYPE_CHECKING:
@@ -13,7 +12,7 @@ if TYPE_CHECKING:
     from stackbounce.model.catalogue import CatalogueBall
 
 
-def run(as_json: AsJson = False) -> None:
+def run(as_json: bool) -> None:
     """List the catalogue: the paper's balls and a class's, each figure with its source."""
     if as_json:
         print_json(summary())
@@ -31,14 +30,8 @@ def print_catalogue(console: "Console") -> None:
     table = new_table(title, ["\nlower", "\nupper"], ("floor\nN/m", "between\nN/m", "gap\nmm"))
     table.add_column("\nsource")
     for pair in PAIRS:
-        table.add_row(
-            pair.lower,
-            pair.upper,
-            number(pair.floor_stiffness),
-            number(pair.stiffness),
-            number(pair.gap * 1e3),
-            pair.source,
-        )
+        figures = (pair.floor_stiffness, pair.stiffness, 1e3 * pair.gap)
+        table.add_row(pair.lower, pair.upper, *map(number, figures), pair.source)
     console.print(table)
     _print_balls(console, "Balls a class owns, with their losses", CLASS_BALLS)
 
@@ -46,21 +39,18 @@ def print_catalogue(console: "Console") -> None:
 def _print_balls(console: "Console", title: str, entries: "Sequence[CatalogueBall]") -> None:
     from stackbounce.cli.tables import new_table, number
 
-    headings = ["mass\ng", "diameter\nmm", "restitution\non floor", "contact time\nms"]
-    pressed = [entry.static_stiffness for entry in entries]
-    pressed_too = any(value is not None for value in pressed)
-    headings += ["stiffness\nN/m", *(["static\nN/m"] if pressed_too else [])]
-    table = new_table(title, ["\nball"], tuple(headings))
-    for entry, static in zip(entries, pressed, strict=True):
-        table.add_row(
-            str(entry.ball.name).replace(" ", "-"),
-            number(entry.ball.mass * 1e3),
-            number((entry.ball.diameter or math.nan) * 1e3),
-            number(entry.restitution),
-            number((entry.contact_time or math.nan) * 1e3),
-            number(entry.stiffness),
-            *([number(static or math.nan)] if pressed_too else []),
-        )
+    figures = {
+        "mass\ng": [1e3 * entry.ball.mass for entry in entries],
+        "diameter\nmm": [1e3 * (entry.ball.diameter or math.nan) for entry in entries],
+        "restitution\non floor": [entry.restitution for entry in entries],
+        "contact time\nms": [1e3 * (entry.contact_time or math.nan) for entry in entries],
+        "stiffness\nN/m": [entry.stiffness for entry in entries],
+    }
+    if any(entry.static_stiffness for entry in entries):
+        figures["static\nN/m"] = [entry.static_stiffness or math.nan for entry in entries]
+    table = new_table(title, ["\nball"], figures)
+    for entry, *own in zip(entries, *figures.values(), strict=True):
+        table.add_row(str(entry.ball.name).replace(" ", "-"), *map(number, own))
     console.print(table)
     for entry in entries:
         console.print(f"{entry.ball.name}: {_sources(entry)}")

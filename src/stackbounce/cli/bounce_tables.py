@@ -1,24 +1,15 @@
 """Tables of balls, contacts and highest points of a drop, with or without errors."""
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rich.table import Table
 
 from stackbounce.cli.descriptions import label, meeting
-from stackbounce.cli.tables import (
-    add_columns,
-    new_table,
-    number,
-    percent,
-    with_error,
-    write_count,
-)
+from stackbounce.cli.tables import add_columns, new_table, number, percent, with_error, write_count
 from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.prediction import Prediction
 from stackbounce.run.result import Result
-
-if TYPE_CHECKING:
-    from stackbounce.prediction import Prediction
 
 _BALLS = ("before\nm/s", "after\nm/s", "ratio\nv/v0", "bounce\n/drop", "height\nm")
 _CONTACTS = ("touch\nms", "release\nms", "longest\nms", "peak\nN", "peak\nmm", "impulse\nN s")
@@ -28,7 +19,7 @@ _TIMES = _CONTACTS[:3]
 class Bounce:
     """The numbers of a drop as they are printed; those of a prediction have errors."""
 
-    def __init__(self, result: Result, prediction: "Prediction | None" = None) -> None:
+    def __init__(self, result: Result, prediction: Prediction | None = None) -> None:
         self.result, self.prediction = result, prediction
         if prediction is None:
             self.numbers: Any = _numbers(result)

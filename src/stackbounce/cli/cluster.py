@@ -24,16 +24,10 @@ def connect(address: str | None) -> Iterator[Any]:
     wrong = f"--cluster must be the address of a dask scheduler, got {shown(address)}"
     client_of: Any = distributed.Client
     try:
-        _check_listening(address)
+        host, _, port = address.rpartition("://")[2].rpartition(":")
+        socket.create_connection((host, int(port)), timeout=5.0).close()  # dask would try for long
         client = client_of(address, timeout="10s")
     except (OSError, ValueError) as error:
         raise InvalidValue(wrong) from error
     with client:
         yield client
-
-
-def _check_listening(address: str) -> None:
-    """Raise OSError or ValueError if nothing listens there; dask would retry for a long time."""
-    host, _, port = address.rpartition("://")[2].rpartition(":")
-    with socket.create_connection((host, int(port)), timeout=5.0):
-        pass

@@ -2,11 +2,8 @@
 
 from collections.abc import Sequence
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
-
-from stackbounce.cli.options import AsJson
 from stackbounce.cli.output import console, print_json
 
 if TYPE_CHECKING:
@@ -14,51 +11,22 @@ if TYPE_CHECKING:
 
     from stackbounce.datasets import Column, Description
 
-EPILOG = "Example: stackbounce datasets golf-marble-heights"
-
 _FACTS = ("measured", "ball", "surface", "mass", "diameter", "source", "doi", "address", "seen")
 _MORE = ("quoted_by", "licence", "remarks")
 
 
-def _names(incomplete: str) -> list[str]:
-    from stackbounce.datasets import names
-
-    return [name for name in names() if name.startswith(incomplete)]
-
-
-def run(
-    name: Annotated[
-        str,
-        typer.Argument(
-            metavar="[NAME]",
-            help="A dataset to show.",
-            show_default=False,
-            autocompletion=_names,
-        ),
-    ] = "",
-    as_json: AsJson = False,
-) -> None:
+def run(name: str, as_json: bool) -> None:
     """List published measurements, or show one with its numbers and its source."""
     from stackbounce.datasets import describe, names
-
-    if name:
-        about = describe(name)
-        if as_json:
-            print_json(_summary([about]))
-        else:
-            _print_dataset(console(), about)
-        return
-    found = [describe(known) for known in names()]
-    if as_json:
-        print_json(_summary(found))
-    else:
-        _print_list(console(), found)
-
-
-def _summary(found: "Sequence[Description]") -> dict[str, object]:
     from stackbounce.version import __version__
 
-    return {"stackbounce": __version__, "datasets": [asdict(dataset) for dataset in found]}
+    found = [describe(known) for known in ([name] if name else names())]
+    if as_json:
+        print_json({"stackbounce": __version__, "datasets": [asdict(about) for about in found]})
+    elif name:
+        _print_dataset(console(), found[0])
+    else:
+        _print_list(console(), found)
 
 
 def _print_list(console: "Console", found: "Sequence[Description]") -> None:
@@ -77,9 +45,7 @@ def _print_dataset(console: "Console", about: "Description") -> None:
 
     words = [column for column in about.columns if column.unit == "text"]
     numbers = [column for column in about.columns if column.unit != "text"]
-    table = new_table(
-        None, [_heading(column) for column in words], [_heading(column) for column in numbers]
-    )
+    table = new_table(None, map(_heading, words), map(_heading, numbers))
     for i in range(len(about.columns[0].values)):
         table.add_row(*(_cell(column, i) for column in (*words, *numbers)))
     console.print(f"\n{about.title}", style="bold")

@@ -3,14 +3,14 @@
 import re
 import shlex
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.errors import InvalidValue, shown
+from stackbounce.model import Drop
+from stackbounce.prediction import scenario
+from stackbounce.prediction.inputs import add_value
 
-if TYPE_CHECKING:
-    from stackbounce.model import Drop
-
-_PATHS = {"height": "height", "speed": "impact_speed", "gravity": "gravity"}
+_PATHS = {"height": "height", "speed": "impact_speed", "gravity": "gravity", "gap": "gaps"}
 _RIGHT = "PATH=ERROR, such as balls.1.mass=1g"
 
 
@@ -24,25 +24,21 @@ def split_errors(given: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, st
 
     Examples
     --------
-    >>> split_errors({"height": "63 ± 1 cm", "gap": ["2mm"]})
-    ({'height': '63 cm', 'gap': ['2mm']}, {'height': '63 ± 1 cm'})
+    >>> plain, written = split_errors({"height": "63 ± 1 cm", "gap": ["2mm"]})
+    >>> plain["height"], plain["gap"], written
+    ('63 cm', ['2mm'], {'height': '63 ± 1 cm'})
     """
-    plain, written = dict(given), dict[str, str]()
-    for option, path in _PATHS.items():
-        if given.get(option) is not None:
-            plain[option] = _split(given[option], path, written)
-    if given.get("gap"):
-        plain["gap"] = [_split(text, f"gaps.{i}", written) for i, text in enumerate(given["gap"])]
-    if given.get("contact"):
-        plain["contact"] = [
-            _split_contact(text, f"contacts.{i}", written)
-            for i, text in enumerate(given["contact"])
-        ]
-    return plain, written
+    numbers = {path: given.get(option) for option, path in _PATHS.items()}
+    plain, written = scenario.split_errors(numbers)
+    contacts = [
+        _split_contact(text, f"contacts.{i}", written)
+        for i, text in enumerate(given.get("contact") or ())
+    ]
+    return {option: plain[path] for option, path in _PATHS.items()} | {"contact": contacts}, written
 
 
 def read_errors(
-    drop: "Drop", written: Mapping[str, str], errors: Sequence[str] | None
+    drop: Drop, written: Mapping[str, str], errors: Sequence[str] | None
 ) -> dict[str, Any]:
     """Return the numbers of a drop with errors, by path.
 
@@ -60,8 +56,6 @@ def read_errors(
     InvalidValue
         If a text cannot be read, or a number has two errors.
     """
-    from stackbounce.prediction.inputs import add_value
-
     found: dict[str, Any] = dict(written)
     for text in errors or ():
         path, equals, error = (part.strip() for part in text.partition("="))
@@ -73,13 +67,6 @@ def read_errors(
     return found
 
 
-def _split(text: str, path: str, written: dict[str, str]) -> str:
-    """Return a quantity without its error; a text that has one is noted by its path."""
-    from stackbounce.prediction.scenario import split_error
-
-    return split_error(text, path, written)
-
-
 def _split_contact(text: str, path: str, written: dict[str, str]) -> str:
     """Return the text of a contact law without the errors of its numbers."""
     try:
@@ -89,5 +76,5 @@ def _split_contact(text: str, path: str, written: dict[str, str]) -> str:
     plain = []
     for word in words:
         key, equals, value = word.partition("=")
-        plain.append(key + equals + _split(value, f"{path}.{key}", written))
+        plain.append(key + equals + scenario.split_error(value, f"{path}.{key}", written))
     return shlex.join(plain) if any(name.startswith(f"{path}.") for name in written) else text

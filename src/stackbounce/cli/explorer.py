@@ -1,66 +1,26 @@
 """The command ``stackbounce app``: the explorer in the browser."""
 
 import os
-from typing import TYPE_CHECKING, Annotated
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import typer
 
-from stackbounce.cli.options import AsJson, Overwrite
-from stackbounce.cli.output import json_text
+from stackbounce.cli.output import print_json
 
 if TYPE_CHECKING:
     from stackbounce.explorer.addresses import Place
 
-EPILOG = "For a class: stackbounce app --host 0.0.0.0, or --export explorer.html, a file to mail"
-
 
 def run(
-    host: Annotated[
-        str,
-        typer.Option(
-            metavar="ADDRESS",
-            help="Where to listen: on this machine alone by default; 0.0.0.0 for a class.",
-        ),
-    ] = "127.0.0.1",
-    port: Annotated[
-        int | None,
-        typer.Option(
-            metavar="PORT",
-            help="By default the first free one from 8050; 0 for any.",
-            show_default=False,
-        ),
-    ] = None,
-    browser: Annotated[
-        bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")
-    ] = True,
-    workers: Annotated[
-        int | None,
-        typer.Option(
-            metavar="COUNT",
-            help="Processes that measure and fit; by default half as many as cores, 2 to 4.",
-            show_default=False,
-        ),
-    ] = None,
-    export: Annotated[
-        str | None,
-        typer.Option(
-            metavar="PATH",
-            help="Write the explorer: as one HTML file, which needs no server and no network, if "
-            "PATH ends in .html; else as a folder for any web server, which works offline later.",
-            show_default=False,
-        ),
-    ] = None,
-    embed: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="ORIGIN",
-            help="A site that may show the page in a frame, such as https://moodle.school.example; "
-            "may be repeated. By default none may.",
-            show_default=False,
-        ),
-    ] = None,
-    overwrite: Overwrite = False,
-    as_json: AsJson = False,
+    host: str,
+    port: int | None,
+    browser: bool,
+    workers: int | None,
+    export: str | None,
+    embed: Sequence[str] | None,
+    overwrite: bool,
+    as_json: bool,
 ) -> None:
     """Open the explorer in the browser: the bounce in slow motion."""
     from stackbounce.explorer.framing import read_origin
@@ -76,27 +36,21 @@ def run(
     from stackbounce.errors import whole
     from stackbounce.explorer import LIMITS
     from stackbounce.explorer.serve import serve
+    from stackbounce.version import __version__
 
     def tell(address: str, others: "list[Place]") -> None:
-        _tell(address, others, bool(others) or host in ("0.0.0.0", "::"), as_json)
+        if as_json:
+            known = {"address": address, "others": [place.address for place in others]}
+            print_json({"stackbounce": __version__, **known})
+            return
+        typer.echo(f"The explorer: {address} (Ctrl+C ends it)")
+        if others or host in ("0.0.0.0", "::"):
+            _tell_others(others)
 
     by_default = min(max((os.cpu_count() or 1) // 2, 2), 4)
     count = by_default if workers is None else whole("--workers", workers, 1, 64)
     limits = dataclasses.replace(LIMITS, workers=count)
     serve(host, port, limits, browser=browser, tell=tell, framed_by=framed_by)
-
-
-def _tell(address: str, others: "list[Place]", for_others: bool, as_json: bool) -> None:
-    """Print where the explorer is, for the user and for others."""
-    if as_json:
-        from stackbounce.version import __version__
-
-        known = {"address": address, "others": [place.address for place in others]}
-        typer.echo(json_text({"stackbounce": __version__, **known}))
-        return
-    typer.echo(f"The explorer: {address} (Ctrl+C ends it)")
-    if for_others:
-        _tell_others(others)
 
 
 def _tell_others(others: "list[Place]") -> None:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import typer
 
-from stackbounce.cli.output import json_text
+from stackbounce.cli.output import print_json
 
 
 def write(path: str, framed_by: list[str], overwrite: bool, as_json: bool) -> None:
@@ -22,7 +22,7 @@ def write(path: str, framed_by: list[str], overwrite: bool, as_json: bool) -> No
     header = f"Content-Security-Policy: {frame_rule(framed_by)}" if framed_by else None
     if as_json:
         known = {} if header is None else {"header": header}
-        typer.echo(json_text({"stackbounce": __version__, kind: path, "bytes": size, **known}))
+        print_json({"stackbounce": __version__, kind: path, "bytes": size, **known})
         return
     files = "" if is_file else f" in {len(sizes)} files"
     typer.echo(f"{path}: the explorer{files}, {size / 1e3:.0f} kB")

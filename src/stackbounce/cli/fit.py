@@ -1,13 +1,13 @@
 """The command ``stackbounce fit``."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
 from stackbounce.cli import output
-from stackbounce.cli.fit_options import QUESTION, RESULTS, What
-from stackbounce.cli.options import DROP, AsJson, Overwrite, Plot, add_options
+from stackbounce.cli.options import DROP
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
 
@@ -15,20 +15,9 @@ if TYPE_CHECKING:
     from stackbounce.cli.fit_tables import Fitted
     from stackbounce.fitting import Comparison, FitProblem
 
-EPILOG = (
-    "For example: stackbounce fit basketball tennis --height 63cm --measured "
-    "'rebound_ratios.1=1.64 ± 0.02' --vary 'contacts.1.stiffness=0.7kN/m:2.5kN/m' --interval"
-)
 
-
-@add_options(QUESTION | DROP | RESULTS)
 def run(
-    what: What,
-    *,
-    plot: Plot = None,
-    overwrite: Overwrite = False,
-    as_json: AsJson = False,
-    **given: Any,
+    what: Sequence[str], plot: Path | None, overwrite: bool, as_json: bool, **given: Any
 ) -> None:
     """Fit parameters of a drop to measured values, with errors."""
     need("fit", "stackbounce fit")
@@ -40,7 +29,7 @@ def run(
     output.check_picture(corner, overwrite, "--corner")
     _check_together(given)
     parts = fit_files.read_parts_of(what, {name: given[name] for name in DROP})
-    question = {name: given[name] for name in QUESTION}
+    question = {name: given[name] for name in ("data", "measured", "vary", "tie")}
     problem = build_problem(parts, **question, compared=given["compare"])
     if given["compare"]:
         compared = _compare(problem, given)

@@ -2,18 +2,16 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.cli import scenario
 from stackbounce.cli.output import check_file
 from stackbounce.cross2007.datasets import PREFIX, load_dataset
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.files import check_own, check_place, write_file
+from stackbounce.fitting import Fit, FitProblem, Posterior
 from stackbounce.fitting.files import Parts, read_parts
 from stackbounce.sweeps.draws import draws_text
-
-if TYPE_CHECKING:
-    from stackbounce.fitting import Fit, FitProblem, Posterior
 
 
 def read_parts_of(what: Sequence[str], changes: Mapping[str, Any]) -> Parts:
@@ -31,7 +29,7 @@ def read_parts_of(what: Sequence[str], changes: Mapping[str, Any]) -> Parts:
 def check_save(
     path: Path | None,
     overwrite: bool,
-    problem: "FitProblem",
+    problem: FitProblem,
     read: Sequence[str],
     option: str = "--save",
     suffix: str = ".toml",
@@ -49,14 +47,14 @@ def check_save(
             check_own(path / f"{name}{suffix}", overwrite, read)
 
 
-def save(fit: "Fit", path: Path | None, overwrite: bool) -> list[Path]:
+def save(fit: Fit, path: Path | None, overwrite: bool) -> list[Path]:
     """Write the fitted drop into a file, or several into a folder, and return the files."""
     texts = {key: drop.to_toml() for key, drop in fit.drops.items()}
     return _write_each(texts, path, ".toml", overwrite)
 
 
 def save_draws(
-    fit: "Fit", posterior: "Posterior | None", path: Path | None, overwrite: bool
+    fit: Fit, posterior: Posterior | None, path: Path | None, overwrite: bool
 ) -> list[Path]:
     """Write the draws of the drop into a file, of several into a folder, and return the files."""
     if posterior is None:

@@ -2,18 +2,16 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from rich.console import Console
+from rich.table import Table
 
 from stackbounce.cli.tables import new_table, number
 from stackbounce.fitting import Fit, Interval, Posterior
 from stackbounce.fitting.notes import describe_freedom
 from stackbounce.units import handy, rounded
-
-if TYPE_CHECKING:
-    from rich.table import Table
 
 _STRONG = 0.5  # a correlation above it is printed
 _QUANTILES = (0.159, 0.5, 0.841)
@@ -96,7 +94,7 @@ def print_fit(console: Console, done: Fitted) -> None:
         console.print(f"Note: {note}.")
 
 
-def _tabulate_parameters(done: Fitted) -> "Table":
+def _tabulate_parameters(done: Fitted) -> Table:
     """Return the table of the parameters."""
     headings = ["\nvalue", "\nerror"]
     headings += ["interval\nfrom", "\nto"] if done.intervals else []
@@ -119,7 +117,7 @@ def _tabulate_parameters(done: Fitted) -> "Table":
     return table
 
 
-def _tabulate_residuals(found: Fit) -> "Table":
+def _tabulate_residuals(found: Fit) -> Table:
     headings = ("\nvalue", "\nerror", "\nfitted", "off by\nerrors")
     table = new_table(None, ["\nMeasured"], headings)
     table.add_column("\nunit")

@@ -2,96 +2,21 @@
 
 import math
 from collections import Counter
-from typing import Annotated, Any
-
-import typer
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
 
 from stackbounce.cli import output
-from stackbounce.cli.options import (
-    DROP,
-    RARE,
-    AsJson,
-    Overwrite,
-    Plot,
-    Save,
-    add_options,
-    ball_names,
-    law_names,
-    option,
-)
 from stackbounce.errors import InvalidValue, positive, shown
-
-EPILOG = "For example: stackbounce highest B1 B2 B3 tennis --gap 0 --gap 2mm --masses"
-
-
-_FALL = {name: DROP[name] for name in ("height", "speed", "contact")}
-_HIGHEST = {
-    "balls": option(
-        int | None, "NUMBER", "Balls in a stack; by default 3, or 2 if only two are named."
-    ),
-    "gap": option(
-        list[str] | None,
-        "LENGTH",
-        "Gap between all neighbours, once for each that is tried; the order is that of the first; "
-        "by default 0, 1 mm and 5 mm, or those of a file's stack.",
-    ),
-    "masses": option(
-        bool, None, "Find the best inner masses of the best stack, too.", "--masses", default=False
-    ),
-    "within": option(
-        str | None,
-        "MASS:MASS",
-        "The smallest and the largest mass for --masses, such as 10g:1kg; by default those of the "
-        "lowest and the top ball.",
-        rich_help_panel=RARE,
-    ),
-    "in_order": option(
-        bool,
-        None,
-        "Try only the stack in the order given, with its contacts in simulate; --contact does so, "
-        "too.",
-        "--in-order",
-        default=False,
-        rich_help_panel=RARE,
-    ),
-    "repeat": option(
-        bool,
-        None,
-        "Take each ball any number of times.",
-        "--repeat",
-        default=False,
-        rich_help_panel=RARE,
-    ),
-    "law": option(
-        str,
-        "LAW",
-        "Of the catalogue's contacts, with the ball's contact time and restitution: hysteretic, or "
-        "spring, which loses nothing.",
-        default="hysteretic",
-        rich_help_panel=RARE,
-        autocompletion=law_names,
-    ),
-    "rows": option(int, "NUMBER", "Stacks to print.", default=10, min=1),
-}
+from stackbounce.files import write_file
 
 
-@add_options(_HIGHEST | _FALL)
 def run(
-    what: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[BALL]...",
-            help="Balls of the catalogue, or scenario files of one ball each, as measure --save "
-            "writes them; by default the balls of the paper. A file of several balls is one stack.",
-            show_default=False,
-            autocompletion=ball_names,
-        ),
-    ] = None,
-    *,
-    save: Save = None,
-    plot: Plot = None,
-    overwrite: Overwrite = False,
-    as_json: AsJson = False,
+    what: Sequence[str] | None,
+    save: Path | None,
+    plot: Path | None,
+    overwrite: bool,
+    as_json: bool,
     **given: Any,
 ) -> None:
     """Find which balls, order, gaps and masses throw the top ball of a stack highest."""
@@ -106,7 +31,7 @@ def run(
     what = what or []
     output.check_picture(plot, overwrite)
     output.check_scenario(save, overwrite, what)
-    within, fall = given["within"], {name: given[name] for name in _FALL}
+    within, fall = given["within"], {name: given[name] for name in ("height", "speed", "contact")}
     chosen: dict[str, Any] = {"masses": _limits(within) if within else given["masses"]}
     if given["gap"]:
         chosen["gaps"] = [quantity(text, "m", "--gap") for text in given["gap"]]
@@ -118,7 +43,8 @@ def run(
         chosen["law"] = law_named(given["law"])
         chosen["impact_speed"] = _impact_speed(given["height"], given["speed"])
     data = highest(**chosen)
-    output.write_scenario(data.attrs["best"], save, overwrite)
+    if save is not None:
+        write_file(save, data.attrs["best"].encode(), overwrite)
     output.draw_picture(plot, overwrite, "highest", data)
     if as_json:
         output.print_json(summary(data))

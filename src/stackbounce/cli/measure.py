@@ -1,76 +1,26 @@
 """The command ``stackbounce measure``: files -> their results, and a ball for ``simulate``."""
 
 import shlex
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import typer
 
-from stackbounce.cli.options import AsJson, Overwrite, Plot, add_options, option
-from stackbounce.cli.output import (
-    check_picture,
-    check_scenario,
-    console,
-    draw_picture,
-    print_json,
-)
+from stackbounce.cli import output
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
 from stackbounce.measure.messages import OptionHint
-from stackbounce.measure.options import OPTIONS, Option
-
-EPILOG = (
-    "For example: stackbounce measure bounces.wav --mass 57g --height 1m --save ball.toml, "
-    "then: stackbounce simulate ball.toml"
-)
-Files = Annotated[
-    list[Path] | None,
-    typer.Argument(
-        metavar="FILE...",
-        readable=False,
-        help="Sound, force waveform, video track, acceleration, times or heights of bounces, or "
-        "press curve, as Tracker, ImageJ, phyphox, oscilloscopes or spreadsheets write it.",
-        show_default=False,
-    ),
-]
-Name = Annotated[
-    str | None,
-    typer.Option(metavar="NAME", help="For --save.", rich_help_panel="What is known of the ball"),
-]
-Save = Annotated[
-    Path | None,
-    typer.Option(
-        metavar="FILE", readable=False, help="Write the ball as a scenario for simulate: ball.toml."
-    ),
-]
+from stackbounce.measure.options import OPTIONS
 
 
-def _as_command(table_row: Option) -> tuple[Any, Any]:
-    """Return the command's option for one of the table."""
-    several = table_row.form == "columns"
-    kinds: dict[str, Any] = {"flag": bool, "file": Path | None, "columns": list[str] | None}
-    return option(
-        kinds.get(table_row.form, str if table_row.default else str | None),
-        None if table_row.form == "flag" else table_row.value_name,
-        table_row.says,
-        table_row.on_command_line,
-        default=table_row.default,
-        rich_help_panel=table_row.panel or None,
-        readable=table_row.form != "file",
-        show_default=not several,
-    )
-
-
-@add_options({each.name: _as_command(each) for each in OPTIONS})
 def run(
-    files: Files = None,
-    *,
-    name: Name = None,
-    save: Save = None,
-    plot: Plot = None,
-    overwrite: Overwrite = False,
-    as_json: AsJson = False,
+    files: Sequence[Path] | None,
+    name: str | None,
+    save: Path | None,
+    plot: Path | None,
+    overwrite: bool,
+    as_json: bool,
     **given: Any,
 ) -> None:
     """Find restitutions, stiffnesses, speeds and heights in what was measured, with errors."""
@@ -81,31 +31,28 @@ def run(
     from stackbounce.measure.option_values import read_options
 
     files = files or []
-    if plot is not None:
-        check_picture(plot, overwrite)
-        count = len(files) + (given["heights"] is not None)
-        if count != 1:
-            raise InvalidValue(f"--plot draws one file or --heights, got {count}")
+    output.check_picture(plot, overwrite)
+    output.check_scenario(save, overwrite)
+    count = len(files) + (given["heights"] is not None)
+    if plot is not None and count != 1:
+        raise InvalidValue(f"--plot draws one file or --heights, got {count}")
     known = read_options(given, lambda option: option.on_command_line)
-    if save is not None:
-        check_scenario(save, overwrite)
-        if "mass" not in known:
-            raise InvalidValue("--save needs the mass of the ball, such as --mass 57g")
+    if save is not None and "mass" not in known:
+        raise InvalidValue("--save needs the mass of the ball, such as --mass 57g")
     done = [measure_file(path, known, _wording) for path in files] + measure_numbers(known)
     if not done:
         raise InvalidValue("measure needs a file, --heights, --contact-time or --restitution")
     law = law_of(known, done) if "law" in known else None
     saved = {} if save is None else save_ball(done, law, save, known, name, overwrite)
     if plot is not None:
-        draw_picture(plot, overwrite, "measured", done[0].data, done[0].found[-1])
+        output.draw_picture(plot, overwrite, "measured", done[0].data, done[0].found[-1])
     if as_json:
-        print_json(summary(done, law, saved))
+        output.print_json(summary(done, law, saved))
         return
-    print_measured(console(), done, law)
+    print_measured(output.console(), done, law)
     if save is not None:
         typer.echo(f"Ball: {save}; now: stackbounce simulate {save}")
-    if plot is not None:
-        typer.echo(f"Picture: {plot}")
+    output.print_files(plot)
 
 
 def _wording(hint: OptionHint) -> str:

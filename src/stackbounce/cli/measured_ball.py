@@ -2,16 +2,14 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from stackbounce.cli.output import write_scenario
-
-if TYPE_CHECKING:
-    from stackbounce.measure.constants import LawConstants
-    from stackbounce.measure.measurement import Measurement
+from stackbounce.files import write_file
+from stackbounce.measure.constants import LawConstants
+from stackbounce.measure.measurement import Measurement
 
 
-def law_of(known: Mapping[str, Any], done: "Sequence[Measurement]") -> "LawConstants":
+def law_of(known: Mapping[str, Any], done: Sequence[Measurement]) -> LawConstants:
     """Return the law of ``--law``, calibrated to the results and the known numbers."""
     from stackbounce.measure import one_law
     from stackbounce.measure.setup import Setup
@@ -25,8 +23,8 @@ def law_of(known: Mapping[str, Any], done: "Sequence[Measurement]") -> "LawConst
 
 
 def save_ball(
-    done: "Sequence[Measurement]",
-    law: "LawConstants | None",
+    done: Sequence[Measurement],
+    law: LawConstants | None,
     path: Path,
     known: Mapping[str, Any],
     name: str | None,
@@ -42,5 +40,5 @@ def save_ball(
     ball = {key: known[key] for key in ("mass", "diameter") if key in known}
     plain = {key: getattr(value, "nominal_value", value) for key, value in ball.items()}
     drop = one_ball(parts, **plain, name=name)
-    write_scenario(drop.to_toml(), path, overwrite)
+    write_file(path, drop.to_toml().encode(), overwrite)
     return drop.to_mapping()

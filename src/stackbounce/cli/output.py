@@ -95,12 +95,6 @@ def draw_picture(
         write_file(path, render(draw, path.suffix.lower().removeprefix(".")), overwrite)
 
 
-def write_scenario(text: str, path: Path | None, overwrite: bool) -> None:
-    """Write a scenario file, if one is asked for."""
-    if path is not None:
-        write_file(path, text.encode(), overwrite)
-
-
 def console() -> "Console":
     """Return the console for tables: as wide as the terminal, at most 100 columns."""
     from rich.console import Console
@@ -131,24 +125,21 @@ def progress_bar(what: str) -> Iterator[Any]:
         bar.stop()
 
 
-def json_text(value: object) -> str:
-    """Return `value` as ``--json`` prints it: SI units, null for what is not finite.
+def print_json(value: object) -> None:
+    """Print dicts, lists, dataclasses, arrays, strings and numbers as JSON.
+
+    Numbers are in SI units, null for what is not finite.
 
     Examples
     --------
-    >>> print(json_text({"peak_force": float("inf")}))
+    >>> print_json({"peak_force": float("inf")})
     {
       "peak_force": null
     }
     """
     from stackbounce.json_values import as_json
 
-    return as_json(value, indent=2)
-
-
-def print_json(value: object) -> None:
-    """Print dicts, lists, dataclasses, arrays, strings and numbers as JSON."""
-    typer.echo(json_text(value))
+    typer.echo(as_json(value, indent=2))
 
 
 def print_files(*pictures: Path | None, best: Path | None = None) -> None:

@@ -1,46 +1,25 @@
 """The command ``stackbounce simulate``: how each ball of one drop bounces."""
 
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from stackbounce.cli import output
-from stackbounce.cli.options import (
-    DROP,
-    AsJson,
-    Overwrite,
-    Plot,
-    Tolerance,
-    Until,
-    What,
-    add_options,
-)
 
 if TYPE_CHECKING:
     from stackbounce.cli.scenario import Scenario
     from stackbounce.prediction import Prediction
     from stackbounce.run.result import Result
 
-EPILOG = "For example: stackbounce simulate basketball tennis --height 0.63m --gap 2mm"
 
-
-@add_options(DROP)
 def run(
-    what: What,
-    *,
-    until: Until = None,
-    rtol: Tolerance = 1e-12,
-    error: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="PATH=ERROR",
-            help="Error of a number of the drop, such as balls.1.mass=1g; once per number. "
-            "--height '63 ± 1 cm' and the like have it in the value.",
-        ),
-    ] = None,
-    plot: Plot = None,
-    overwrite: Overwrite = False,
-    as_json: AsJson = False,
+    what: Sequence[str],
+    until: str | None,
+    rtol: float,
+    error: Sequence[str] | None,
+    plot: Path | None,
+    overwrite: bool,
+    as_json: bool,
     **given: Any,
 ) -> None:
     """Drop a stack of balls and tell how each one bounces."""

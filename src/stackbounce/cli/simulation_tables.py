@@ -1,7 +1,6 @@
 """The tables of ``stackbounce simulate``: balls, contacts, highest points, energy."""
 
 import math
-from typing import TYPE_CHECKING
 
 from rich.console import Console
 
@@ -10,10 +9,8 @@ from stackbounce.cli.descriptions import incidence, law_text, meeting
 from stackbounce.cli.scenario import Scenario
 from stackbounce.cli.tables import number, percent, write_count
 from stackbounce.model import Tabulated
+from stackbounce.prediction import Prediction
 from stackbounce.run.result import Result, Status
-
-if TYPE_CHECKING:
-    from stackbounce.prediction import Prediction
 
 _LONG = 5_000_000  # work of a run that is not repeated to find its conditioning
 
@@ -23,7 +20,7 @@ def print_simulation(
     scenario: Scenario,
     result: Result,
     textbook: Result | None,
-    prediction: "Prediction | None" = None,
+    prediction: Prediction | None = None,
 ) -> None:
     """Print the result of a drop, beside the result of separate collisions if there is one.
 

@@ -1,19 +1,17 @@
 """The table of ``stackbounce highest``, for people and for machines."""
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import xarray as xr
 from rich.console import Console
 
 from stackbounce.cli.tables import new_table, number, percent
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 _NAMES = ("place", "rebound_ratio", "height_ratio", "energy_share", "energy_retained", "collisions")
 
 
-def summary(data: "xr.Dataset") -> dict[str, Any]:
+def summary(data: xr.Dataset) -> dict[str, Any]:
     """Return what ``stackbounce highest --json`` prints."""
     stacks = [
         {"balls": row["balls"].values, "masses": row["mass"].values, "name": row["stack"].values}
@@ -23,7 +21,7 @@ def summary(data: "xr.Dataset") -> dict[str, Any]:
     return {**data.attrs, "gap": data["gap"].values, "stacks": stacks}
 
 
-def print_stacks(console: Console, data: "xr.Dataset", rows: int) -> None:
+def print_stacks(console: Console, data: xr.Dataset, rows: int) -> None:
     """Print the first stacks in order, and how the gap changes the order."""
     count, names, gaps = data.sizes["stack"], data["stack"].values, data["gap"].values
     speed, shown_rows = number(data.attrs["impact_speed"]), min(rows, count)

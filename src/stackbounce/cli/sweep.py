@@ -2,83 +2,25 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from stackbounce.cli import output
-from stackbounce.cli.options import (
-    DROP,
-    RARE,
-    AsJson,
-    Overwrite,
-    Plot,
-    Tolerance,
-    Until,
-    What,
-    add_options,
-    option,
-)
+from stackbounce.cli.options import DROP
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.files import check_place
 
 if TYPE_CHECKING:
     from stackbounce.model import Drop
 
-EPILOG = (
-    "For example: stackbounce sweep basketball tennis --over balls.0.mass=50g:500g:100:log "
-    "--over gaps.0=0mm:5mm:50 --out map.zarr --plot map.png"
-)
 
-
-_SWEEP = {
-    "over": option(
-        list[str] | None,
-        "PATH=VALUES",
-        "A parameter that varies: balls.0.mass=50g:500g:40 (start, stop, how many), "
-        "contacts.0.stiffness=1kN/m:1MN/m:40:log (logarithmic spacing) or gaps.0=0mm,1mm,5mm; "
-        "once per parameter. Balls, contacts and gaps count from 0, the lowest.",
-    ),
-    "draws": option(
-        Path | None,
-        "FILE",
-        "A table whose rows are a drop each, such as fit --draws writes: its columns are numbers "
-        "of the drop that vary together, gaps.0 (mm). 300 rows are 300 drops.",
-        readable=False,
-        rich_help_panel=RARE,
-    ),
-    "cluster": option(
-        str | None, "ADDRESS", "Solve on this cluster: its dask scheduler.", rich_help_panel=RARE
-    ),
-    "show": option(
-        str,
-        "NAME",
-        "What --plot draws: rebound_ratio, collisions, energy_retained, first_touch or "
-        "last_release; of one ball or contact with its number, such as rebound_ratio.0.",
-        default="rebound_ratio",
-    ),
-}
-
-
-@add_options(DROP | _SWEEP)
 def run(
-    what: What,
-    *,
-    out: Annotated[
-        Path,
-        typer.Option(
-            metavar="FILE",
-            readable=False,
-            help="Zarr store to write all results to, such as map.zarr. Stopped, the same command "
-            "goes on where it was.",
-            show_default=False,
-        ),
-    ],
-    until: Until = None,
-    rtol: Tolerance = 1e-12,
-    plot: Plot = None,
-    overwrite: Overwrite = False,
-    as_json: AsJson = False,
+    what: Sequence[str],
+    out: Path,
+    until: str | None,
+    rtol: float,
+    plot: Path | None,
+    overwrite: bool,
+    as_json: bool,
     **given: Any,
 ) -> None:
     """Drop a stack for all combinations of other numbers in it, into a Zarr store."""
@@ -127,7 +69,7 @@ def _values(drop: "Drop", over: Sequence[str], draws: Path | None) -> dict[str, 
 
 def _check_shown(drop: "Drop", given: Mapping[str, Any]) -> None:
     """Refuse a picture that could not be drawn, before anything is computed."""
-    from stackbounce.plots.sweep_curves import TITLES
+    from stackbounce.plots.sweep_curves import SHOWN
 
     over, show = given["over"] or [], given["show"]
     if given["draws"] is not None:
@@ -135,8 +77,8 @@ def _check_shown(drop: "Drop", given: Mapping[str, Any]) -> None:
     if len(over) not in (1, 2):
         raise InvalidValue(f"--plot needs one or two parameters that vary, got {len(over)}")
     name, dot, which = show.partition(".")
-    if name not in TITLES:
-        raise InvalidValue(f"--show must name a result, got {shown(name)}; {nearest(name, TITLES)}")
+    if name not in SHOWN:
+        raise InvalidValue(f"--show must name a result, got {shown(name)}; {nearest(name, SHOWN)}")
     most = len(drop.balls) - 1
     if dot and name == "energy_retained":
         raise InvalidValue(f"--show {name} is of the whole stack, got {shown(show)}")

@@ -1,14 +1,14 @@
 """Tables of at most 100 columns, and how numbers are written in them."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from rich import box
 from rich.table import Table
 
 
-def new_table(title: str | None, texts: Sequence[str] = (), numbers: Sequence[str] = ()) -> Table:
+def new_table(title: str | None, texts: Iterable[str], numbers: Iterable[str] = ()) -> Table:
     """Return a table in the style of all of them, with columns of texts, then of numbers."""
     table = Table(
         title=title and f"\n{title}",
@@ -25,7 +25,7 @@ def new_table(title: str | None, texts: Sequence[str] = (), numbers: Sequence[st
     return table
 
 
-def add_columns(table: Table, headings: Sequence[str], style: str = "") -> None:
+def add_columns(table: Table, headings: Iterable[str], style: str = "") -> None:
     """Add columns of numbers."""
     for heading in headings:
         table.add_column(heading, justify="right", style=style, no_wrap=True)
@@ -47,6 +47,8 @@ def number(value: float) -> str:
     --------
     >>> [number(x) for x in (3.53, -0.057, 56000.0, 1e-17, float("inf"), float("nan"))]
     ['3.530', '-0.05700', '56000', '0', '∞', '–']
+    >>> [number(x) for x in (1e-300, 1e-11, 0.1, 999.96, 1234.5, 123456.0, 1e12, -2.0)]
+    ['0', '1.000e-11', '0.1000', '1000', '1234', '123456', '1.000e+12', '-2.000']
     """
     if math.isnan(value):
         return "–"

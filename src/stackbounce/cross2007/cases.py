@@ -11,7 +11,7 @@ from importlib.resources import files
 from stackbounce.cross2007 import datasets, stacks
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.data import PAPER
-from stackbounce.cross2007.drops import rigid_pair, spring_pair
+from stackbounce.cross2007.drops import rigid_pair
 from stackbounce.model import Drop
 
 
@@ -69,63 +69,36 @@ def _sized(bench: Bench, drop: Drop) -> Drop:
         return drop
     twins = len(set(names)) < len(names)
     balls = [
-        replace(
-            ball,
-            name=f"{name} {where}" if twins else name,
-            diameter=bench(f"{name}.diameter"),
-        )
+        replace(ball, name=f"{name} {where}" if twins else name, diameter=bench(f"{name}.diameter"))
         for ball, name, where in zip(drop.balls, names, ("below", "above"), strict=True)
     ]
     return replace(drop, balls=balls)
 
 
-def _section_two(ratio: float, stiffness: float = 1.0) -> Callable[[Bench], Drop]:
-    """Return a function that makes section II's drop with a mass ratio and a stiffness ratio."""
-    return lambda b: stacks.section_two(b, ratio, stiffness)
-
-
-def _textbook(restitution: str, ratio: float | None = None) -> Callable[[Bench], Drop]:
-    """Return a function that makes separate collisions of two balls, by default the paper's."""
-
-    def make(b: Bench) -> Drop:
-        lower, upper = stacks.stack_masses(b)
-        masses = (lower if ratio is None else ratio * upper), upper
-        return rigid_pair(masses, b(restitution), speed=b("stack.impact_speed"))
-
-    return make
-
-
-def _figure_5(b: Bench) -> Drop:
-    masses = b("fig5.lower_mass"), b("fig5.upper_mass")
-    stiffnesses = b("fig5.floor_stiffness"), b("fig5.ball_stiffness")
-    return spring_pair(masses, stiffnesses, speed=b("models.speed"))
-
-
-def _measured(name: str) -> Callable[[Bench], Drop]:
-    return lambda _: datasets.load_dataset(name).drop
-
-
-def _on_b1(make: Callable[[Bench, float], Drop]) -> Callable[[Bench], Drop]:
-    return lambda b: make(b, stacks.heavier_b1(b))
+def _textbook(b: Bench, restitution: str, ratio: float | None = None) -> Drop:
+    """Return separate collisions of two balls, by default the paper's."""
+    lower, upper = stacks.stack_masses(b)
+    masses = (lower if ratio is None else ratio * upper), upper
+    return rigid_pair(masses, b(restitution), speed=b("stack.impact_speed"))
 
 
 _DROPS: dict[str, Callable[[Bench], Drop]] = {
-    "textbook": _textbook("models.lossless", 1000.0),
-    "separate": _textbook("models.lossless"),
-    "separate-lossy": _textbook("stack.restitution"),
-    "equal": _section_two(1.0),
-    "figure-4a": _section_two(3.0),
-    "figure-4b": _section_two(3.0, 20.0),
-    "figure-5": _figure_5,
+    "textbook": lambda b: _textbook(b, "models.lossless", 1000.0),
+    "separate": lambda b: _textbook(b, "models.lossless"),
+    "separate-lossy": lambda b: _textbook(b, "stack.restitution"),
+    "equal": lambda b: stacks.section_two(b, 1.0, 1.0),
+    "figure-4a": lambda b: stacks.section_two(b, 3.0, 1.0),
+    "figure-4b": lambda b: stacks.section_two(b, 3.0, 20.0),
+    "figure-5": stacks.figure_5,
     "figure-8": stacks.spring_record,
     "figure-8-gap": lambda b: stacks.spring_record(b, b("stack.gap")),
     "figure-8-hollow": stacks.hollow_record,
     "figure-8-hollow-gap": lambda b: stacks.hollow_record(b, b("stack.gap")),
     "figure-9": stacks.better_fit,
     "figure-9-other": stacks.other_fit,
-    "measured-basketball-tennis": _measured("basketball-tennis"),
-    "figure-13": _on_b1(stacks.small_fit),
-    "B3-on-B1": _on_b1(stacks.smallest_fit),
+    "measured-basketball-tennis": lambda _: datasets.load_dataset("basketball-tennis").drop,
+    "figure-13": lambda b: stacks.small_fit(b, stacks.heavier_b1(b)),
+    "B3-on-B1": lambda b: stacks.smallest_fit(b, stacks.heavier_b1(b)),
     "B1-on-B2": lambda b: stacks.reversed_pair(b, 0.0),
     "B1-on-B3-early": stacks.early_pair,
     "B1-on-B3-late": stacks.late_pair,

@@ -12,10 +12,10 @@ import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 from stackbounce.cross2007.bench import Bench, propagate_error, write_call
-from stackbounce.cross2007.claims import Claim
+from stackbounce.cross2007.claims import Claim, Reading
 from stackbounce.cross2007.data import Data
 
 AGREES = "agrees"
@@ -29,17 +29,6 @@ Number: TypeAlias = float | Any
 """A number, of Python or of a numpy array."""
 
 Compute = Callable[[Bench], Number]
-
-
-class Reading(NamedTuple):
-    """Another reading of a claim: what it assumes, how it is computed, and what it is compared to.
-
-    ``number`` is the number to compare with, in digits, by default that of the claim.
-    """
-
-    text: str
-    compute: Compute
-    number: str = ""
 
 
 @dataclass(frozen=True)
@@ -88,7 +77,7 @@ class Row:
         return bool(self.attempts) and any(attempt.verdict != DIFFERS for attempt in self.attempts)
 
 
-def run_check(claim: Claim, compute: Compute, readings: Sequence[Reading], data: Data) -> Row:
+def run_check(claim: Claim, compute: Compute, readings: Sequence[Compute], data: Data) -> Row:
     """Return the row of a claim.
 
     Parameters
@@ -97,8 +86,8 @@ def run_check(claim: Claim, compute: Compute, readings: Sequence[Reading], data:
         The printed number.
     compute : callable
         Computes it, in SI units, on a bench.
-    readings : sequence of Reading
-        Other readings of it.
+    readings : sequence of callable
+        Compute its other readings, in the order of `Claim.readings`.
     data : mapping of str to Input
         The paper's numbers.
 
@@ -120,7 +109,10 @@ def run_check(claim: Claim, compute: Compute, readings: Sequence[Reading], data:
         error=error,
         verdict=verdict,
         reason=claim.reason,
-        attempts=tuple(_attempt(claim, reading, data) for reading in readings),
+        attempts=tuple(
+            _attempt(claim, reading, other, data)
+            for reading, other in zip(claim.readings, readings, strict=True)
+        ),
         source=source_of(compute),
         calls=tuple(dict.fromkeys(write_call(drop) for drop in bench.drops)),
         inputs=tuple(bench.read),
@@ -144,7 +136,14 @@ def half_unit(number: str) -> float:
     >>> half_unit("2.64"), half_unit("5.4e4"), half_unit("106")
     (0.005, 500.0, 0.5)
     """
-    return float(_last_digit(number) / 2)
+    return float(Decimal(5).scaleb(last_place(number) - 1))
+
+
+def last_place(number: str) -> int:
+    """Return the power of ten of the last printed digit."""
+    exponent = Decimal(number).as_tuple().exponent
+    assert isinstance(exponent, int)
+    return exponent
 
 
 def source_of(function: Callable[..., object]) -> str:
@@ -164,7 +163,7 @@ def source_of(function: Callable[..., object]) -> str:
     Examples
     --------
     >>> source_of(half_unit)
-    'float(_last_digit(number) / 2)'
+    'float(Decimal(5).scaleb(last_place(number) - 1))'
     >>> def bounce_of(ball):
     ...     return lambda b: b(f"{ball}.rebound_height")
     >>> source_of(bounce_of("tennis"))
@@ -217,10 +216,10 @@ class _Filled(ast.NodeTransformer):
         return ast.Constant("".join(texts)) if len(texts) == len(parts) else node
 
 
-def _attempt(claim: Claim, reading: Reading, data: Data) -> Attempt:
+def _attempt(claim: Claim, reading: Reading, compute: Compute, data: Data) -> Attempt:
     number = reading.number or claim.digits
-    computed, _, verdict, _ = _compared(claim, number, reading.compute, data)
-    return Attempt(reading.text, number, computed, verdict, source_of(reading.compute))
+    computed, _, verdict, _ = _compared(claim, number, compute, data)
+    return Attempt(reading.text, number, computed, verdict, source_of(compute))
 
 
 def _compared(
@@ -246,9 +245,3 @@ def _verdict(computed: float, number: float, tolerance: float, error: float) -> 
     # with an error as large as the number itself, every value would pass
     telling = error < abs(number)
     return WITHIN_ERROR if telling and distance <= tolerance + error else DIFFERS
-
-
-def _last_digit(number: str) -> Decimal:
-    exponent = Decimal(number).as_tuple().exponent
-    assert isinstance(exponent, int)
-    return Decimal(1).scaleb(exponent)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from math import pi, sqrt
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.checks import Compute, Reading
+from stackbounce.cross2007.checks import Compute
 from stackbounce.cross2007.drops import (
     after_meeting,
     fallen_speed,
@@ -113,64 +113,37 @@ COMPUTED: dict[str, Compute] = {
 }
 
 
-def _ends(fit: Callable[[Bench], Drop]) -> tuple[Reading, ...]:
+def _ends(fit: Callable[[Bench], Drop]) -> tuple[Compute, ...]:
     """Return readings with the end where the floor force falls to a share of its peak."""
     return (
-        Reading(
-            "end of the floor force at a twentieth of its peak",
-            lambda b: force_above(b.simulate(fit(b)), 0, 0.05)[1],
-        ),
-        Reading(
-            "at a tenth of its peak",
-            lambda b: force_above(b.simulate(fit(b)), 0, 0.1)[1],
-        ),
+        lambda b: force_above(b.simulate(fit(b)), 0, 0.05)[1],
+        lambda b: force_above(b.simulate(fit(b)), 0, 0.1)[1],
     )
 
 
-READINGS: dict[str, tuple[Reading, ...]] = {
+READINGS: dict[str, tuple[Compute, ...]] = {
     "III.impact_speed": (
-        Reading(
-            "with the height measured to the basketball's centre",
-            lambda b: fallen_speed(b("stack.drop_height") - b("basketball.diameter") / 2),
-        ),
+        lambda b: fallen_speed(b("stack.drop_height") - b("basketball.diameter") / 2),
     ),
-    "III.energy_stacked": (
-        Reading("tennis ball alone", lambda b: _kinetic(b("tennis.mass"), b("stack.upper_speed"))),
-    ),
+    "III.energy_stacked": (lambda b: _kinetic(b("tennis.mass"), b("stack.upper_speed")),),
     "III.static_ratio": (
-        Reading("without the tennis ball's own compression", lambda b: _top(b) / _bottom(b)),
-        Reading(
-            "with half of the tennis ball's compression",
-            lambda b: (_top(b) + b("static.tennis") / 2) / _bottom(b),
-        ),
+        lambda b: _top(b) / _bottom(b),
+        lambda b: (_top(b) + b("static.tennis") / 2) / _bottom(b),
     ),
     "III.duration": _ends(better_fit),
     "III.quiet": (
-        Reading(
-            "on a hollow ball that buckles early, and that gives 30 ms and v1/v0 = 0.18",
-            lambda b: b.simulate(hollow_record(b, b("stack.gap"))).first_touch[1],
-        ),
-        Reading(
-            "by any law whose floor force has its mean of all 30 ms from the start",
-            lambda b: sqrt(
-                2.0 * b("stack.gap") * b("basketball.mass") * b("stack.duration") / _impulse(b)
-            ),
+        lambda b: b.simulate(hollow_record(b, b("stack.gap"))).first_touch[1],
+        lambda b: sqrt(
+            2.0 * b("stack.gap") * b("basketball.mass") * b("stack.duration") / _impulse(b)
         ),
     ),
-    "III.lossy_lower": (
-        Reading(
-            "eq. 1's magnitude, before the second bounce off the floor",
-            lambda b: abs(after_meeting(_apart(b, b("stack.restitution")), 1)[0]),
-        ),
-    ),
-    "III.static_duration": (
-        Reading("with k1 = 30 N over 9.3 mm", lambda b: _static_duration(b, _bottom(b))),
-    ),
+    "III.lossy_lower": (lambda b: abs(after_meeting(_apart(b, b("stack.restitution")), 1)[0]),),
+    "III.static_duration": (lambda b: _static_duration(b, _bottom(b)),),
     "III.fig9_delay": (
-        Reading("at 2 % of the peak", lambda b: _begins(b, 0.02)),
-        Reading("at 2.6 % of the peak", lambda b: _begins(b, 0.026)),
-        Reading("at 4.5 % of the peak", lambda b: _begins(b, 0.045)),
-        Reading("at 5 % of the peak", lambda b: _begins(b, 0.05)),
+        lambda b: _begins(b, 0.02),
+        lambda b: _begins(b, 0.026),
+        lambda b: _begins(b, 0.045),
+        lambda b: _begins(b, 0.05),
     ),
     "III.other_duration": _ends(other_fit),
 }

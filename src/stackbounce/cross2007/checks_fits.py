@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.checks import Compute, Reading
-from stackbounce.cross2007.stacks import WITH_105, heavier_b1, small_fit, smallest_fit
+from stackbounce.cross2007.checks import Compute
+from stackbounce.cross2007.stacks import heavier_b1, small_fit, smallest_fit
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import Hysteretic
 from stackbounce.run.collision import restitution
@@ -68,10 +68,6 @@ COMPUTED: dict[str, Compute] = {
     "VI.superballs": lambda b: sum(_fitted_ratios(b)[1:]) / 2,
 }
 
-READINGS: dict[str, tuple[Reading, ...]] = {
-    name: (
-        Reading(WITH_105, _with_105(*given)),
-        Reading("with B1 = 105 g and d/v0 smaller by 9 %", _with_105_nearer(*given)),
-    )
-    for name, given in _RATIOS.items()
+READINGS: dict[str, tuple[Compute, ...]] = {
+    name: (_with_105(*given), _with_105_nearer(*given)) for name, given in _RATIOS.items()
 }

@@ -3,7 +3,7 @@
 import numpy as np
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.checks import Compute, Reading
+from stackbounce.cross2007.checks import Compute
 from stackbounce.cross2007.drops import (
     Two,
     after_meeting,
@@ -138,49 +138,24 @@ COMPUTED: dict[str, Compute] = {
     "II.ten_springs": lambda b: b.simulate(_ten(b)).rebound_ratios[1],
 }
 
-_CUT = "cut off after two digits, not rounded"
-_LOSSY = "e = 0.8"
-
-READINGS: dict[str, tuple[Reading, ...]] = {
-    "I.speed": (
-        Reading(
-            "basketball and tennis ball, no loss",
-            lambda b: _lossless(b, stack_masses(b)).rebound_ratios[1],
-        ),
-    ),
-    "I.tennis_height": (
-        Reading("with both heights measured to the ball's centre", _height_ratio_of_centre),
-    ),
+READINGS: dict[str, tuple[Compute, ...]] = {
+    "I.speed": (lambda b: _lossless(b, stack_masses(b)).rebound_ratios[1],),
+    "I.tennis_height": (_height_ratio_of_centre,),
     "II.second_stop": (
-        Reading(_CUT, lambda b: truncate(_stopping_ratio(b, b("models.lossless"), 2), 2)),
-        Reading(_LOSSY, lambda b: _stopping_ratio(b, b("models.restitution"), 2)),
+        lambda b: truncate(_stopping_ratio(b, b("models.lossless"), 2), 2),
+        lambda b: _stopping_ratio(b, b("models.restitution"), 2),
     ),
-    "II.second_collision": (
-        Reading(_LOSSY, lambda b: _more_meetings(b, b("models.restitution"), 2)),
-    ),
+    "II.second_collision": (lambda b: _more_meetings(b, b("models.restitution"), 2),),
     "II.third_collision": (
-        Reading(
-            "e = 1, against 0.4 m2", lambda b: _more_meetings(b, b("models.lossless"), 3), "0.4"
-        ),
-        Reading(
-            "e = 0.8, against 0.4 m2",
-            lambda b: _more_meetings(b, b("models.restitution"), 3),
-            "0.4",
-        ),
+        lambda b: _more_meetings(b, b("models.lossless"), 3),
+        lambda b: _more_meetings(b, b("models.restitution"), 3),
     ),
     "II.fig5_floor": (
-        Reading(
-            "when the upper mass has lost a twentieth of its speed", lambda b: _slowed(b, 0.05)
-        ),
-        Reading("when it has lost a tenth", lambda b: _slowed(b, 0.1)),
-        Reading("when it has lost a fifth", lambda b: _slowed(b, 0.2)),
-        Reading(
-            "when the ball-ball force exceeds a third of its peak",
-            lambda b: force_above(_fig5(b), 1, 1.0 / 3.0)[0],
-        ),
-        Reading("when it exceeds half of its peak", lambda b: force_above(_fig5(b), 1, 0.5)[0]),
+        lambda b: _slowed(b, 0.05),
+        lambda b: _slowed(b, 0.1),
+        lambda b: _slowed(b, 0.2),
+        lambda b: force_above(_fig5(b), 1, 1.0 / 3.0)[0],
+        lambda b: force_above(_fig5(b), 1, 0.5)[0],
     ),
-    "II.spring_lower": (
-        Reading(_CUT, lambda b: truncate(b.simulate(_simplest(b)).rebound_speeds[0], 2)),
-    ),
+    "II.spring_lower": (lambda b: truncate(b.simulate(_simplest(b)).rebound_speeds[0], 2),),
 }

@@ -7,7 +7,7 @@ the paper does not give are guesses.
 from dataclasses import replace
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.checks import Compute, Reading
+from stackbounce.cross2007.checks import Compute
 from stackbounce.cross2007.drops import peak_times
 from stackbounce.cross2007.stacks import (
     early_pair,
@@ -59,50 +59,24 @@ COMPUTED: dict[str, Compute] = {
     "IV.record_twin_duration": lambda b: b.simulate(early_twins(b)).last_release[0],
 }
 
-READINGS: dict[str, tuple[Reading, ...]] = {
+READINGS: dict[str, tuple[Compute, ...]] = {
     "IV.record_reversed_gap": (
-        Reading(
-            "for 1.5 ms, the shortest delay that rounds to 2 ms",
-            lambda b: gap_for_delay(b, reversed_pair(b, 0.0), b("superballs.delay") - 0.5e-3),
-        ),
+        lambda b: gap_for_delay(b, reversed_pair(b, 0.0), b("superballs.delay") - 0.5e-3),
     ),
     "IV.record_reversed_duration": (
-        Reading(
-            "on springs, end of the ball-ball force",
-            lambda b: b.simulate(_one_mm_apart(b)).last_release[1],
-        ),
-        Reading(
-            "on springs, end of the floor force, with the gap of the 2 ms delay",
-            lambda b: b.simulate(_delayed(b, reversed_pair(b, 0.0))).last_release[0],
-        ),
-        Reading(
-            "Hertz's law, end of the floor force",
-            lambda b: b.simulate(stiffen(b, _one_mm_apart(b))).last_release[0],
-        ),
-        Reading(
-            "Hertz's law, end of the last contact",
-            lambda b: max(b.simulate(stiffen(b, _one_mm_apart(b))).last_release),
-        ),
-        Reading(
-            "Hertz's law, end of the floor force, with the gap of the 2 ms delay",
-            lambda b: b.simulate(_delayed(b, stiffen(b, reversed_pair(b, 0.0)))).last_release[0],
-        ),
+        lambda b: b.simulate(_one_mm_apart(b)).last_release[1],
+        lambda b: b.simulate(_delayed(b, reversed_pair(b, 0.0))).last_release[0],
+        lambda b: b.simulate(stiffen(b, _one_mm_apart(b))).last_release[0],
+        lambda b: max(b.simulate(stiffen(b, _one_mm_apart(b))).last_release),
+        lambda b: b.simulate(_delayed(b, stiffen(b, reversed_pair(b, 0.0)))).last_release[0],
     ),
     "IV.record_B3_delay": (
-        Reading(
-            "with 2.35 mm, the smallest gap that rounds to 2.4 mm",
-            lambda b: b.simulate(_nearer(smallest_fit(b, b("B1.mass")))).first_touch[1],
-        ),
+        lambda b: b.simulate(_nearer(smallest_fit(b, b("B1.mass")))).first_touch[1],
     ),
     "IV.record_twin_late_duration": (
-        Reading(
-            "by Hertz's law", lambda b: b.simulate(stiffen(b, parted_twins(b))).last_release[0]
-        ),
-        Reading(
-            "on springs, if they meet after 3.8 ms",
-            lambda b: b.simulate(
-                twin_pair(b, gap_for_delay(b, twin_pair(b, 0.0), 3.8e-3))
-            ).last_release[0],
-        ),
+        lambda b: b.simulate(stiffen(b, parted_twins(b))).last_release[0],
+        lambda b: b.simulate(
+            twin_pair(b, gap_for_delay(b, twin_pair(b, 0.0), 3.8e-3))
+        ).last_release[0],
     ),
 }

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.checks import Compute, Reading
+from stackbounce.cross2007.checks import Compute
 from stackbounce.cross2007.drops import Two, bisect, rigid_pair
-from stackbounce.cross2007.stacks import WITH_105, heavier_b1, late_pair
+from stackbounce.cross2007.stacks import heavier_b1, late_pair
 from stackbounce.model.laws import Hertz
 from stackbounce.run.collision import contact_time
 from stackbounce.run.result import Result
@@ -139,80 +139,34 @@ COMPUTED: dict[str, Compute] = {
 }
 
 
-def _velocity_ratios(ball: int) -> tuple[Reading, ...]:
+def _velocity_ratios(ball: int) -> tuple[Compute, ...]:
     """Return readings of a bounce height of B1 on B3 as the ratio of velocities."""
     return (
-        Reading(
-            "the velocity ratio, with B1 = 101 g",
-            lambda b: _heavy_on_small(b, b("B1.mass")).rebound_ratios[ball],
-        ),
-        Reading(
-            "the velocity ratio, " + WITH_105,
-            lambda b: _heavy_on_small(b, heavier_b1(b)).rebound_ratios[ball],
-        ),
+        lambda b: _heavy_on_small(b, b("B1.mass")).rebound_ratios[ball],
+        lambda b: _heavy_on_small(b, heavier_b1(b)).rebound_ratios[ball],
     )
 
 
-_WITH_105 = {
-    name: Reading(WITH_105, _reversed_with_105(*given)) for name, given in _REVERSED.items()
-}
-
-READINGS: dict[str, tuple[Reading, ...]] = {
+READINGS: dict[str, tuple[Compute, ...]] = {
     "IV.steel_times": (
-        Reading(
-            "with 38.05 and 27.05 mm, which round to the printed diameters",
-            lambda b: _hertz_times(
-                b("steel.large_diameter") - 5e-5, b("steel.small_diameter") + 5e-5
-            ),
-        ),
+        lambda b: _hertz_times(b("steel.large_diameter") - 5e-5, b("steel.small_diameter") + 5e-5),
     ),
     "IV.apart_B2": (
-        Reading(WITH_105, lambda b: _light_on_heavy(b, heavier_b1(b)).rebound_ratios[1] ** 2),
-        Reading(
-            "with the printed mass ratio 4.23",
-            lambda b: _with_ratio(b).rebound_ratios[1] ** 2,
-        ),
+        lambda b: _light_on_heavy(b, heavier_b1(b)).rebound_ratios[1] ** 2,
+        lambda b: _with_ratio(b).rebound_ratios[1] ** 2,
     ),
-    "IV.apart_B1": (
-        Reading(WITH_105, lambda b: _light_on_heavy(b, heavier_b1(b)).rebound_ratios[0] ** 2),
-    ),
-    **{name: (reading,) for name, reading in _WITH_105.items()},
-    "IV.better_B1": (
-        _WITH_105["IV.better_B1"],
-        Reading(
-            "the restitution that gives 71 % " + WITH_105 + ", against 0.92",
-            _restitution_for_71,
-            "92",
-        ),
-    ),
+    "IV.apart_B1": (lambda b: _light_on_heavy(b, heavier_b1(b)).rebound_ratios[0] ** 2,),
+    **{name: (_reversed_with_105(*given),) for name, given in _REVERSED.items()},
+    "IV.better_B1": (_reversed_with_105("fit.reversed_restitution", 1), _restitution_for_71),
     "IV.small_count": (
-        Reading(
-            "from the first to the last ball-ball collision",
-            lambda b: _while_meeting(_heavy_on_small(b, b("B1.mass")).events["contact"]),
-        ),
-        Reading(
-            "the same, " + WITH_105,
-            lambda b: _while_meeting(_heavy_on_small(b, heavier_b1(b)).events["contact"]),
-        ),
-        Reading(
-            "the same, on springs that meet at the measured 7 ms",
-            lambda b: _while_meeting(b.simulate(late_pair(b)).intervals["contact"]),
-        ),
-        Reading(
-            "all, " + WITH_105,
-            lambda b: sum(_heavy_on_small(b, heavier_b1(b)).collisions),
-        ),
-        Reading(
-            "all, the fewest for two restitutions from 0.10 to 1.00, in steps of 0.05",
-            _fewest_collisions,
-        ),
+        lambda b: _while_meeting(_heavy_on_small(b, b("B1.mass")).events["contact"]),
+        lambda b: _while_meeting(_heavy_on_small(b, heavier_b1(b)).events["contact"]),
+        lambda b: _while_meeting(b.simulate(late_pair(b)).intervals["contact"]),
+        lambda b: sum(_heavy_on_small(b, heavier_b1(b)).collisions),
+        _fewest_collisions,
     ),
     "IV.small_B1": _velocity_ratios(1),
     "IV.small_B3": _velocity_ratios(0),
-    "IV.twin_split_lower": (
-        Reading("with equal balls", lambda b: _split_twins(b, 1.0).rebound_ratios[0]),
-    ),
-    "IV.twin_split_upper": (
-        Reading("with equal balls", lambda b: _split_twins(b, 1.0).rebound_ratios[1]),
-    ),
+    "IV.twin_split_lower": (lambda b: _split_twins(b, 1.0).rebound_ratios[0],),
+    "IV.twin_split_upper": (lambda b: _split_twins(b, 1.0).rebound_ratios[1],),
 }

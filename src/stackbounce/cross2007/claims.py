@@ -5,6 +5,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.resources import files
 from types import MappingProxyType
+from typing import NamedTuple
+
+
+class Reading(NamedTuple):
+    """Another reading of a claim: what it assumes, and the number to compare with, in digits.
+
+    That number is by default the one of the claim.
+    """
+
+    text: str
+    number: str = ""
 
 
 @dataclass(frozen=True)
@@ -29,6 +40,8 @@ class Claim:
         Whether it is a count, which must be equal.
     reason : str
         The reason for a difference, or a remark on an agreement.
+    readings : tuple of Reading
+        Other readings of it.
     """
 
     id: str
@@ -39,6 +52,7 @@ class Claim:
     unit: str = ""
     counted: bool = False
     reason: str = ""
+    readings: tuple[Reading, ...] = ()
 
     @property
     def digits(self) -> str:
@@ -51,7 +65,8 @@ def _read_claims() -> dict[str, Claim]:
     claims = {}
     for name, entry in read["claims"].items():
         reason = entry.pop("reason", "").format(**read["reasons"])
-        claims[name] = Claim(name, reason=reason, **entry)
+        readings = tuple(Reading(*found) for found in entry.pop("readings", ()))
+        claims[name] = Claim(name, reason=reason, readings=readings, **entry)
     return claims
 
 

@@ -11,15 +11,16 @@ from stackbounce.cross2007.curves import (
     rebound_by_stiffness,
     sample_forces,
 )
-from stackbounce.cross2007.drops import Array, spring_pair
+from stackbounce.cross2007.drops import Array
 from stackbounce.cross2007.lines import AFTER_FIRST, AFTER_SECOND, STIFFNESS, pair_mass_ratios
+from stackbounce.cross2007.stacks import figure_5
 from stackbounce.cross2007.style import (
     BLACK,
     FLOOR,
     GREY,
     UPPER,
-    Feature,
     Picture,
+    describe,
     make_axes,
     tag,
 )
@@ -34,27 +35,13 @@ def draw_figure_2a(bench: Bench) -> Picture:
     """Draw the velocities after the first ball-ball collision against the mass ratio."""
     figure, (ax,) = make_axes()
     ratios = np.linspace(AFTER_FIRST.low, AFTER_FIRST.high, _POINTS)
-    lossless = after_collision(bench, ratios, bench("models.lossless"), 1)
-    lossy = after_collision(bench, ratios, bench("models.restitution"), 1)
-    _two_curves(ax, ratios, lossless, "-")
-    _two_curves(ax, ratios, lossy, "--")
+    lossless, lossy = _draw_separate(bench, ax, ratios, 1)
     tag(ax, ratios, lossless[1], 5.0, r"$v_2/v_0$,  $e=1$", UPPER)
     tag(ax, ratios, lossy[1], 7.0, r"$v_2/v_0$,  $e=0.8$", UPPER, above=False)
     tag(ax, ratios, lossless[0], 7.0, r"$v_1/v_0$,  $e=1$", FLOOR)
     tag(ax, ratios, ratios * 0.0, 7.0, r"$v_1/v_0$,  $e=0.8$", FLOOR, above=False)
-    ax.set(xlabel=r"$m_1/m_2$", ylabel=r"$v/v_0$", xlim=(0, 10), ylim=(-3, 3))
-    return Picture(
-        "2a",
-        "After the first collision of the two balls",
-        "Velocities v1 of the lower and v2 of the upper ball right after their first collision, "
-        "separate collisions (eqs 1 and 2), e = 1 (solid) and 0.8 (dashed).",
-        (
-            "The mass ratio runs from 0 to 10: the text reads the figure at 10.",
-            "Solid for e = 1 and dashed for 0.8; the caption does not say.",
-        ),
-        (Feature("v2/v0 at m1/m2 = 10, e = 1", "2.64", f"{lossless[1, -1]:.3f}"),),
-        figure,
-    )
+    ax.set(xlim=(0, 10), ylim=(-3, 3))
+    return describe("2a", figure, upper=lossless[1, -1])
 
 
 def draw_figure_2b(bench: Bench) -> Picture:
@@ -62,26 +49,13 @@ def draw_figure_2b(bench: Bench) -> Picture:
     figure, (ax,) = make_axes()
     most = 0.9999 * AFTER_SECOND.high  # where the second collision ends for e = 1
     ratios = np.linspace(AFTER_SECOND.low, most, _POINTS)
-    lossless = after_collision(bench, ratios, bench("models.lossless"), 2)
-    lossy = after_collision(bench, ratios, bench("models.restitution"), 2)
-    _two_curves(ax, ratios, lossless, "-")
-    _two_curves(ax, ratios, lossy, "--")
+    lossless, lossy = _draw_separate(bench, ax, ratios, 2)
     tag(ax, ratios, lossless[1], 0.5, r"$v_4/v_0$,  $e=1$", UPPER)
     tag(ax, ratios, lossy[1], 0.5, r"$e=0.8$", UPPER, above=False)
     ax.text(0.285, -1.6, r"$v_3/v_0$,  $e=1$", color=FLOOR, va="top")
     ax.text(0.17, -1.7, r"$e=0.8$", color=FLOOR, ha="right", va="bottom")
-    ax.set(xlabel=r"$m_1/m_2$", ylabel=r"$v/v_0$", xlim=(0, 1), ylim=(-5, 2))
-    stop = float(np.interp(0.0, lossless[0], ratios))
-    return Picture(
-        "2b",
-        "After the second collision of the two balls",
-        "Velocities v3 of the lower and v4 of the upper ball right after their second collision "
-        "(eqs 3 and 4), which takes place where m1 is at most about m2; e = 1 (solid), 0.8 "
-        "(dashed).",
-        ("The mass ratio runs from 0 to 1, where the second collision ends for e = 1.",),
-        (Feature("m1/m2 at which the lower ball stops, e = 1", "0.52", f"{stop:.3f}"),),
-        figure,
-    )
+    ax.set(xlim=(0, 1), ylim=(-5, 2))
+    return describe("2b", figure, stop=np.interp(0.0, lossless[0], ratios))
 
 
 def draw_figure_4a(bench: Bench) -> Picture:
@@ -97,11 +71,8 @@ def draw_figure_4b(bench: Bench) -> Picture:
 def draw_figure_5(bench: Bench) -> Picture:
     """Draw displacements and forces of two masses whose collisions are nearly separate."""
     figure, (motion, force) = make_axes(4.2, 2)
-    masses = bench("fig5.lower_mass"), bench("fig5.upper_mass")
-    stiffnesses = bench("fig5.floor_stiffness"), bench("fig5.ball_stiffness")
-    drop = spring_pair(masses, stiffnesses, speed=bench("models.speed"))
     times = np.linspace(0.0, 0.040, 401)
-    (floor, between), result = sample_forces(bench, drop, times)
+    (floor, between), result = sample_forces(bench, figure_5(bench), times)
     place = -1e3 * np.asarray(result.sample(times)["position"].values)
     ms = 1e3 * times
     motion.plot(ms, place[0], color=FLOOR)
@@ -120,22 +91,7 @@ def draw_figure_5(bench: Bench) -> Picture:
     for moment in (5.0, 19.0, 29.0):
         for ax in (motion, force):
             ax.axvline(moment, color=GREY, lw=0.6, ls=":", zorder=0)
-    return Picture(
-        "5",
-        "Two collisions with the end stop, one between the masses",
-        "Masses of 0.4 and 0.2 kg on springs of 1e5 and 5e3 N/m. Above: displacement toward the "
-        "end stop. Below: the forces. Dotted: the text's 5, 19 and 29 ms.",
-        (
-            "The impact speed is 1 m/s, as in the paper's simplest case.",
-            "The quantities drawn: displacements x and y toward the end stop, and the forces.",
-        ),
-        (
-            Feature("first end-stop contact ends", "5 ms", f"{ends[0]:.2f} ms"),
-            Feature("contact of the masses ends", "19 ms", f"{ends[1]:.2f} ms"),
-            Feature("second end-stop contact begins", "29 ms", f"{starts[2]:.2f} ms"),
-        ),
-        figure,
-    )
+    return describe("5", figure, first=ends[0], between=ends[1], second=starts[2])
 
 
 def draw_figure_6(bench: Bench) -> Picture:
@@ -154,24 +110,23 @@ def draw_figure_6(bench: Bench) -> Picture:
     ax.text(22, 0.58, "$e_1$", va="center")
     ax.xaxis.set_major_formatter("{x:g}")
     ax.set(xlabel=r"$r_k=k_1/k_2$", ylabel=r"$v/v_0$", xlim=(0.1, 100), ylim=(0, 3))
-    return Picture(
-        "6",
-        "Rebound against stiffness ratio",
-        "Rebound ratios e1 of the lower (dashed) and e2 of the upper ball (solid) on springs, for "
-        "three mass ratios r_m.",
-        (
-            "The mass ratios: 2.63, 4.23 and 12.3, section III's and IV's light balls on top.",
-            "The axis of r_k: from 0.1 to 100, logarithmic.",
-        ),
-        (),
-        figure,
-    )
+    return describe("6", figure)
 
 
-def _two_curves(ax: "Axes", xs: Array, pair: Array, style: str) -> None:
-    ax.plot(xs, pair[0], style, color=FLOOR)
-    ax.plot(xs, pair[1], style, color=UPPER)
+def _draw_separate(bench: Bench, ax: "Axes", ratios: Array, count: int) -> tuple[Array, Array]:
+    """Draw and return the velocities after the balls' `count`-th collision, for both e."""
+    lossless = after_collision(bench, ratios, bench("models.lossless"), count)
+    lossy = after_collision(bench, ratios, bench("models.restitution"), count)
+    _two_curves(ax, ratios, lossless, "-")
+    _two_curves(ax, ratios, lossy, "--")
+    return lossless, lossy
+
+
+def _two_curves(ax: "Axes", ratios: Array, pair: Array, style: str) -> None:
+    ax.plot(ratios, pair[0], style, color=FLOOR)
+    ax.plot(ratios, pair[1], style, color=UPPER)
     ax.axhline(0.0, color=GREY, lw=0.6, zorder=0)
+    ax.set(xlabel=r"$m_1/m_2$", ylabel=r"$v/v_0$")
 
 
 def _rebound(bench: Bench, name: str, stiffness_ratio: float, at: float) -> Picture:
@@ -181,14 +136,6 @@ def _rebound(bench: Bench, name: str, stiffness_ratio: float, at: float) -> Pict
     _two_curves(ax, ratios, pair, "-")
     tag(ax, ratios, pair[1], at, r"$v_2/v_0$", UPPER)
     tag(ax, ratios, pair[0], at, r"$v_1/v_0$", FLOOR, above=False)
-    ax.set(xlabel=r"$m_1/m_2$", ylabel=r"$v/v_0$", xlim=(0, 10), ylim=(0, 3))
+    ax.set(xlim=(0, 10), ylim=(0, 3))
     ax.text(0.04, 0.93, rf"$k_1/k_2={stiffness_ratio:g}$", transform=ax.transAxes, va="top")
-    return Picture(
-        name,
-        f"On springs, stiffness ratio {stiffness_ratio:g}",
-        "Rebound ratios of two masses that stay in contact on springs (eqs 5 and 6), "
-        f"k1/k2 = {stiffness_ratio:g}, after the last contact.",
-        ("The mass ratio runs from 0 to 10, as in Fig. 2a.",),
-        (),
-        figure,
-    )
+    return describe(name, figure, ratio=stiffness_ratio)

@@ -70,8 +70,3 @@ def number_contacts(panels: "list[Axes]", result: Result) -> None:
                 color=GREY,
                 fontsize=9,
             )
-
-
-def format_ms(seconds: float) -> str:
-    """Return a time as text in ms."""
-    return f"{1e3 * seconds:.1f} ms"

@@ -36,7 +36,7 @@ COMPUTED = {name: compute for module in _MODULES for name, compute in module.COM
 """The function that computes each claim, by name."""
 
 READINGS = {name: found for module in _MODULES for name, found in module.READINGS.items()}
-"""Other readings of some claims, by name."""
+"""The functions that compute the other readings of some claims, by name."""
 
 FIGURES: dict[str, Callable[[Bench], Picture]] = {
     "2a": figures_models.draw_figure_2a,

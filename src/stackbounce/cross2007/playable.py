@@ -9,20 +9,8 @@ from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.lines import list_lines
+from stackbounce.cross2007.style import read_words
 from stackbounce.model import Drop
-
-_CASES = {  # of a figure, by the names of the explorer's examples
-    "5": ("figure-5",),
-    "8": ("figure-8", "figure-8-gap"),
-    "8-hollow": ("figure-8-hollow", "figure-8-hollow-gap"),
-    "9": ("figure-9",),
-    "10a": ("figure-13",),
-    "10b": ("B1-on-B2",),
-    "11a": ("B3-on-B1",),
-    "11b": ("B1-on-B3-late", "B1-on-B3-early"),
-    "12": ("B1-on-B1",),
-    "13": ("figure-13",),
-}
 
 
 class Link(NamedTuple):
@@ -47,13 +35,11 @@ def link_figures(explorer: str) -> dict[str, list[Link]]:
     """
     cases = {case.name: case for case in list_cases()}
     found: dict[str, list[Link]] = {}
-    for number, names in _CASES.items():
-        texts = ["Play this drop", *(f"Play {cases[name].title}" for name in names[1:])]
-        drops = [_as_drawn(number, cases[name].drop) for name in names]
-        found[number] = [
-            Link(text, explorer_address(explorer, drop, {}))
-            for text, drop in zip(texts, drops, strict=True)
-        ]
+    for number, words in read_words().items():
+        for name in words.get("cases", ()):
+            text = f"Play {cases[name].title}" if number in found else "Play this drop"
+            address = explorer_address(explorer, _as_drawn(number, cases[name].drop), {})
+            found.setdefault(number, []).append(Link(text, address))
     for line in list_lines():
         number = line.name.removeprefix("figure-").partition("-")[0]
         view = {"view": "line", "line": {"x": asdict(line.across), "show": "rebound_ratio"}}

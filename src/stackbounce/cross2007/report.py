@@ -5,11 +5,10 @@ import io
 import itertools
 import json
 from collections.abc import Callable, Iterable
-from decimal import Decimal
 from pathlib import Path
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.checks import Row
+from stackbounce.cross2007.checks import Row, last_place
 from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.cross2007.paper import FIGURES, Audit, audit, draw_figures
@@ -21,10 +20,6 @@ from stackbounce.files import prepare_folder, write_folder
 from stackbounce.version import __version__
 
 _NAMES = ("index.html", "audit.csv", "audit.json")
-_COLUMNS = (
-    "id", "where", "what", "printed", "unit", "computed", "tolerance", "error", "verdict", "reason",
-    "other readings", "computed by", "library calls", "inputs",
-)  # fmt: skip
 
 
 def write(
@@ -96,32 +91,26 @@ def _json(done: Audit, drawn: list[Picture], tables: list[Table]) -> str:
 
 def _csv(done: Audit) -> str:
     stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(_COLUMNS)
-    for row in done.rows:
-        readings = [
-            f"{attempt.reading}: {attempt.computed:.6g} ({attempt.verdict})"
-            for attempt in row.attempts
-        ]
-        writer.writerow(
-            (
-                row.id,
-                row.where,
-                row.what,
-                row.printed,
-                row.unit,
-                repr(row.computed),
-                repr(row.tolerance),
-                repr(row.error),
-                row.verdict,
-                row.reason,
-                "; ".join(readings),
-                row.source,
-                "; ".join(row.calls),
-                "; ".join(row.inputs),
-            )
-        )
+    rows = [_cells(row) for row in done.rows]
+    writer = csv.DictWriter(stream, rows[0], lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
     return stream.getvalue()
+
+
+def _cells(row: Row) -> dict[str, str]:
+    """Return a row of the audit by the columns of ``audit.csv``."""
+    readings = [
+        f"{attempt.reading}: {attempt.computed:.6g} ({attempt.verdict})" for attempt in row.attempts
+    ]
+    names = ("id", "where", "what", "printed", "unit", "computed", "tolerance", "error")
+    return {
+        **{name: str(getattr(row, name)) for name in (*names, "verdict", "reason")},
+        "other readings": "; ".join(readings),
+        "computed by": row.source,
+        "library calls": "; ".join(row.calls),
+        "inputs": "; ".join(row.inputs),
+    }
 
 
 def _page(
@@ -153,6 +142,4 @@ def _digits(value: float, row: Row, number: str = "") -> str:
     """Format a computed number with two digits more than the printed one, a count without any."""
     if row.tolerance == 0.0:
         return f"{value:.0f}"
-    exponent = Decimal(number or row.digits).as_tuple().exponent
-    assert isinstance(exponent, int)
-    return f"{value:.{max(0, 2 - exponent)}f}"
+    return f"{value:.{max(0, 2 - last_place(number or row.digits))}f}"

@@ -13,9 +13,6 @@ from stackbounce.model.drop import Drop
 from stackbounce.model.laws import HollowBall, Hysteretic, Spring
 from stackbounce.run.calibration import calibrate
 
-WITH_105 = "with B1 = 1.040 x 101 g = 105 g"
-"""The reading of the large ball's mass that follows from Table II's mass ratios."""
-
 _HOLLOW = 0.026, 700.0  # s and N/m, where the search for the hollow ball's numbers begins
 
 
@@ -31,23 +28,33 @@ def section_two(b: Bench, ratio: float, stiffness: float) -> Drop:
     return spring_pair(masses, springs, speed=b("models.speed"))
 
 
+def _springs(b: Bench, fit: str) -> Two:
+    """Return the stiffnesses at the floor and between the balls of one of the paper's fits."""
+    return b(f"{fit}floor_stiffness"), b(f"{fit}ball_stiffness")
+
+
+def figure_5(b: Bench) -> Drop:
+    """Return the drop of Fig. 5."""
+    masses, springs = (b("fig5.lower_mass"), b("fig5.upper_mass")), _springs(b, "fig5.")
+    return spring_pair(masses, springs, speed=b("models.speed"))
+
+
 def better_fit(b: Bench) -> Drop:
     """Return the drop of Fig. 9."""
-    stiffnesses = b("fig9.floor_stiffness"), b("fig9.ball_stiffness")
-    return spring_pair(stack_masses(b), stiffnesses, speed=b("stack.impact_speed"))
+    springs = _springs(b, "fig9.")
+    return spring_pair(stack_masses(b), springs, speed=b("stack.impact_speed"))
 
 
 def other_fit(b: Bench) -> Drop:
     """Return the alternative fit that the text describes beside Fig. 9."""
-    stiffnesses = b("fig9.other_floor_stiffness"), b("fig9.other_ball_stiffness")
-    return spring_pair(stack_masses(b), stiffnesses, speed=b("stack.impact_speed"))
+    springs = _springs(b, "fig9.other_")
+    return spring_pair(stack_masses(b), springs, speed=b("stack.impact_speed"))
 
 
 def spring_record(b: Bench, gap: float = 0.0) -> Drop:
     """Return the drop of Fig. 8 on Fig. 9's springs, with a gap in m."""
-    stiffnesses = b("fig9.floor_stiffness"), b("fig9.ball_stiffness")
-    speed = fallen_speed(b("fig8.drop_height"))
-    return spring_pair(stack_masses(b), stiffnesses, speed=speed, gap=gap)
+    springs, speed = _springs(b, "fig9."), fallen_speed(b("fig8.drop_height"))
+    return spring_pair(stack_masses(b), springs, speed=speed, gap=gap)
 
 
 def hollow_record(b: Bench, gap: float = 0.0) -> Drop:
@@ -128,11 +135,11 @@ def smallest_fit(bench: Bench, heavy: float) -> Drop:
 
 def _section_v(bench: Bench, fit: str, heavy: float, upper: str) -> Drop:
     """Return a drop on B1 that loses energy at the floor and none between the balls."""
-    stiffnesses = bench(f"{fit}.floor_stiffness"), bench(f"{fit}.ball_stiffness")
+    below, between = _springs(bench, f"{fit}.")
     speed, gap = superball_speed(bench), bench(f"{fit}.gap")
     masses = heavy, bench(f"{upper}.mass")
-    floor = Hysteretic(stiffnesses[0], unloading_exponent=bench("V.exponent"))
-    return pair(masses, [floor, Spring(stiffnesses[1])], speed=speed, gap=gap)
+    floor = Hysteretic(below, unloading_exponent=bench("V.exponent"))
+    return pair(masses, [floor, Spring(between)], speed=speed, gap=gap)
 
 
 def reversed_pair(bench: Bench, gap: float) -> Drop:

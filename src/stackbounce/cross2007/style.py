@@ -5,9 +5,13 @@ apart, and so can readers of a print in grey; line styles and labels carry the s
 """
 
 import io
+import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -23,34 +27,6 @@ GREY = "#6b6b6b"
 
 WIDTH = 4.2  # inches
 _BRACKET = 0.75  # height of a bracket in its axes
-
-_RC: dict[Any, Any] = {
-    "font.family": "STIXGeneral",
-    "mathtext.fontset": "stix",
-    "font.size": 10.5,
-    "axes.labelsize": 10.5,
-    "axes.linewidth": 0.7,
-    "axes.xmargin": 0.0,
-    "xtick.direction": "in",
-    "ytick.direction": "in",
-    "xtick.top": True,
-    "ytick.right": True,
-    "xtick.minor.visible": True,
-    "ytick.minor.visible": True,
-    "xtick.major.width": 0.7,
-    "ytick.major.width": 0.7,
-    "xtick.minor.width": 0.5,
-    "ytick.minor.width": 0.5,
-    "xtick.labelsize": 9.5,
-    "ytick.labelsize": 9.5,
-    "lines.linewidth": 1.25,
-    "lines.dash_capstyle": "butt",
-    "lines.dashed_pattern": (5.0, 2.2),
-    "figure.facecolor": "white",
-    "savefig.facecolor": "white",
-    "svg.fonttype": "path",
-    "svg.hashsalt": "stackbounce",
-}
 
 
 @dataclass(frozen=True)
@@ -78,14 +54,36 @@ class Picture:
     figure: "Figure"
 
 
+def describe(name: str, figure: "Figure", **numbers: object) -> Picture:
+    """Return a figure with its words from ``figures.toml``, in which the numbers are filled in."""
+    words = read_words()[name]
+    features = (
+        Feature(*(text.format(**numbers) for text in feature))
+        for feature in words.get("features", ())
+    )
+    return Picture(
+        name,
+        words["title"].format(**numbers),
+        words["caption"].format(**numbers),
+        tuple(guess.format(**numbers) for guess in words["guesses"]),
+        tuple(features),
+        figure,
+    )
+
+
+@cache
+def read_words() -> dict[str, Any]:
+    """Return the contents of ``figures.toml``: the words of each figure by its number."""
+    return tomllib.loads((files(__package__) / "figures.toml").read_text("utf-8"))
+
+
 @contextmanager
 def use_style() -> Iterator[None]:
     """Draw in the paper's style within this context."""
     import matplotlib as mpl
 
     with mpl.rc_context():
-        mpl.rcdefaults()
-        mpl.rcParams.update(_RC)
+        mpl.rc_file(Path(__file__).with_name("paper.mplstyle"))
         yield
 
 
@@ -118,13 +116,13 @@ def make_axes(
     return figure, panels
 
 
-def bracket(ax: "Axes", start: float, end: float, text: str) -> None:
-    """Mark an interval that the paper reports above the curves, with a text."""
+def bracket(ax: "Axes", end: float, text: str) -> None:
+    """Mark an interval from 0 that the paper reports above the curves, with a text."""
     place = ax.get_xaxis_transform()
     ax.annotate(
         "",
         xy=(end, _BRACKET),
-        xytext=(start, _BRACKET),
+        xytext=(0.0, _BRACKET),
         xycoords=place,
         textcoords=place,
         arrowprops={
@@ -137,7 +135,7 @@ def bracket(ax: "Axes", start: float, end: float, text: str) -> None:
     )
     ax.annotate(
         text,
-        xy=(start, _BRACKET),
+        xy=(0.0, _BRACKET),
         xycoords=place,
         xytext=(4.0, 5.0),
         textcoords="offset points",
@@ -170,7 +168,7 @@ def tag(
 
 def render(figure: "Figure") -> dict[str, bytes]:
     """Return a figure as bytes of an SVG and a PNG file; equal figures give equal bytes."""
-    files = {}
+    images = {}
     with use_style():
         for ending, options in (
             ("svg", {"metadata": {"Date": None, "Creator": None}}),
@@ -178,5 +176,5 @@ def render(figure: "Figure") -> dict[str, bytes]:
         ):
             buffer = io.BytesIO()
             figure.savefig(buffer, format=ending, **options)
-            files[ending] = buffer.getvalue()
-    return files
+            images[ending] = buffer.getvalue()
+    return images

@@ -2,7 +2,7 @@
 
 `tables/` has one file for each; a file that is put there is a dataset.
 
-- `description.py`: what a dataset says of itself, and the check of its file
+- `description.py`: what a dataset says of itself
 - `paper.py`: the tables of Cross (2007), from `stackbounce.cross2007`, as descriptions
 - `loading.py`: the files of `tables/`; `names`, `describe`, and `load`, which makes a Dataset
 """

@@ -2,9 +2,8 @@
 
 import functools
 import tomllib
-from collections.abc import Iterable
 from dataclasses import fields
-from importlib.resources import files
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.datasets.description import TEXT, Column, Description, read_description
@@ -103,11 +102,6 @@ def load(name: str) -> "xr.Dataset":
 def si_unit(column: Column) -> str:
     """Return the SI unit of a column; ``"1"`` for a ratio, empty for words.
 
-    Raises
-    ------
-    InvalidValue
-        If its unit is unknown.
-
     Examples
     --------
     >>> si_unit(Column("height", "inch", "height", (100.0,)))
@@ -117,29 +111,27 @@ def si_unit(column: Column) -> str:
         return ""
     if column.unit in _OFFSETS:
         return _OFFSETS[column.unit][1]
-    found = ("", column.unit) if column.unit == "1" else in_si(column.unit)
-    if found is None:
-        raise InvalidValue(f"{column.name}.unit must be a unit, got {shown(column.unit)}")
+    if column.unit == "1":
+        return "1"
+    found = in_si(column.unit)
+    assert found is not None
     return found[1]
 
 
 def _variables(column: Column) -> dict[str, Any]:
     """Return the variable of a column, and that of its errors if the source gives them."""
+    import numpy as np
+
     unit = si_unit(column)
     dims = ("row", f"{column.name}_reading") if column.repeated else ("row",)
     attributes: dict[str, Any] = {"long_name": column.meaning} | ({"units": unit} if unit else {})
     if column.assumed_error:
-        (error,) = _in_si([column.assumed_error], column.unit, unit)
+        error = _in_si(column.assumed_error, column.unit, unit)
         attributes |= {"assumed_error": error, "assumed_because": column.assumed_because}
     if column.unit == TEXT:
         return {column.name: (dims, list(column.values), attributes)}
     shift = _OFFSETS.get(column.unit, (0.0, ""))[0]
-    values = [
-        [number + shift for number in _in_si(row, column.unit, unit)]
-        if isinstance(row, tuple)
-        else _in_si([row], column.unit, unit)[0] + shift
-        for row in column.values
-    ]
+    values = np.add(_in_si(column.values, column.unit, unit), shift)
     made: dict[str, Any] = {column.name: (dims, values, attributes)}
     if column.errors:
         errors = _in_si(column.errors, column.unit, unit)
@@ -148,36 +140,20 @@ def _variables(column: Column) -> dict[str, Any]:
     return made
 
 
-def _in_si(values: Iterable[Any], unit: str, si: str) -> list[float]:
+def _in_si(value: Any, unit: str, si: str) -> Any:
+    """Return a number, or all those of tuples, in an SI unit."""
+    if isinstance(value, tuple):
+        return [_in_si(one, unit, si) for one in value]
     if unit in ("1", *_OFFSETS):
-        return [float(value) for value in values]
-    return [quantity(f"{value!r} {unit}", "" if si == "1" else si) for value in values]
-
-
-def _all() -> dict[str, Description]:
-    from stackbounce.datasets.paper import paper_datasets
-
-    return published() | paper_datasets()
+        return float(value)
+    return quantity(f"{value!r} {unit}", "" if si == "1" else si)
 
 
 @functools.cache
-def published() -> dict[str, Description]:
-    """Return the datasets of the folder by their names, in alphabetical order.
+def _all() -> dict[str, Description]:
+    """Return the datasets of the folder and those of the paper by their names."""
+    from stackbounce.datasets.paper import paper_datasets
 
-    Raises
-    ------
-    InvalidValue
-        If a file is not as `read_description` wants it.
-
-    Examples
-    --------
-    >>> published()["golf-marble-heights"].surface
-    'marble'
-    """
-    folder = files("stackbounce.datasets").joinpath("tables")
-    found = {
-        file.name.removesuffix(".toml"): tomllib.loads(file.read_text(encoding="utf-8"))
-        for file in folder.iterdir()
-        if file.name.endswith(".toml")
-    }
-    return {name: read_description(name, found[name]) for name in sorted(found)}
+    folder = Path(__file__).with_name("tables")
+    found = {path.stem: tomllib.loads(path.read_text("utf-8")) for path in folder.glob("*.toml")}
+    return {name: read_description(name, about) for name, about in found.items()} | paper_datasets()

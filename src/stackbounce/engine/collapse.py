@@ -38,7 +38,7 @@ from stackbounce.engine.flight import (
     change_rate,
     closing_time,
     compression_after,
-    rate_after,
+    rate_now,
     schedule_collision,
     wake,
 )
@@ -232,7 +232,7 @@ def common_velocity(stack: RigidStack, low: int, high: int) -> tuple[float, floa
 def keep_state(stack: RigidStack, contact: int, time: float) -> None:
     """Store the present rates and gaps as the reference state of the cycle detection."""
     for i in range(len(stack.mass)):
-        stack.kept_rate[i] = rate_after(stack, i, 0.0)
+        stack.kept_rate[i] = rate_now(stack, i)
         stack.kept_gap[i] = compression_after(stack, i, 0.0)
         stack.involved[i] = 0
     stack.memory[slots.LOWEST_INVOLVED] = len(stack.mass)
@@ -258,14 +258,14 @@ def compare_with_kept(stack: RigidStack, contact: int) -> tuple[int, int, float]
     for i in range(low, high + 1):
         if stack.involved[i] == 0 or varies(stack, i):
             return low, high, 0.0
-        size = max(size, abs(rate_after(stack, i, 0.0)))
+        size = max(size, abs(rate_now(stack, i)))
         kept = max(kept, abs(stack.kept_rate[i]))
         gap = max(gap, -compression_after(stack, i, 0.0))
         kept_gap = max(kept_gap, -stack.kept_gap[i])
     if size >= kept or size == 0.0 or (gap == 0.0) != (kept_gap == 0.0):
         return low, high, 0.0
     for i in range(low, high + 1):
-        if abs(rate_after(stack, i, 0.0) / size - stack.kept_rate[i] / kept) > _SAME:
+        if abs(rate_now(stack, i) / size - stack.kept_rate[i] / kept) > _SAME:
             return low, high, 0.0
         part = compression_after(stack, i, 0.0) / gap if gap > 0.0 else 0.0
         if kept_gap > 0.0 and abs(part - stack.kept_gap[i] / kept_gap) > _SAME_GAPS:

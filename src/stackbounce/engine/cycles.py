@@ -128,26 +128,21 @@ def take_shares(stack: Stack, i: int, c: float, up: bool) -> None:
     stack.flat[i] = 0.0
     unit = stack.top[i] if stack.top[i] < math.inf else 1.0
     offset, held, before = 0.0, 0.0, 0.0
-    for j in range(depth):
-        upto = loading_force(stack, i, stack.lows[i * TURNS + j])
-        peak = stack.highs[i * TURNS + j]
+    for j in range(depth + 1 if out else depth):
+        peak, upto = unit, 0.0
+        if j < depth:
+            peak, upto = stack.highs[i * TURNS + j], stack.lows[i * TURNS + j]
+            upto = loading_force(stack, i, upto)
         f, g, low, high = _share(stack, i, peak, c, up)
         stack.piece_low[i] = max(stack.piece_low[i], low)
         stack.piece_high[i] = min(stack.piece_high[i], high)
+        if j == depth and pieces:
+            stack.flat[i] = stack.stiffness[i] * f
+            stack.curve_force[i] = stack.stiffness[i] * g
         offset += (upto - before) * f
         held += (upto - before) * g * power(unit / peak, stack.loss_exponent[i])
         before = upto
-    if out:
-        f, g, low, high = _share(stack, i, unit, c, up)
-        stack.piece_low[i] = max(stack.piece_low[i], low)
-        stack.piece_high[i] = min(stack.piece_high[i], high)
-        if pieces:
-            stack.flat[i] = stack.stiffness[i] * f
-            stack.curve_force[i] = stack.stiffness[i] * g
-        offset -= before * f
-        held -= before * g
-    else:
-        offset -= before
+    offset -= before
     stack.offset[i] = offset
     stack.held_force[i] = held
     stack.held_unit[i] = unit

@@ -41,9 +41,9 @@ def acceleration(stack: RigidStack, i: int) -> float:
 
 
 @kernel
-def rate_after(stack: RigidStack, i: int, later: float) -> float:
-    """Return the closing rate of contact i at a time after now."""
-    return stack.rate[i] + acceleration(stack, i) * (stack.now[0] - stack.anchor[i] + later)
+def rate_now(stack: RigidStack, i: int) -> float:
+    """Return the closing rate of contact i."""
+    return stack.rate[i] + acceleration(stack, i) * (stack.now[0] - stack.anchor[i])
 
 
 @kernel
@@ -67,7 +67,7 @@ def anchor_contacts(stack: RigidStack, low: int, high: int) -> None:
     """Anchor the existing contacts among low..high now."""
     for i in range(max(low, 0), min(high + 1, len(stack.mass))):
         compression = compression_after(stack, i, 0.0)
-        stack.rate[i] = rate_after(stack, i, 0.0)
+        stack.rate[i] = rate_now(stack, i)
         stack.compression[i] = compression
         stack.anchor[i] = stack.now[0]
 

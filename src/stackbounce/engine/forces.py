@@ -85,19 +85,14 @@ def take_law(stack: Stack, i: int, kind: int, k: float, p: float, z: float, w: f
             stack.law[i] = codes.HYSTERETIC
             stack.unloading[i] = z
             stack.loss_exponent[i] = z - p
-    elif kind == codes.BOND:
-        stack.law[i] = codes.PRODUCT
-        stack.bonded[i] = 1
-        stack.factor_exponent[i] = 0.0
-        stack.gain_slope[i] = 1.0
-        stack.gain_rate[i] = z / k
     elif kind == codes.TWO_STAGE:
         take_two_stages(stack, i, z, w, p)
     elif kind == codes.TABULATED:
         take_table(stack, i, int(z), w, p)
-    elif kind != codes.POWER and z > 0.0:
+    elif kind == codes.BOND or (kind != codes.POWER and z > 0.0):
         stack.law[i] = codes.PRODUCT
-        if kind == codes.DASHPOT:  # k (c + z/k c')
+        if kind in (codes.BOND, codes.DASHPOT):  # k (c + z/k c')
+            stack.bonded[i] = 1 if kind == codes.BOND else 0
             stack.factor_exponent[i] = 0.0
             stack.gain_slope[i] = 1.0
             stack.gain_rate[i] = z / k
@@ -218,21 +213,12 @@ def stored_energy(stack: Stack, i: int, compression: float) -> float:
     """
     if stack.phase[i] == codes.OPEN:
         return 0.0
-    if stack.law[i] == codes.PRODUCT:
-        held = abs(compression) if stack.bonded[i] == 1 else max(0.0, compression)
-        return _elastic_work(stack, i, held)
-    if stack.law[i] == codes.PIECEWISE or stack.depth[i] > 0:
-        return _held_by_elements(stack, i, max(0.0, compression))
+    if stack.law[i] >= codes.PRODUCT or stack.depth[i] > 0:
+        return potential(stack, i, compression)
     exponent = stack.curve_exponent[i]
     if stack.law[i] == codes.HYSTERETIC and stack.top[i] == math.inf:
         exponent = stack.unloading[i]
     return force(stack, i, compression, 0.0, 0.0) * compression / (exponent + 1.0)
-
-
-@kernel
-def _held_by_elements(stack: Stack, i: int, c: float) -> float:
-    """Return the work that a contact with pieces or hysteresis would do until it opens."""
-    return returned_work(stack, i, c) if has_hysteresis(stack, i) else loading_work(stack, i, c)
 
 
 @kernel
@@ -257,8 +243,10 @@ def potential(stack: Stack, i: int, compression: float) -> float:
     c = abs(compression) if stack.bonded[i] == 1 else max(0.0, compression)
     if stack.law[i] == codes.PRODUCT:
         return _elastic_work(stack, i, c)
-    if stack.law[i] in (codes.HYSTERETIC, codes.PIECEWISE):
-        return _held_by_elements(stack, i, c)
+    if has_hysteresis(stack, i):
+        return returned_work(stack, i, c)
+    if stack.law[i] == codes.PIECEWISE:
+        return loading_work(stack, i, c)
     if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
         return 0.5 * stack.rate[i] * c * c
     exponent = stack.curve_exponent[i] + 1.0

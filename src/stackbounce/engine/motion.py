@@ -379,9 +379,7 @@ def form_clusters(stack: Stack, bottom: int, top: int, time: float) -> None:
             stack.last[member] = b
         stack.anchor[first] = time
         low, high = pressing_range(stack, first)
-        stack.modal[first] = 1
-        if high - low > MODES:
-            stack.modal[first] = 0
+        stack.modal[first] = 1 if high - low <= MODES else 0
         for i in range(low, high):
             correct_curve(stack, i)
         stack.root[first] = _choose_root(stack, low, high) if allows_root_series(stack) else 1

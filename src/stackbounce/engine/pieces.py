@@ -33,8 +33,8 @@ _ROUND_OFF = 4.0 * EPSILON  # of a share
 @kernel
 def take_two_stages(stack: Stack, i: int, knee: float, softening: float, returned: float) -> None:
     """Give contact i a loading curve of two straight pieces: c up to ``knee``, then softer."""
-    _put_piece(stack, i, 0, 0.0, 0.0, 1.0, 0.0)
-    _put_piece(stack, i, 1, knee, knee, softening, 0.0)
+    _put_straight(stack, i, 0, 0.0, 1.0)
+    _put_straight(stack, i, 1, knee, softening)
     take_table(stack, i, 2, 2.0 * (1.0 / returned - 1.0), returned)
 
 
@@ -61,14 +61,12 @@ def take_table(stack: Stack, i: int, loading: int, loss: float, returned: float)
 
 
 @kernel
-def _put_piece(
-    stack: Stack, i: int, j: int, begin: float, constant: float, slope: float, square: float
-) -> None:
+def _put_straight(stack: Stack, i: int, j: int, begin: float, slope: float) -> None:
+    """Give contact i a straight piece that begins where the first one, c, is."""
     at = (i * MOST_PIECES + j) * PIECE_NUMBERS
-    stack.pieces[at + _BEGIN] = begin
-    stack.pieces[at + _CONSTANT] = constant
+    stack.pieces[at + _BEGIN] = stack.pieces[at + _CONSTANT] = begin
     stack.pieces[at + _SLOPE] = slope
-    stack.pieces[at + _SQUARE] = square
+    stack.pieces[at + _SQUARE] = 0.0
 
 
 @kernel
@@ -78,14 +76,15 @@ def has_one_curve(stack: Stack, i: int) -> bool:
 
 
 @kernel
-def _piece_at(stack: Stack, i: int, first: int, count: int, c: float, up: bool) -> int:
+def _piece_at(stack: Stack, i: int, first: int, count: int, unit: float, c: float, up: bool) -> int:
     """Return the index of the piece, of ``count`` from ``first`` on, that holds c.
 
-    Where one piece ends and the next begins, that is the next one if the compression goes up.
+    The pieces begin at compressions in a unit. Where one piece ends and the next begins, that is
+    the next one if the compression goes up.
     """
     j = first
     while j + 1 < first + count:
-        following = stack.pieces[(i * MOST_PIECES + j + 1) * PIECE_NUMBERS + _BEGIN]
+        following = stack.pieces[(i * MOST_PIECES + j + 1) * PIECE_NUMBERS + _BEGIN] * unit
         if following > c or (following == c and not up):
             break
         j += 1
@@ -96,7 +95,7 @@ def _piece_at(stack: Stack, i: int, first: int, count: int, c: float, up: bool) 
 def find_piece(stack: Stack, i: int, c: float, up: bool) -> None:
     """Set the gain of contact i to the piece of its loading curve at a compression."""
     count = stack.loading_pieces[i]
-    j = _piece_at(stack, i, 0, count, c, up)
+    j = _piece_at(stack, i, 0, count, 1.0, c, up)
     at = (i * MOST_PIECES + j) * PIECE_NUMBERS
     stack.gain_origin[i] = stack.pieces[at + _BEGIN]
     stack.gain_constant[i] = stack.pieces[at + _CONSTANT]
@@ -122,20 +121,11 @@ def piece_share(
 ) -> tuple[float, float, float, float]:
     """Return f and g of the share f + g c/C of a measured contact, and the ends of their piece."""
     first, count = stack.loading_pieces[i], stack.unloading_pieces[i]
-    j = _piece_at(stack, i, first, count, c / peak, up)
+    j = _piece_at(stack, i, first, count, peak, c, up)
     at = (i * MOST_PIECES + j) * PIECE_NUMBERS
     low, high = stack.pieces[at + _BEGIN] * peak, math.inf
     if j + 1 < first + count:
         high = stack.pieces[at + PIECE_NUMBERS + _BEGIN] * peak
-    # c / peak is rounded: c is in this piece only if it is between its ends
-    if (c >= high if up else c > high) and j + 1 < first + count:
-        j, low, at = j + 1, high, at + PIECE_NUMBERS
-        high = math.inf
-        if j + 1 < first + count:
-            high = stack.pieces[at + PIECE_NUMBERS + _BEGIN] * peak
-    elif (c < low if up else c <= low) and j > first:
-        j, high, at = j - 1, low, at - PIECE_NUMBERS
-        low = stack.pieces[at + _BEGIN] * peak
     slope = stack.pieces[at + _SLOPE]
     return stack.pieces[at + _CONSTANT] - slope * stack.pieces[at + _BEGIN], slope, low, high
 
@@ -187,7 +177,7 @@ def pieces_moment(stack: Stack, i: int, m: float, unit: float, low: float, high:
 @kernel
 def pieces_value(stack: Stack, i: int, c: float) -> float:
     """Return the loading curve at a compression, over the stiffness."""
-    j = _piece_at(stack, i, 0, stack.loading_pieces[i], c, True)
+    j = _piece_at(stack, i, 0, stack.loading_pieces[i], 1.0, c, True)
     at = (i * MOST_PIECES + j) * PIECE_NUMBERS
     y = c - stack.pieces[at + _BEGIN]
     return stack.pieces[at + _CONSTANT] + y * (

@@ -58,12 +58,13 @@ def is_bound(stack: Stack) -> bool:
     for b in range(size):
         excess += 0.5 * stack.mass[b] * stack.velocity[b] * stack.velocity[b]
         reference += 0.5 * stack.mass[b] * stack.number[SPEED] * stack.number[SPEED]
-    damped, hysteresis = _is_damped(stack), False
+    damped, hysteresis = False, False
     barrier = math.inf
     weight = 0.0
     for i in range(size - 1, -1, -1):
         weight += stack.mass[i] * stack.number[GRAVITY]
         c = stack.compression[i]
+        damped = damped or is_damped(stack, i)
         if has_hysteresis(stack, i):
             hysteresis = True
             excess += _leeway(stack, i, weight)
@@ -120,15 +121,6 @@ def _settle(stack: Stack, i: int, weight: float) -> None:
         else:
             high = middle
     stack.compression[i] = high
-
-
-@kernel
-def _is_damped(stack: Stack) -> bool:
-    """Return whether a contact damps vibrations, however small."""
-    damped = False
-    for i in range(len(stack.mass)):
-        damped = damped or is_damped(stack, i)
-    return damped
 
 
 @kernel

@@ -16,7 +16,7 @@ from stackbounce.engine.flight import (
     change_rate,
     closing_rate,
     compression_after,
-    rate_after,
+    rate_now,
     schedule_collision,
     velocity_after,
     wake,
@@ -107,7 +107,7 @@ def _is_over(stack: RigidStack, until: float) -> bool:
         return False
     contact = stack.resting[slots.BALLS_AT_REST]
     noise = stack.rate_noise[contact]
-    if stack.law[contact] != codes.ABSENT and rate_after(stack, contact, 0.0) > noise:
+    if stack.law[contact] != codes.ABSENT and rate_now(stack, contact) > noise:
         return False
     return earliest_other(stack, contact) == math.inf
 

@@ -58,10 +58,8 @@ def begin_contacts(stack: Stack) -> None:
     size = len(stack.mass)
     clear_queue(stack.due, stack.heap, stack.place)
     for i in range(size):
-        stack.phase[i] = codes.OPEN
         stack.curve_exponent[i] = 1.0
         stack.touching[i] = 0.0
-        stack.pushed[i] = 0
         if stack.bonded[i] == 1:
             close_contact(stack, i, 0.0)
     load_floor(stack)

@@ -55,8 +55,10 @@ def list_places(host: str, port: int) -> list[Place]:
     """
     hosts = _own_hosts(with_six=host == "::") if host in _ALL else [host]
     others = [host for host in hosts if not _is_loopback(host)]
+    addresses = [url(other, port) for other in others]
     return [
-        Place(address, _rows(_code(address))) for address in (url(other, port) for other in others)
+        Place(address, ["".join(map(str, row)) for row in _code(address).matrix])
+        for address in addresses
     ]
 
 
@@ -77,10 +79,6 @@ def _code(address: str) -> "segno.QRCode":
     import segno
 
     return segno.make_qr(address, error="m", boost_error=False)
-
-
-def _rows(code: "segno.QRCode") -> list[str]:
-    return ["".join(str(bit) for bit in row) for row in code.matrix]
 
 
 def _is_loopback(host: str) -> bool:

@@ -22,8 +22,7 @@ def list_examples() -> Iterator[Case]:
     """
     text = (files(__package__) / "examples.toml").read_text("utf-8")
     for name, example in tomllib.loads(text).items():
-        title, says = example["title"], example["says"]
-        yield Case(name, example["group"], title, says, _drop(example))
+        yield Case(name, example["group"], example["title"], example["says"], _drop(example))
 
 
 def _drop(example: dict[str, Any]) -> Drop:

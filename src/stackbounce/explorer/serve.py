@@ -21,6 +21,7 @@ PORT = 8050
 """The first port that is tried by default."""
 
 _MORE = 20  # number of ports that are tried by default
+_OWN = {"0.0.0.0": "127.0.0.1", "::": "::1"}  # how this machine itself reaches all of them
 _BACKLOG = 128  # connections that wait to be accepted
 
 
@@ -73,7 +74,7 @@ def serve(
     logging.getLogger("python_multipart").setLevel(logging.CRITICAL)  # of forms that are none
     with contextlib.closing(_open_socket(host, port)) as listening:
         port = listening.getsockname()[1]
-        address, others = url(_own_host(host), port), list_places(host, port)
+        address, others = url(_OWN.get(host, host), port), list_places(host, port)
         config = uvicorn.Config(
             create_app(limits, others, framed_by),
             http="h11",
@@ -135,8 +136,3 @@ def _open_socket(host: str, port: int | None) -> socket.socket:
         return listening
     assert problem is not None
     raise FileError(f"{host}, port {tried[-1]} cannot be used: {problem.strerror or problem}")
-
-
-def _own_host(host: str) -> str:
-    """Return the host by which this machine itself reaches the server."""
-    return {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)

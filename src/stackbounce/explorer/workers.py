@@ -22,7 +22,7 @@ AGAIN_SECONDS = 5
 _LESS = "ask for fewer balls, points or numbers at once"
 _NICE = 5  # how much lower the priority of a worker process is than the server's
 _MODULES = ("stackbounce.explorer.answers.records", "scipy.stats", "scipy.signal",
-            "scipy.io.wavfile", "lmfit")  # fmt: skip
+            "scipy.io.wavfile", "scipy.optimize")  # fmt: skip
 """What a process imports before its first job, as that takes seconds."""
 
 

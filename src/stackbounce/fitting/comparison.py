@@ -12,8 +12,8 @@ from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fitting.covariance import OPEN
 from stackbounce.fitting.least_squares import find_minima
 from stackbounce.fitting.problem import FitProblem, TooFewData
-from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.result import Fit
+from stackbounce.run.quantities import Array
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:

@@ -3,20 +3,18 @@
 import contextlib
 import math
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from stackbounce.errors import InvalidValue
-from stackbounce.fitting.quantities import Array
+from stackbounce.prediction.draws import Progress
+from stackbounce.run.quantities import Array
 
 _SECOND = 5e7  # work of a second, in the unit of `engine.work`: it is between 3e7 and 2e8
 _LONG, _LONGEST = 60.0, 86_400.0  # s, from which on a computation is announced, and refused
 _UNITS = {"days": 86_400.0, "h": 3600.0, "min": 60.0}
-
-Progress = Callable[[int, int], object]
-"""Is called with the number of trials done and about the number of all."""
 
 
 @dataclass

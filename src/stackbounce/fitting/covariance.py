@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.fitting.objective import Objective
-from stackbounce.fitting.quantities import Array
+from stackbounce.run.quantities import Array
 
 OPEN = 1.0
 """Root of chi squared's change between the bounds below which a direction is undetermined."""

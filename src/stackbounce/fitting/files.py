@@ -181,11 +181,7 @@ def _several(
     for k, drop in enumerate(given):
         own = dict(_table(drop, f"drops.{k}"))
         name = own.pop("name", None)
-        if not (isinstance(name, str) and name.isidentifier()) or name in drops:
-            raise InvalidValue(
-                f"drops.{k}.name must be a name of its own in letters, digits and _, such as "
-                f"B2_on_B1, got {shown(name)}"
-            )
+        check_name(f"drops.{k}.name", name, drops)
         _check_keys(own, (*_DROP, "measured", "name"), f"drops.{k}.")
         data[name] = _measured(own.pop("measured", {}), f"{name}.measured", folder)
         common = {
@@ -198,6 +194,15 @@ def _several(
         except StackbounceError as error:
             raise ScenarioError(f"{name}: {error}") from error
     return drops, data
+
+
+def check_name(path: str, name: object, drops: Mapping[str, Drop]) -> None:
+    """Refuse what is no name of a drop, or that of another one."""
+    if not (isinstance(name, str) and name.isidentifier()) or name in drops:
+        raise InvalidValue(
+            f"{path} must be a name of its own in letters, digits and _, such as B2_on_B1, "
+            f"got {shown(name)}"
+        )
 
 
 def _check_keys(table: Mapping[str, Any], known: Sequence[str], path: str) -> None:

@@ -83,38 +83,33 @@ def read_formula(text: object, known: Collection[str], path: str) -> tuple[Formu
     inside = {word: name for name, word in names.items()}
     plain = _TOKEN.sub(lambda one: inside.get(one["word"], one[0]), " ".join(text.split()))
     try:
-        run = _function(ast.parse(plain, mode="eval").body, names)
+        with np.errstate(all="ignore"):
+            node = ast.parse(plain, mode="eval").body
+            _evaluate(node, dict.fromkeys(names, 1.0) | _CONSTANTS)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise InvalidValue(
             f"tie: {path} = {shown(text)} cannot be read: it may have numbers up to 1e308, names, "
             f"+ - * / **, brackets, {', '.join(sorted(OWN_WORDS))}"
         ) from None
+
+    def run(values: Values) -> Any:
+        return _evaluate(node, {name: values[word] for name, word in names.items()} | _CONSTANTS)
+
     return run, frozenset(names.values())
 
 
-def _function(node: ast.AST, names: Mapping[str, str]) -> Formula:
-    """Return a part of a formula as a function; numbers become floats, which limits their size."""
+def _evaluate(node: ast.AST, values: Mapping[str, Any]) -> Any:
+    """Return what a part of a formula gives; numbers become floats, which limits their size."""
     match node:
         case ast.Constant(int() | float() as value) if value <= sys.float_info.max:
-            number = float(value)
-            return lambda _: number
-        case ast.Name(name) if name in names:
-            word = names[name]
-            return lambda values: values[word]
-        case ast.Name(name) if name in _CONSTANTS:
-            constant = _CONSTANTS[name]
-            return lambda _: constant
+            return float(value)
+        case ast.Name(name) if name in values:
+            return values[name]
         case ast.UnaryOp(sign, part) if type(sign) in _SIGNS:
-            return _applied(_SIGNS[type(sign)], [part], names)
+            return _SIGNS[type(sign)](_evaluate(part, values))
         case ast.BinOp(left, operation, right) if type(operation) in _OPERATIONS:
-            return _applied(_OPERATIONS[type(operation)], [left, right], names)
-        case ast.Call(ast.Name(name), parts, []) if name in _FUNCTIONS:
-            function, count = _FUNCTIONS[name]
-            if len(parts) == count:
-                return _applied(function, parts, names)
+            ends = _evaluate(left, values), _evaluate(right, values)
+            return _OPERATIONS[type(operation)](*ends)
+        case ast.Call(ast.Name(name), parts, []) if len(parts) == _FUNCTIONS.get(name, (0, 0))[1]:
+            return _FUNCTIONS[name][0](*[_evaluate(part, values) for part in parts])
     raise ValueError(f"no part of a formula: {type(node).__name__}")
-
-
-def _applied(function: Any, parts: list[ast.expr], names: Mapping[str, str]) -> Formula:
-    inner = [_function(part, names) for part in parts]
-    return lambda values: function(*[part(values) for part in inner])

@@ -1,14 +1,17 @@
-"""The minima of chi squared: many trials are screened, descents by lmfit start at the best."""
+"""The minima of chi squared: many trials are screened, descents start at the best."""
 
-import contextlib
+import functools
 import math
-from typing import Any, NamedTuple
+from collections.abc import Iterable
+from operator import attrgetter
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from stackbounce.fitting.covariance import OPEN, find_directions
 from stackbounce.fitting.objective import Objective
-from stackbounce.fitting.quantities import Array
+from stackbounce.run.quantities import Array
 
 EQUAL = 1e-3
 """Minima whose chi squared differs by less are equally good."""
@@ -27,6 +30,9 @@ _EXACT, _ROUGH = 1e-10, 1e-4  # relative gain in chi squared at which a descent,
 _NEAR, _HOPE = 0.01, 20.0  # rough ends that are followed further: distance, chi squared above best
 _FLAT = 1e-3  # gain in chi squared that a linear step may promise at a smooth minimum
 _SHORT = 60  # evaluations per parameter of the simplex at a kink
+
+
+_chi_squared = attrgetter("chi_squared")
 
 
 class Minimum(NamedTuple):
@@ -79,28 +85,18 @@ def find_minima(
     trials = spread_trials(objective, count, seed)
     if follow is None:
         follow = _FOLLOWED_RECORDS if objective.records else _FOLLOWED
-    chosen = _apart(objective, first, trials, follow)
-    near = sorted((_descend_smooth(objective, x, None, _ROUGH) for x in chosen), key=_chi_squared)
-    ends = sorted(
-        (descend(objective, end.x) for end in _promising(objective, near)), key=_chi_squared
-    )
+    screened = trials[np.argsort(objective.chi_squared(trials), kind="stable")]
+    chosen = _apart(objective, list(first), screened, _APART, follow)
+    rough = sorted((_descend_smooth(objective, x, None, _ROUGH) for x in chosen), key=_chi_squared)
+    limit = rough[0].chi_squared + max(_HOPE, rough[0].chi_squared)
+    low = [end.x for end in rough if end.chi_squared <= limit]
+    promising = _apart(objective, [], low, _NEAR, len(low))
+    ends = sorted((descend(objective, x) for x in promising), key=_chi_squared)
     good = [end for end in ends if end.chi_squared < ends[0].chi_squared + EQUAL]
-    nearest = sorted(good, key=lambda one: np.sum(((one.x - chosen[0]) / objective.widths) ** 2))
-    return _distinct(objective, nearest + ends[len(good) :])
-
-
-def _chi_squared(one: Minimum) -> float:
-    return one.chi_squared
-
-
-def _promising(objective: Objective, near: list[Minimum]) -> list[Minimum]:
-    """Return the rough ends, sorted by chi squared, that are low and far enough apart to follow."""
-    widths = objective.widths
-    limit = near[0].chi_squared + max(_HOPE, near[0].chi_squared)
+    good.sort(key=lambda end: np.sum(((end.x - chosen[0]) / objective.widths) ** 2))
     found: list[Minimum] = []
-    for end in near:
-        apart = all(np.max(np.abs(end.x - other.x) / widths) > _NEAR for other in found)
-        if apart and end.chi_squared <= limit:
+    for end in good + ends[len(good) :]:
+        if not any(_is_same(objective, end, other) for other in found):
             found.append(end)
     return found
 
@@ -111,7 +107,7 @@ def descend(objective: Objective, x: Array, fixed: int | None = None) -> Minimum
     if _is_smooth(objective, end.x, fixed):
         return end
     other = _descend_smooth(objective, _cross_kink(objective, end.x, fixed), fixed, _EXACT)
-    return min(other, end, key=lambda one: one.chi_squared)
+    return min(other, end, key=_chi_squared)
 
 
 def expected_trials(objective: Objective, count: int | None) -> int:
@@ -156,24 +152,16 @@ def spread(spans: Array, count: int, seed: int) -> Array:
     return np.asarray(spans[:, 0] + drawn[:count] * (spans[:, 1] - spans[:, 0]))
 
 
-def _apart(objective: Objective, first: Array, trials: Array, count: int) -> list[Array]:
-    """Return the first trials and the best `count` others that lie apart from all of them."""
-    widths = objective.widths
-    chosen = list(first)
-    for k in np.argsort(objective.chi_squared(trials), kind="stable"):
-        if len(chosen) >= len(first) + count:
+def _apart(
+    objective: Objective, chosen: list[Array], others: Iterable[Array], distance: float, most: int
+) -> list[Array]:
+    """Return the chosen trials and the first of others, `most` of them, that lie apart from all."""
+    found = list(chosen)
+    for x in others:
+        if len(found) == len(chosen) + most:
             break
-        if all(np.max(np.abs(trials[k] - start) / widths) > _APART for start in chosen):
-            chosen.append(trials[k])
-    return chosen
-
-
-def _distinct(objective: Objective, ends: list[Minimum]) -> list[Minimum]:
-    """Return the ends of descents without those that belong to a better one's minimum."""
-    found: list[Minimum] = []
-    for end in ends:
-        if not any(_is_same(objective, end, other) for other in found):
-            found.append(end)
+        if all(np.max(np.abs(x - other) / objective.widths) > distance for other in found):
+            found.append(x)
     return found
 
 
@@ -197,70 +185,64 @@ def _is_undetermined(objective: Objective, x: Array) -> bool:
     return bool(find_directions(objective, objective.linearise(x)[1])[0][-1] <= OPEN)
 
 
-def _parameters(objective: Objective, x: Array, fixed: int | None) -> Any:
-    """Return lmfit's parameters for a trial; they are named x0, x1 and so on in this file only."""
-    import lmfit
-
-    parameters = lmfit.Parameters()
-    for k, (low, high) in enumerate(objective.spans):
-        start = float(np.clip(x[k], low, high))
-        parameters.add(f"x{k}", value=start, min=low, max=high, vary=k != fixed)
-    return parameters
-
-
-def _trial(parameters: Any) -> Array:
-    return np.array([parameter.value for parameter in parameters.values()])
-
-
 def _descend_smooth(objective: Objective, x: Array, fixed: int | None, gain: float) -> Minimum:
-    """Return the end of a descent by lmfit's trust region, which needs derivatives."""
-    import lmfit
+    """Return the end of a descent by a trust region, which needs derivatives."""
+    from scipy.optimize import least_squares
 
-    if len(x) == 1 and fixed == 0:
+    free = np.arange(len(x)) != fixed
+    if not free.any():
         return Minimum(x, float(objective.chi_squared(x[None])[0]), True)
-    free = [k for k in range(len(x)) if k != fixed]
-    kept: dict[bytes, tuple[Array, Array]] = {}  # lmfit asks for residuals and slopes in turn
 
-    def linearised(parameters: Any) -> tuple[Array, Array]:
-        trial = _trial(parameters)
-        if trial.tobytes() not in kept:
-            kept[trial.tobytes()] = objective.linearise(trial)
-        return kept[trial.tobytes()]
+    @functools.lru_cache(1)  # residuals and slopes are asked for in turn
+    def linearised(*inner: float) -> tuple[Array, Array]:
+        return objective.linearise(_moved(x, free, np.array(inner)))
 
-    minimizer = lmfit.Minimizer(
-        lambda now: linearised(now)[0], _parameters(objective, x, fixed), calc_covar=False
+    low, high = objective.spans[free].T
+    found = least_squares(
+        lambda inner: linearised(*inner)[0],
+        np.clip(x[free], low, high),
+        lambda inner: linearised(*inner)[1][:, free],
+        bounds=(low, high),
+        ftol=gain,
+        xtol=10.0 * gain,
+        max_nfev=_STEPS,
     )
-    options = {"max_nfev": _STEPS, "xtol": 10.0 * gain, "ftol": gain}
-    with np.errstate(all="ignore"):  # lmfit divides by 0 where data determine nothing
-        found = minimizer.least_squares(Dfun=lambda now: linearised(now)[1][:, free], **options)
-    end = _trial(found.params)
-    return Minimum(end, float(np.sum(linearised(found.params)[0] ** 2)), bool(found.success))
+    return Minimum(_moved(x, free, found.x), 2.0 * found.cost, bool(found.success))
 
 
 def _cross_kink(objective: Objective, x: Array, fixed: int | None) -> Array:
     """Return a trial nearer to a minimum on a kink, by a simplex, which needs no derivatives."""
-    import lmfit
+    from scipy.optimize import minimize
 
-    minimizer = lmfit.Minimizer(
-        lambda now: objective.residuals(_trial(now)[None])[0],
-        _parameters(objective, x, fixed),
-        calc_covar=False,
+    free = np.arange(len(x)) != fixed
+    low, widths = objective.spans[free, 0], objective.widths[free]
+
+    def place(shares: Array) -> Array:
+        return _moved(x, free, low + shares * widths)
+
+    found = minimize(
+        lambda shares: objective.chi_squared(place(shares)[None])[0],
+        (x[free] - low) / widths,
+        method="Nelder-Mead",
+        bounds=[(0.0, 1.0)] * len(low),
+        options={"maxfev": _SHORT * len(x)},
     )
-    with contextlib.suppress(lmfit.minimizer.AbortFitException):  # lmfit counts its end, too
-        minimizer.minimize(method="nelder", max_nfev=_SHORT * len(x))
-    return _trial(minimizer.result.params)
+    return place(found.x)
+
+
+def _moved(x: Array, free: NDArray[np.bool_], inner: Array) -> Array:
+    """Return a trial with other values of the free parameters."""
+    trial = x.copy()
+    trial[free] = inner
+    return trial
 
 
 def _is_smooth(objective: Objective, x: Array, fixed: int | None) -> bool:
     """Return whether a linear step would gain nothing at the end of a descent."""
-    free = [k for k in range(len(x)) if k != fixed]
-    if not free:
-        return True
-    spans, (residuals, slopes) = objective.spans[free], objective.linearise(x)
-    slopes = slopes[:, free]
-    step = -np.linalg.lstsq(slopes, residuals, rcond=1e-6)[0]
-    inside = np.clip(x[free] + step, spans[:, 0], spans[:, 1]) - x[free]
-    longest = 0.1 * objective.widths[free]
-    step = np.clip(inside, -longest, longest)
-    promised = np.sum(residuals**2) - np.sum((residuals + slopes @ step) ** 2)
+    free = np.arange(len(x)) != fixed
+    (low, high), longest = objective.spans[free].T, 0.1 * objective.widths[free]
+    residuals, slopes = objective.linearise(x)
+    step = -np.linalg.lstsq(slopes[:, free], residuals, rcond=1e-6)[0]
+    step = np.clip(np.clip(x[free] + step, low, high) - x[free], -longest, longest)
+    promised = np.sum(residuals**2) - np.sum((residuals + slopes[:, free] @ step) ** 2)
     return bool(promised < _FLAT)

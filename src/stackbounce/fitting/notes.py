@@ -1,14 +1,17 @@
 """The notes of a fit: what is undetermined, bounds reached, other minima, misfits, an outlier."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from stackbounce.fitting.covariance import OPEN
-from stackbounce.fitting.least_squares import EQUAL, Minimum
-from stackbounce.fitting.objective import ABSENT, Objective
-from stackbounce.fitting.quantities import Array
-from stackbounce.fitting.residuals import Residual
+from stackbounce.fitting.covariance import OPEN, find_leverages
+from stackbounce.fitting.least_squares import EQUAL
+from stackbounce.fitting.objective import ABSENT
+from stackbounce.run.quantities import Array
+
+if TYPE_CHECKING:
+    from stackbounce.fitting.result import Fit
 
 _CLOSE = 4.0  # chi squared above the best up to which another minimum is worth a note
 _UNLIKELY = 1e-3  # probability of chi squared below which the model is doubted
@@ -53,52 +56,35 @@ def _describe_direction(names: list[str]) -> str:
     return f"the data do not determine {listed} separately: they can change together without effect"
 
 
-def note_search(best: Minimum, unsolved: Mapping[str, int]) -> Iterator[str]:
-    """Yield notes on a search that did not converge, and on runs that did not finish."""
-    if not best.converged:
+def list_notes(fit: "Fit") -> Iterator[str]:
+    """Yield the warnings about a fit, a sentence each."""
+    if not fit.minima[0].converged:
         yield "the search ended before it converged: give narrower bounds"
-    for name, count in unsolved.items():
+    for name, count in fit.unsolved.items():
         yield (
             f"{count} runs of the search did not finish ({name}) and were taken as far from all "
             "data: give narrower bounds"
         )
+    yield from fit.undetermined
+    yield from _note_bounds(fit)
+    if misfit := _describe_outlier(fit) or _describe_misfit(fit):
+        yield misfit
+    yield from _note_collisions(fit)
+    for residual in fit.residuals:
+        if not abs(residual.pull) < ABSENT:
+            yield f"{residual.label}: the fitted drop has none"
+    yield from _note_other_minima(fit)
 
 
-def note_bounds(objective: Objective, x: Array) -> Iterator[str]:
-    """Yield a note for each parameter that lies at a bound."""
-    for parameter, at in zip(objective.parameters, x, strict=True):
+def _note_bounds(fit: "Fit") -> Iterator[str]:
+    for parameter, at in zip(fit.objective.parameters, fit.x, strict=True):
         low, high = parameter.span
         for end, value in ((low, parameter.low), (high, parameter.high)):
             if abs(at - end) < _EDGE * (high - low):
                 yield f"{parameter.name} lies at its bound, {value:g} {parameter.unit}".rstrip()
 
 
-def note_misfits(
-    objective: Objective,
-    minima: Sequence[Minimum],
-    residuals: Sequence[Residual],
-    leverages: Array,
-    degrees_of_freedom: int,
-) -> list[str]:
-    """Return notes on an unlikely chi squared, differing collisions and other minima."""
-    chi_squared = minima[0].chi_squared
-    misfit = _note_outlier(chi_squared, residuals, leverages, degrees_of_freedom)
-    misfit = misfit or _note_unlikely(chi_squared, degrees_of_freedom)
-    return [
-        *filter(None, [misfit]),
-        *_note_collisions(objective, minima[0]),
-        *(
-            f"{residual.label}: the fitted drop has none"
-            for residual in residuals
-            if not abs(residual.pull) < ABSENT
-        ),
-        *_note_other_minima(objective, minima),
-    ]
-
-
-def _note_outlier(
-    chi_squared: float, residuals: Sequence[Residual], leverages: Array, degrees_of_freedom: int
-) -> str:
+def _describe_outlier(fit: "Fit") -> str:
     """Return a note on the one number whose residual makes chi squared unlikely; empty if none is.
 
     Without a number whose pull is r, a linear fit has a chi squared that is smaller by
@@ -106,17 +92,18 @@ def _note_outlier(
     """
     from scipy.stats import chi2
 
-    chance = float(chi2.sf(chi_squared, degrees_of_freedom))
-    if degrees_of_freedom < 2 or chance >= _BAD:  # with one degree of freedom none has a rival
+    freedom, chance = fit.degrees_of_freedom, fit.probability
+    if freedom < 2 or chance >= _BAD:  # with one degree of freedom none has a rival
         return ""
-    pulls = np.array([residual.pull for residual in residuals])
-    less = pulls**2 / np.maximum(1.0 - leverages[: len(pulls)], _ALONE)
-    without = chi2.sf(chi_squared - less, degrees_of_freedom - 1)
+    pulls = np.array([residual.pull for residual in fit.residuals])
+    leverages = find_leverages(fit.objective, fit.slopes, *fit.directions)[: len(pulls)]
+    less = pulls**2 / np.maximum(1.0 - leverages, _ALONE)
+    without = chi2.sf(fit.chi_squared - less, freedom - 1)
     rare = len(pulls) * chi2.sf(less, 1) < _RARE
     (found,) = np.nonzero((without >= _BAD) & rare & (np.abs(pulls) < ABSENT))
     if len(found) != 1:
         return ""
-    label, pull, then = residuals[found[0]].label, pulls[found[0]], without[found[0]]
+    label, pull, then = fit.residuals[found[0]].label, pulls[found[0]], without[found[0]]
     return (
         f"one number makes chi squared improbable: {label} is {abs(pull):.1f} errors off, and "
         f"without it p is {then:.2g} instead of {chance:.1g}; check how it was measured, or try "
@@ -124,30 +111,31 @@ def _note_outlier(
     )
 
 
-def _note_unlikely(chi_squared: float, degrees_of_freedom: int) -> str:
+def _describe_misfit(fit: "Fit") -> str:
     from scipy.stats import chi2
 
     # chi squared has no distribution with 0 degrees of freedom: 1 is taken instead
-    if chi2.sf(chi_squared, max(1, degrees_of_freedom)) >= _UNLIKELY:
+    if chi2.sf(fit.chi_squared, max(1, fit.degrees_of_freedom)) >= _UNLIKELY:
         return ""
-    bad = f"chi squared is {chi_squared:.4g} for {describe_freedom(degrees_of_freedom)}"
+    bad = f"chi squared is {fit.chi_squared:.4g} for {describe_freedom(fit.degrees_of_freedom)}"
     return f"the model does not describe the data: {bad}; its parameters' errors mean little"
 
 
-def _note_collisions(objective: Objective, best: Minimum) -> Iterator[str]:
-    for key, measured in objective.measured.items():
-        fitted = objective.counts(key, best.x) if measured.counts else np.empty(0)
-        for count in measured.counts:
-            if fitted[count.index] != count.seen:
-                name = f"{key}.{count.name}" if key else count.name
-                yield f"{name}: {count.seen} seen, {fitted[count.index]} in the fit"
+def _note_collisions(fit: "Fit") -> Iterator[str]:
+    for key, measured in fit.objective.measured.items():
+        if measured.counts:
+            fitted = fit.objective.solve(key, fit.x[None])["collisions"][0]
+            for count in measured.counts:
+                if fitted[count.index] != count.seen:
+                    name = f"{key}.{count.name}" if key else count.name
+                    yield f"{name}: {count.seen} seen, {fitted[count.index]} in the fit"
 
 
-def _note_other_minima(objective: Objective, minima: Sequence[Minimum]) -> Iterator[str]:
-    for minimum in minima[1:]:
-        more = minimum.chi_squared - minima[0].chi_squared
+def _note_other_minima(fit: "Fit") -> Iterator[str]:
+    for minimum in fit.minima[1:]:
+        more = minimum.chi_squared - fit.chi_squared
         if more < _CLOSE:
-            values = objective.values(minimum.x[None])
+            values = fit.objective.values(minimum.x[None])
             where = ", ".join(f"{name} = {array[0]:.4g}" for name, array in values.items())
             how = f"has chi squared only {more:.2g} higher" if more > EQUAL else "is as good"
             yield f"another minimum {how}: {where}"

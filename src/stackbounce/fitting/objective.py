@@ -5,27 +5,22 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from stackbounce.engine.records import Outcomes
 from stackbounce.engine.work import WORK_LIMIT
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fitting.course import Course
 from stackbounce.fitting.measurements import Measured
 from stackbounce.fitting.parameters import Parameter, find_numbers
-from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.ties import Tie, evaluate_ties
 from stackbounce.fitting.waveforms import Waveform
 from stackbounce.model import Drop
-from stackbounce.run.batch import solve
-from stackbounce.run.columns import Rows, check, incidence
+from stackbounce.run.columns import Rows, check
 from stackbounce.run.driver import forces_at
 from stackbounce.run.options import Options
 from stackbounce.run.paths import Number, drop_at, numbers_of, value_in
-from stackbounce.run.quantities import QUANTITIES
+from stackbounce.run.quantities import Array, solve_quantities
 from stackbounce.run.result import Status
 
 ABSENT = 1e4
@@ -139,20 +134,34 @@ class Objective:
 
     def rows(self, key: str, x: Array) -> Rows:
         """Return the varied and tied numbers of one drop in trials (n, parameters), checked."""
-        layout, values = self._layouts[key], self.values(x)
+        drop, ties = self.drops[key], [tie for tie in self.ties if tie.drop == key]
+        values = self.values(x)
         named = {name: array for name, array in values.items() if self._owner[name] in (None, key)}
         found: dict[Number, Array] = {}
-        for name, number in layout.varied:
-            found[number] = named[number.path] = named[name]
-        follow = evaluate_ties(layout.ties, layout.numbers, named)
-        for tie in layout.ties:
-            found[tie.number] = follow[tie.number.path]
-        if layout.ties:
-            try:
-                check(self.drops[key], found, lambda _: "")
-            except (InvalidValue, InvalidType) as error:
-                formulas = ", ".join(f"{tie.number.path} = {tie.text}" for tie in layout.ties)
-                raise type(error)(f"tie: {formulas} gives no drop: {error}".rstrip()) from error
+        for number, parameter in self._varied[key].items():
+            found[number] = named[number.path] = named[parameter.name]
+        if not ties:
+            return found
+        numbers = {path: value_in(drop, number) for path, number in numbers_of(drop).items()}
+        follow = evaluate_ties(ties, numbers, named)
+        found |= {tie.number: follow[tie.number.path] for tie in ties}
+        try:
+            check(drop, found, lambda _: "")
+        except (InvalidValue, InvalidType) as error:
+            formulas = ", ".join(f"{tie.number.path} = {tie.text}" for tie in ties)
+            raise type(error)(f"tie: {formulas} gives no drop: {error}".rstrip()) from error
+        return found
+
+    @cached_property
+    def _varied(self) -> dict[str, dict[Number, Parameter]]:
+        """The varied numbers of each drop, which is checked with them at the bounds."""
+        found: dict[str, dict[Number, Parameter]] = {key: {} for key in self.drops}
+        for parameter in self.parameters:
+            for key, number in find_numbers(self.drops, parameter.name):
+                found[key][number] = parameter
+        for key, varied in found.items():
+            ends = {number: np.array([own.low, own.high]) for number, own in varied.items()}
+            check(self.drops[key], ends, lambda _: "(at the bounds)")
         return found
 
     @cached_property
@@ -179,44 +188,26 @@ class Objective:
         """Return the objective with all parameters but the data of one drop only."""
         return replace(self, measured={key: self.measured[key]})
 
-    @cached_property
-    def _layouts(self) -> dict[str, "_Layout"]:
-        return {key: _layout(self, key) for key in self.drops}
-
     def drop(self, key: str, x: Array) -> Drop:
         """Return one drop with the numbers of one trial (parameters,)."""
         rows = self.rows(key, x[None])
         return drop_at(self.drops[key], {number: float(array[0]) for number, array in rows.items()})
 
-    def outcomes(self, key: str, x: Array) -> tuple[Outcomes, Array, Array]:
-        """Return outcomes, impact speeds and gravity (n,) of one drop in trials (n, parameters)."""
-        drop, rows = self.drops[key], self.rows(key, x)
+    def solve(self, key: str, x: Array) -> dict[str, Array]:
+        """Return all quantities of one drop in trials (n, parameters), (n, parts) each."""
+        drop = self.drops[key]
         options = Options(math.inf, self.rtol, _EVENTS, _WORK * max(_FEW, len(drop.balls)))
-        out = solve(drop, rows, (len(x),), options)
-        self.course.work += int(np.sum(out.work))
-        bad = ~np.isin(out.status, _DONE)
-        if np.any(bad):
-            self.unsolved.update(Status(code).name for code in out.status[bad])
-            for array in (
-                out.rebound_ratio,
-                out.first_touch,
-                out.last_release,
-                out.energy_retained,
-            ):
-                array[bad] = np.nan
-        return out, *incidence(drop, rows, len(x))
+        solved = solve_quantities(drop, self.rows(key, x), len(x), options)
+        self.course.work += int(np.sum(solved.work))
+        bad = solved.status[~np.isin(solved.status, _DONE)]
+        self.unsolved.update(Status(code).name for code in bad)
+        return solved.tables
 
     def predict(self, key: str, x: Array) -> Array:
         """Return what trials (n, parameters) predict for one drop's data: (n, data) in SI units."""
-        given, columns = self.outcomes(key, x), []
-        for datum in self.measured[key].data:
-            table = np.asarray(QUANTITIES[datum.quantity].predict(*given))
-            columns.append(table if table.ndim == 1 else table[:, datum.index])
+        tables, data = self.solve(key, x), self.measured[key].data
+        columns = [tables[datum.quantity][:, datum.index] for datum in data]
         return np.stack(columns, axis=1) if columns else np.empty((len(x), 0))
-
-    def counts(self, key: str, x: Array) -> NDArray[np.int64]:
-        """Return how often each contact of a drop closes in one trial: (contacts,)."""
-        return np.asarray(self.outcomes(key, x[None])[0].collisions[0])
 
     def forces(self, key: str, x: Array) -> list[Array]:
         """Return the forces (n,) in N at the samples of each record of a drop, in one trial."""
@@ -304,32 +295,6 @@ def differences(rows: Array) -> Array:
     """Return the differences (n, ...) of what follows of `Objective.neighbours`, (2 n + 1, ...)."""
     count = len(rows) // 2
     return np.asarray(rows[:count] - rows[count:-1])
-
-
-class _Layout(NamedTuple):
-    """The varied numbers of one drop by parameter, its ties, and all its numbers by path."""
-
-    varied: list[tuple[str, Number]]
-    ties: list[Tie]
-    numbers: dict[str, float]
-
-
-def _layout(objective: Objective, key: str) -> _Layout:
-    drop = objective.drops[key]
-    varied = [
-        (parameter.name, number)
-        for parameter in objective.parameters
-        for own, number in find_numbers(objective.drops, parameter.name)
-        if own == key
-    ]
-    numbers = {path: value_in(drop, number) for path, number in numbers_of(drop).items()}
-    ties = [tie for tie in objective.ties if tie.drop == key]
-    ends = {
-        parameter.name: np.array([parameter.low, parameter.high])
-        for parameter in objective.parameters
-    }
-    check(drop, {number: ends[name] for name, number in varied}, lambda _: "(at the bounds)")
-    return _Layout(varied, ties, numbers)
 
 
 def touch_name(key: str) -> str:

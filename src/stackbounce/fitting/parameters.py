@@ -10,10 +10,11 @@ import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fitting.formula import OWN_WORDS
-from stackbounce.fitting.quantities import Array, read_with_error
+from stackbounce.fitting.quantities import read_with_error
 from stackbounce.measure.quantities import LARGEST
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, drop_at, numbers_of, value_in
+from stackbounce.run.quantities import Array
 from stackbounce.units import quantity
 
 _WIDE = 100.0  # default bounds: the drop's own number divided and multiplied by this
@@ -23,7 +24,7 @@ _RIGHT = (
     "varied between two bounds, such as '1e3 : 1e6', or around what is known of it, such as "
     "'1.3 ± 0.9 mm'"
 )
-_LEAST = 1e-12  # relative: closer bounds are one number to lmfit
+_LEAST = 1e-12  # relative: closer bounds are one number to a search
 _REACH = 6.0  # default bounds of a parameter with a prior, in its standard deviations
 
 
@@ -192,13 +193,20 @@ def _parameter(drops: Mapping[str, Drop], name: object, given: object) -> Parame
             f"{name} must have bounds above {_LEAST:g} (of their size, if that is above 1) and "
             f"at most {LARGEST:g} apart, got {low:g} and {high:g}"
         )
-    for key, number in at:
-        for value in (low, high):
-            try:
-                drop_at(drops[key], {number: value})
-            except (InvalidValue, InvalidType) as error:
-                raise InvalidValue(f"{name} cannot be varied to {value:g}: {error}") from error
+    for value in (low, high):
+        if refusal := _refusal(drops, at, value):
+            raise InvalidValue(f"{name} cannot be varied to {value:g}: {refusal}")
     return found
+
+
+def _refusal(drops: Mapping[str, Drop], at: Sequence[tuple[str, Number]], value: float) -> str:
+    """Return why the drops cannot have a value of a number; empty if they can."""
+    try:
+        for key, number in at:
+            drop_at(drops[key], {number: value})
+    except (InvalidValue, InvalidType) as error:
+        return str(error)
+    return ""
 
 
 def _bounds(
@@ -243,22 +251,18 @@ def _legal(
 ) -> tuple[float, float]:
     """Return bounds moved towards the drop's own number until drops can be made at both."""
 
-    def holds(value: float) -> bool:
-        try:
-            for key, number in at:
-                drop_at(drops[key], {number: value})
-        except (InvalidValue, InvalidType):
-            return False
-        return True
-
     def moved(end: float) -> float:
         for limit in (end, 1.0, 0.0):  # a drop's numbers are usually limited by 0 or 1
-            if limit != own and min(own, end) <= limit <= max(own, end) and holds(limit):
+            if (
+                limit != own
+                and min(own, end) <= limit <= max(own, end)
+                and not _refusal(drops, at, limit)
+            ):
                 return limit
         good, bad = own, end
         for _ in range(60):
             middle = 0.5 * (good + bad)
-            good, bad = (middle, bad) if holds(middle) else (good, middle)
+            good, bad = (good, middle) if _refusal(drops, at, middle) else (middle, bad)
         return good
 
     return moved(low), moved(high)

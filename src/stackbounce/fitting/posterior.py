@@ -9,11 +9,13 @@ import numpy as np
 from stackbounce.errors import InvalidValue, nearest, shown, whole
 from stackbounce.fitting.course import announce
 from stackbounce.fitting.objective import Objective
-from stackbounce.fitting.quantities import Array
 from stackbounce.run.options import check_room
+from stackbounce.run.quantities import Array
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
+
+    from stackbounce.fitting.result import Fit
 
 _WALKERS = 32  # walkers, at least; also at least four per parameter
 _STEPS = 1000  # of a walker: more draws mean more walkers
@@ -149,30 +151,15 @@ class Posterior:
         return tuple(found)
 
 
-def sample(
-    objective: Objective,
-    best: Array,
-    deviations: Array,
-    draws: int,
-    *,
-    others: int = 0,
-    seed: int = 0,
-    progress: Any = None,
-) -> Posterior:
+def sample(fit: "Fit", draws: int, *, seed: int = 0, progress: Any = None) -> Posterior:
     """Return draws from the posterior distribution of the parameters.
 
     Parameters
     ----------
-    objective : Objective
-        What was fitted.
-    best : ndarray
-        (parameters,) the best trial, around which the walkers start.
-    deviations : ndarray
-        (parameters,) standard deviations there, in SI units.
+    fit : Fit
+        Around whose best values the walkers start.
     draws : int
         The number of draws of all walkers, burn-in included.
-    others : int, optional
-        The number of other minima that are known.
     seed : int, optional
         The seed of the random numbers: the same seed gives the same draws.
     progress : callable, optional
@@ -191,7 +178,7 @@ def sample(
     """
     import emcee
 
-    size = len(best)
+    objective, size = fit.objective, len(fit.names)
     least = max(_WALKERS, 4 * size)
     walkers = max(least, 2 * (whole("draws", draws, 20 * least, _MOST_DRAWS) // (2 * _STEPS)))
     steps = draws // walkers
@@ -203,7 +190,7 @@ def sample(
         walkers, size, _log_probability(objective), vectorize=True, moves=emcee.moves.DEMove()
     )
     sampler.random_state = random.get_state()
-    first = _first_places(objective, best, deviations, walkers, random)
+    first = _first_places(fit, walkers, random)
     for k, _ in enumerate(sampler.sample(first, iterations=steps)):
         if progress is not None:
             progress((k + 1) * walkers, steps * walkers)
@@ -211,14 +198,14 @@ def sample(
     inner = sampler.get_chain(discard=burnt)
     chain = [parameter.value(inner[:, :, k]) for k, parameter in enumerate(objective.parameters)]
     return Posterior(
-        objective.names,
-        objective.units,
+        fit.names,
+        fit.units,
         np.stack(chain, axis=2),
         sampler.get_log_prob(discard=burnt),
         float(np.mean(sampler.acceptance_fraction)),
         seed,
         objective.unsolved.total() - before,
-        others,
+        len(fit.minima) - 1,
     )
 
 
@@ -240,16 +227,11 @@ def _log_probability(objective: Objective) -> Any:
     return evaluate
 
 
-def _first_places(
-    objective: Objective,
-    best: Array,
-    deviations: Array,
-    walkers: int,
-    random: np.random.RandomState,
-) -> Array:
+def _first_places(fit: "Fit", walkers: int, random: np.random.RandomState) -> Array:
     """Return (walkers, parameters) trials around the best one, reflected at the bounds."""
+    objective, best = fit.objective, fit.x
     (low, high), widths = objective.spans.T, objective.widths
-    spread = deviations / np.abs(objective.value_slopes(best))
+    spread = np.sqrt(np.diag(fit.covariance.values)) / np.abs(objective.value_slopes(best))
     spread = np.clip(spread, 1e-6 * widths, 0.2 * widths)
     places = best + _SPREAD * spread * random.standard_normal((walkers, len(best)))
     folded = np.where(places < low, 2.0 * low - places, places)

@@ -8,16 +8,17 @@ from typing import Any
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, between, nearest, shown, whole
-from stackbounce.fitting.course import Progress, announce
+from stackbounce.fitting.course import announce
 from stackbounce.fitting.least_squares import Minimum, expected_trials, find_minima, spread
 from stackbounce.fitting.measurements import Measured, read_measured
 from stackbounce.fitting.objective import Objective, touch_name
 from stackbounce.fitting.parameters import Parameter, find_numbers, read_parameters
-from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.result import Fit
 from stackbounce.fitting.ties import read_ties
 from stackbounce.model import Drop
+from stackbounce.prediction.draws import Progress
 from stackbounce.run.paths import value_in
+from stackbounce.run.quantities import Array
 
 _MOST_STARTS = 1_000_000
 _RTOL = 1e-9
@@ -287,7 +288,7 @@ def fit(
     Notes
     -----
     Least squares with known errors. Chi squared has kinks where the number of contact intervals
-    changes. Trials spread over the bounds are screened at once, and descents by lmfit start at the
+    changes. Trials spread over the bounds are screened at once, and descents start at the
     best: by trust region, then by Nelder and Mead's simplex if they stop at a kink. Other minima
     are reported in the notes.
 

@@ -1,22 +1,24 @@
 """The profile of chi squared over one parameter, with all others refitted, and its intervals."""
 
+import functools
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from stackbounce.errors import between
 from stackbounce.fitting.least_squares import Minimum, descend, spread_trials
-from stackbounce.fitting.objective import Objective
 from stackbounce.fitting.parameters import Parameter
-from stackbounce.fitting.quantities import Array
+from stackbounce.run.quantities import Array
+
+if TYPE_CHECKING:
+    from stackbounce.fitting.result import Fit
 
 _FIRST = 0.2  # of the expected distance of the limit: the first step
 _GROWTH = 1.6  # of each step over the one before
-_MOST = 60  # steps outwards, and inwards
-_EXACT = 1e-3  # of the rise of chi squared: how exactly a limit is found
-_NOTHING = 1e-12  # of a coordinate: chi squared jumps there
+_MOST = 60  # steps outwards
+_EXACT = 1e-4  # of the last step: how exactly a limit is found
 _SCREENED = 16  # trials at each value of a profile
 
 
@@ -43,38 +45,32 @@ class Profile:
 
     Parameters
     ----------
-    objective : Objective
-        What is fitted.
-    best : Minimum
-        The best minimum.
-    covariance : ndarray
-        (parameters, parameters) of the values there.
+    fit : Fit
+        With the best minimum.
     k : int
         The index of the parameter.
     """
 
-    objective: Objective
-    best: Minimum
-    covariance: Array
+    fit: "Fit"
     k: int
 
     @property
     def parameter(self) -> Parameter:
         """The parameter that is moved."""
-        return self.objective.parameters[self.k]
+        return self.fit.objective.parameters[self.k]
 
     def at(self, x: float, start: Array) -> Minimum:
         """Return the minimum at one coordinate of the parameter.
 
         The others start from a trial (parameters,), moved as if chi squared were quadratic.
         """
-        slopes = self.objective.value_slopes(self.best.x)
-        along = self.covariance[self.k] / slopes
+        objective = self.fit.objective
+        along = self.fit.covariance.values[self.k] / objective.value_slopes(self.fit.x)
         along = along / along[self.k]
-        spans = self.objective.spans
+        spans = objective.spans
         trial = np.clip(start + (x - start[self.k]) * along, spans[:, 0], spans[:, 1])
         trial[self.k] = x
-        return descend(self.objective, trial, fixed=self.k)
+        return descend(objective, trial, fixed=self.k)
 
     def evaluate(self, values: Array) -> Array:
         """Return chi squared (n,) at values of the parameter (n,); see `Fit.profile`.
@@ -82,7 +78,7 @@ class Profile:
         Each descent starts at the end of the one before, or at the best of some trials spread over
         the bounds of the others, as a profile may pass from one valley into another.
         """
-        objective, k, best = self.objective, self.k, self.best.x
+        objective, k, best = self.fit.objective, self.k, self.fit.x
         found = np.empty(len(values))
         spread = spread_trials(objective, _SCREENED, 0)[: 0 if objective.records else _SCREENED]
         for side in (-1.0, 1.0):
@@ -100,51 +96,37 @@ class Profile:
 
     def interval(self, sigma: float) -> Interval:
         """Return where chi squared has risen by `sigma` squared; see `Fit.intervals`."""
-        rise = sigma**2
-        slope = abs(self.parameter.slope(float(self.best.x[self.k])))
-        expected = float(np.sqrt(self.covariance[self.k, self.k] * rise)) / slope
-        ends = [self._limit(rise, expected, side) for side in (-1, 1)]
-        (low, low_bound), (high, high_bound) = ends
+        (low, low_is_bound), (high, high_is_bound) = (self._limit(sigma, side) for side in (-1, 1))
         values = self.parameter.value(np.array([low, high]))
-        return Interval(float(values[0]), float(values[1]), low_bound, high_bound)
+        return Interval(float(values[0]), float(values[1]), low_is_bound, high_is_bound)
 
-    def _limit(self, rise: float, expected: float, side: int) -> tuple[float, bool]:
-        """Return the coordinate of one limit, and whether it is a bound."""
-        low, high = self.parameter.span
-        bound = low if side < 0 else high
-        step = min(max(_FIRST * expected, 1e-6 * (high - low)), 0.1 * (high - low))
-        inner, start = (float(self.best.x[self.k]), 0.0), self.best.x
-        for _ in range(_MOST):
-            x = inner[0] + side * step
-            beyond = (x - bound) * side >= 0.0
-            x = bound if beyond else x
-            end = self.at(x, start)
-            outer = (x, end.chi_squared - self.best.chi_squared)
-            if outer[1] >= rise:
-                return self._root(rise, inner, outer, start), False
-            if beyond:
-                break
-            inner, start, step = outer, end.x, _GROWTH * step
-        return bound, True
+    def _limit(self, sigma: float, side: int) -> tuple[float, bool]:
+        """Return the coordinate of one limit, and whether it is a bound.
 
-    def _root(
-        self, rise: float, inner: tuple[float, float], outer: tuple[float, float], start: Array
-    ) -> float:
-        """Return where chi squared has risen so far, between two coordinates with their rises.
-
-        The square root of the rise is nearly linear; every third step halves the distance.
+        The square root of the rise of chi squared is nearly linear. Each descent starts at the end
+        of the last one below the limit.
         """
-        x = outer[0]
-        for count in range(_MOST):
-            roots = [math.sqrt(max(end[1], 0.0)) for end in (inner, outer)]
-            share = (math.sqrt(rise) - roots[0]) / (roots[1] - roots[0])
-            x = inner[0] + (0.5 if count % 3 == 2 else share) * (outer[0] - inner[0])
+        from scipy.optimize import brentq
+
+        (low, high), least = self.parameter.span, self.fit.chi_squared
+        start, inner = self.fit.x, float(self.fit.x[self.k])
+
+        @functools.cache
+        def beyond(x: float) -> float:
+            nonlocal start
             end = self.at(x, start)
-            now = (x, end.chi_squared - self.best.chi_squared)
-            if abs(now[1] - rise) < _EXACT * rise or abs(outer[0] - inner[0]) < _NOTHING * abs(x):
+            above = math.sqrt(max(end.chi_squared - least, 0.0)) - sigma
+            if above < 0.0:
+                start = end.x
+            return above
+
+        deviation = self.fit[self.parameter.name].std_dev / self.parameter.slope(inner)
+        step = min(max(_FIRST * sigma * deviation, 1e-6 * (high - low)), 0.1 * (high - low))
+        for _ in range(_MOST):
+            outer = min(max(inner + side * step, low), high)
+            if beyond(outer) >= 0.0:
+                return float(brentq(beyond, inner, outer, xtol=_EXACT * abs(outer - inner))), False
+            if outer in (low, high):
                 break
-            if now[1] < rise:
-                inner, start = now, end.x
-            else:
-                outer = now
-        return x
+            inner, step = outer, _GROWTH * step
+        return (low if side < 0 else high), True

@@ -1,18 +1,13 @@
 """What was measured of a drop: the names of quantities, and numbers with errors."""
 
 from collections.abc import Sequence
-from typing import Any, TypeAlias
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import Any
 
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.measure.quantities import LARGEST, deviation, quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.run.quantities import QUANTITIES
 from stackbounce.units import quantity
-
-Array: TypeAlias = NDArray[np.float64]
 
 
 def find_quantity(drop: Drop, name: str, path: str) -> tuple[str, int]:

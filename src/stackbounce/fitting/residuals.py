@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from stackbounce.fitting.objective import Objective, touch_name
-from stackbounce.fitting.quantities import Array
+from stackbounce.run.quantities import Array
 
 
 class Residual(NamedTuple):

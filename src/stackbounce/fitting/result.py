@@ -10,16 +10,17 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, positive, shown, unmasked
 from stackbounce.fitting import notes, posterior
-from stackbounce.fitting.course import Progress, announce
-from stackbounce.fitting.covariance import estimate_covariance, find_directions, find_leverages
+from stackbounce.fitting.course import announce
+from stackbounce.fitting.covariance import estimate_covariance, find_directions
 from stackbounce.fitting.least_squares import Minimum
 from stackbounce.fitting.objective import Objective, differences
 from stackbounce.fitting.posterior import Posterior
 from stackbounce.fitting.profile import Interval, Profile
-from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.residuals import Record, Residual, list_records, list_residuals
 from stackbounce.model import Drop
 from stackbounce.prediction import Prediction, predict
+from stackbounce.prediction.draws import Progress
+from stackbounce.run.quantities import Array
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
@@ -108,10 +109,11 @@ class Fit:
 
         The directions are orthogonal in coordinates that run from 0 to 1 between the bounds.
         """
-        return find_directions(self.objective, self._slopes)
+        return find_directions(self.objective, self.slopes)
 
     @functools.cached_property
-    def _slopes(self) -> Array:
+    def slopes(self) -> Array:
+        """(residuals, parameters) derivatives of the residuals by the search coordinates."""
         return self.objective.linearise(self.x)[1]
 
     @property
@@ -187,15 +189,7 @@ class Fit:
     @functools.cached_property
     def notes(self) -> tuple[str, ...]:
         """Warnings about the fit, a sentence each."""
-        leverages = find_leverages(self.objective, self._slopes, *self.directions)
-        return (
-            *notes.note_search(self.minima[0], self.unsolved),
-            *self.undetermined,
-            *notes.note_bounds(self.objective, self.x),
-            *notes.note_misfits(
-                self.objective, self.minima, self.residuals, leverages, self.degrees_of_freedom
-            ),
-        )
+        return tuple(notes.list_notes(self))
 
     @functools.cached_property
     def undetermined(self) -> tuple[str, ...]:
@@ -232,7 +226,7 @@ class Fit:
         course, expected = self.objective.course, _LINEARISED * count * (2 * count + 1)
         announce(f"intervals of {count} numbers", course.cost(expected), "fit fewer numbers")
         with course.reported(progress, expected):
-            return {name: self._profile(k).interval(reach) for k, name in enumerate(self.names)}
+            return {name: Profile(self, k).interval(reach) for k, name in enumerate(self.names)}
 
     def profile(self, name: str, values: Any) -> Array:
         """Return chi squared at values of one parameter, with all others refitted at each.
@@ -255,10 +249,7 @@ class Fit:
             If it was not varied, or a value lies outside the bounds.
         """
         k = self.names.index(self._known(name))
-        return self._profile(k).evaluate(np.asarray(unmasked("values", values), dtype=float))
-
-    def _profile(self, k: int) -> Profile:
-        return Profile(self.objective, self.minima[0], self.covariance.values, k)
+        return Profile(self, k).evaluate(np.asarray(unmasked("values", values), dtype=float))
 
     def sample(self, draws: int = 16_000, **options: Any) -> Posterior:
         """Return draws from the posterior distribution of the parameters.
@@ -280,9 +271,7 @@ class Fit:
         InvalidValue
             If the draws are too few.
         """
-        deviations = np.sqrt(np.diag(self.covariance.values))
-        others = len(self.minima) - 1
-        return posterior.sample(self.objective, self.x, deviations, draws, others=others, **options)
+        return posterior.sample(self, draws, **options)
 
     def predict(
         self, drop: str | None = None, *, posterior: Posterior | None = None, **options: Any
@@ -374,14 +363,11 @@ class Fit:
         trials = self.objective.neighbours(self.x)
         parameters = np.array(list(self.objective.values(trials).values()))
         moved = np.diag(differences(parameters.T))
-        found = {}
-        for number, column in self.objective.rows(key, trials).items():
-            slopes = (differences(column) / moved).tolist()
-            value: Any = float(column[-1])
-            for own, slope in zip(self.values.values(), slopes, strict=True):
-                value = value + slope * (own - own.nominal_value)
-            found[number.path] = value
-        return found
+        apart = [own - own.nominal_value for own in self.values.values()]
+        return {
+            number.path: float(column[-1]) + np.dot(differences(column) / moved, apart)
+            for number, column in self.objective.rows(key, trials).items()
+        }
 
     def as_dict(self) -> dict[str, Any]:
         """Return the result as plain values, for JSON."""

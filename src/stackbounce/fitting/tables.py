@@ -1,6 +1,5 @@
 """Drops from a table: each row is a drop of the same stack with what was measured of it."""
 
-import io
 import os
 import re
 from collections.abc import Mapping, Sequence
@@ -10,7 +9,7 @@ from typing import Any, NamedTuple
 
 from stackbounce.errors import FileError, InvalidType, InvalidValue, nearest, positive, shown
 from stackbounce.files import content_of
-from stackbounce.fitting.files import read_force_record
+from stackbounce.fitting.files import check_name, read_force_record
 from stackbounce.fitting.quantities import find_quantity
 from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.measure.reading.headings import heading
@@ -96,7 +95,7 @@ def read_drops(
     name, content = content_of(path, BYTES)
     try:
         refuse_others(content)
-        rows = _split_rows(drop, decode(content))
+        rows = _split_rows(decode(content))
     except FileError as error:
         raise FileError(f"{name}: {error}") from error
     try:
@@ -105,33 +104,20 @@ def read_drops(
         raise type(error)(f"{name}: {error}") from error
 
 
-def _split_rows(drop: Drop, content: str) -> list[tuple[int, list[str]]]:
+def _split_rows(content: str) -> list[tuple[int, list[str]]]:
     """Return the number from 1 and the cells of each line that is not blank."""
     rows: list[tuple[int, list[str]]] = []
     delimiter = ""
-    for line, text in enumerate(io.StringIO(content), 1):
-        if len(text) > LINE + 1:
+    for line, text in enumerate(content.split("\n"), 1):
+        if len(text) > LINE:
             raise FileError(f"row {line} has more than {LINE} characters")
-        if not text.strip(" \t;,\n"):
+        if not text.strip(" \t;,"):
             continue
-        delimiter = delimiter or _delimiter(drop, text)
+        delimiter = delimiter or next((mark for mark in "\t;," if mark in text), "\t")
         if text.count(delimiter) >= COLUMNS or len(rows) > _MOST:
             raise FileError(f"it has more than {COLUMNS} columns or {_MOST} drops")
-        rows.append((line, split(text.rstrip("\n"), delimiter)))
+        rows.append((line, split(text, delimiter)))
     return rows
-
-
-def _delimiter(drop: Drop, first: str) -> str:
-    """Return the delimiter with which a heading has most known names."""
-    numbers = {*numbers_of(drop), *_FALLS, "name"}
-
-    def known(cell: str) -> bool:
-        name = heading(cell.casefold().removeprefix(_ERROR)).name
-        base, _, index = name.partition(".")
-        measured = base == "force" or base in QUANTITIES
-        return name in numbers or (measured and (not index or index.isdecimal()))
-
-    return max("\t;,", key=lambda mark: sum(map(known, split(first[: LINE // 8], mark))))
 
 
 def _drops(
@@ -142,15 +128,9 @@ def _drops(
     (_, first), *rows = rows
     columns = [_column(drop, cell) for cell in first]
     _check_columns(columns)
-    units = {(column.kind, column.name): column.unit for column in columns}
-    columns = [
-        column._replace(unit=column.unit or units["data", column.name])
-        if column.kind == "error"
-        else column
-        for column in columns
-    ]
     if not rows:
         raise InvalidValue("it has a heading but no drop below it")
+    units = {column.name: column.unit for column in columns if column.kind == "data"}
     comma = _has_commas(columns, rows)
     drops: dict[str, Drop] = {}
     data: dict[str, dict[str, Any]] = {}
@@ -161,17 +141,11 @@ def _drops(
         for column, cell in zip(columns, cells, strict=False):
             if cell and column.kind:
                 text = cell.replace(",", ".") if comma and column.numeric else cell
-                alone = column.unit and _UNITLESS.fullmatch(text)
-                where = f"row {line}, {column.text}"
-                row[column.kind][column.name] = _Cell(
-                    f"{text} {column.unit}" if alone else text, where
-                )
+                unit = column.unit or units.get(column.name)  # an error has that of its number
+                text = f"{text} {unit}" if unit and _UNITLESS.fullmatch(text) else text
+                row[column.kind][column.name] = _Cell(text, f"row {line}, {column.text}")
         name = row["name"]["name"].text if row["name"] else f"drop_{k}"
-        if not name.isidentifier() or name in drops:
-            raise InvalidValue(
-                f"row {line}, name must be a name of its own in letters, digits and _, such as "
-                f"B2_on_B1, got {shown(name)}"
-            )
+        check_name(f"row {line}, name", name, drops)
         drops[name] = _drop(drop, row["number"], line)
         data[name] = _data(row, folder)
         if not data[name]:
@@ -224,23 +198,21 @@ def _check_columns(columns: Sequence[_Column]) -> None:
 
 def _has_commas(columns: Sequence[_Column], rows: Sequence[tuple[int, list[str]]]) -> bool:
     """Return whether commas are decimal marks; refuse numbers that could be read in two ways."""
-    found = [
+    numbers = [
         (mark[0], f"row {line}, {column.text}")
         for line, cells in rows
         for column, cell in zip(columns, cells, strict=False)
         if column.numeric
         for mark in _MARKED.finditer(cell)
     ]
-    commas = [(text, where) for text, where in found if "," in text]
-    points = [text for text, _ in found if "." in text]
-    if not commas:
-        return False
-    text, where = commas[0]
-    if points:
-        raise InvalidValue(f"{where}: {text} has a comma, but {points[0]} a decimal point")
-    if all(_GROUPED.fullmatch(number) for number, _ in commas):
-        raise InvalidValue(f"{where}: {text} can be read in two ways: write it without a comma")
-    return True
+    commas = [(text, where) for text, where in numbers if "," in text]
+    point = next((text for text, _ in numbers if "." in text), "")
+    for text, where in commas[:1]:
+        if point:
+            raise InvalidValue(f"{where}: {text} has a comma, but {point} a decimal point")
+        if all(_GROUPED.fullmatch(number) for number, _ in commas):
+            raise InvalidValue(f"{where}: {text} can be read in two ways: write it without a comma")
+    return bool(commas)
 
 
 def _drop(drop: Drop, row: Mapping[str, _Cell], line: int) -> Drop:

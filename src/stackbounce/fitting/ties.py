@@ -10,9 +10,9 @@ import numpy as np
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fitting.formula import Formula, read_formula
 from stackbounce.fitting.parameters import Parameter, find_numbers, list_paths
-from stackbounce.fitting.quantities import Array
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, numbers_of, value_in
+from stackbounce.run.quantities import Array
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,6 @@ from stackbounce.measure.kinds.waveform.analysis import waveform as analysed
 from stackbounce.model import Drop
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from stackbounce.measure.kinds.waveform.result import Waveform as Analysed
 
 # The fit seeks the touch this far from where the analysis finds it: the largest of the three.
@@ -148,20 +146,18 @@ def _begins(found: "Analysed", index: int) -> tuple[float, float]:
 
 
 def _arrays(value: Any, path: str) -> tuple[Any, Any, Any, bool]:
+    """Return times, forces, their error, and whether the scale is free."""
     if hasattr(value, "dims"):
-        array: xr.DataArray = value
-        if array.dims != ("time",):
-            raise InvalidValue(f"{path} must have the dimension time alone, got {array.dims}")
-        stamps = np.asarray(array["time"].values, dtype=float)
-        samples = np.asarray(array.values, dtype=float)
-        return stamps, samples, array.attrs.get("error"), array.attrs.get("units", "") != "N"
+        if value.dims != ("time",):
+            raise InvalidValue(f"{path} must have the dimension time alone, got {value.dims}")
+        error, unit = value.attrs.get("error"), value.attrs.get("units", "")
+        return value["time"].values, value.values, error, unit != "N"
     unmasked(path, value)
     try:
         times, force, error = value if len(value) == 3 else (*value, None)
-        stamps, samples = np.asarray(times, dtype=float), np.asarray(force, dtype=float)
     except (TypeError, ValueError) as problem:
         raise InvalidType(
             f"{path} must be a DataArray over time, or times, forces and their error, "
             f"got {shown(value)}"
         ) from problem
-    return stamps, samples, error, False
+    return times, force, error, False

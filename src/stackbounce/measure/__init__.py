@@ -14,7 +14,6 @@ drag          the drag of the air in measured flights
 constants     contact time and restitution -> stiffness, constants of any law
 assembly      results -> a law, a ball to drop
 messages      texts with options that they recommend, worded for each user interface
-unrecognised  a table of an unknown kind: its columns, and how to go on
 quantities    numbers with errors; a row of a table
 samples       columns of a Dataset or arrays, runs, rounding, areas
 statistics/   regression, change points, AR noise, error propagation

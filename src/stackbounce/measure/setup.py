@@ -145,9 +145,5 @@ def lowest_point(
 
 
 def _length(name: str, value: Number | float) -> Number | float:
-    from uncertainties import UFloat
-
-    if isinstance(value, UFloat):
-        positive(name, value.nominal_value, "metres")
-        return value
-    return positive(name, value, "metres")
+    positive(name, getattr(value, "nominal_value", value), "metres")
+    return value

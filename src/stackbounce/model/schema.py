@@ -5,7 +5,7 @@ The dataclasses validate the values. Reading only adds the path to their error m
 """
 
 import functools
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, fields
 from typing import Any, TypeVar, get_type_hints
 
@@ -31,14 +31,15 @@ def read_mapping(kind: type[_T], mapping: object) -> _T:
     }
     values["balls"] = _each(read_ball, table["balls"], "balls")
     values["contacts"] = _each(read_law, table["contacts"], "contacts")
-    return _made(kind, values, "")
+    return _raised("", kind, **values)
 
 
 def read_ball(value: object, path: str) -> Ball:
     """Return the ball that a mapping describes; `path` begins the messages."""
     table = _table(value, path)
     _check_keys(Ball, table, path)
-    return _made(Ball, {key: _value(Ball, key, one, path) for key, one in table.items()}, path)
+    values = {key: _value(Ball, key, one, path) for key, one in table.items()}
+    return _raised(path, Ball, **values)
 
 
 def read_law(value: object, path: str) -> ContactLaw | None:
@@ -58,7 +59,7 @@ def read_law(value: object, path: str) -> ContactLaw | None:
     _check_keys(kind, table, path)
     exponent = _value(kind, "exponent", table["exponent"], path) if "exponent" in table else 1.0
     values = {key: _value(kind, key, one, path, exponent) for key, one in table.items()}
-    return _made(kind, values, path)
+    return _raised(path, kind, **values)
 
 
 def write_mapping(drop: Any) -> dict[str, Any]:
@@ -110,7 +111,7 @@ def _value(kind: type, key: str, value: object, path: str, exponent: float = 1.0
     if unit is None:
         return value
     if "exponent" in unit.symbol:
-        _raised(between, f"{path}.exponent", exponent, 1.0, STEEPEST)
+        _raised("", between, f"{path}.exponent", exponent, 1.0, STEEPEST)
         power = "" if exponent == 1.0 else f"**{exponent!r}"
         unit = Unit(unit.symbol.replace("**exponent", power))
     if isinstance(value, list | tuple):
@@ -121,7 +122,7 @@ def _value(kind: type, key: str, value: object, path: str, exponent: float = 1.0
 
 
 def _quantity(value: object, unit: Unit, path: str) -> float:
-    return float(_raised(quantity, value, unit.symbol, path))
+    return _raised("", quantity, value, unit.symbol, path)
 
 
 @functools.cache
@@ -129,18 +130,12 @@ def _units(kind: type) -> dict[str, Unit | None]:
     return {key: unit_of(hint) for key, hint in get_type_hints(kind, include_extras=True).items()}
 
 
-def _made(kind: type[_T], values: dict[str, Any], path: str) -> _T:
+def _raised(path: str, make: Callable[..., _T], *arguments: object, **values: Any) -> _T:
+    """Return what a function returns; its errors are those of a scenario, at a path."""
     try:
-        return kind(**values)
+        return make(*arguments, **values)
     except (InvalidValue, InvalidType) as error:
         raise ScenarioError(_join(path, str(error))) from error
-
-
-def _raised(function: Any, *arguments: object) -> Any:
-    try:
-        return function(*arguments)
-    except (InvalidValue, InvalidType) as error:
-        raise ScenarioError(str(error)) from error
 
 
 def _join(path: str, key: str) -> str:

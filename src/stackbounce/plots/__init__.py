@@ -9,15 +9,6 @@ from stackbounce.plots.posterior import corner
 from stackbounce.plots.stacks import highest
 from stackbounce.plots.sweep_curves import heatmap, lines
 
-__all__ = [
-    "bounce",
-    "compared",
-    "corner",
-    "fitted",
-    "heatmap",
-    "highest",
-    "lines",
-    "measured",
-]
+__all__ = ["bounce", "compared", "corner", "fitted", "heatmap", "highest", "lines", "measured"]
 
 need("plots", "a picture")

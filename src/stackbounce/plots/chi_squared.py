@@ -103,7 +103,7 @@ def _kinks(fit: Any, trials: Array) -> list[NDArray[np.int64]]:
     """Return the number of contact intervals per trial, for each contact where it varies."""
     found = []
     for key in fit.objective.measured:
-        counts = fit.objective.outcomes(key, trials)[0].collisions
+        counts = fit.objective.solve(key, trials)["collisions"]
         found += [count for count in counts.T if np.ptp(count) > 0]
     return found
 

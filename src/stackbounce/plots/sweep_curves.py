@@ -16,14 +16,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-TITLES = {
-    "rebound_ratio": "rebound ratio",
-    "collisions": "collisions",
-    "energy_retained": "energy retained",
-    "first_touch": "first touch",
-    "last_release": "last release",
-}
-"""The variables that can be drawn, with their titles."""
+SHOWN = ("rebound_ratio", "collisions", "energy_retained", "first_touch", "last_release")
+"""The variables that can be drawn."""
 
 IN_A_ROW = 4
 """The largest number of entries in a horizontal legend."""
@@ -124,7 +118,7 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
     'contacts.1.stiffness (N/m)'
     """
     data, (up, across), part, own, unfinished = _prepared(data, show, 2)
-    title = TITLES[show]
+    title = show.replace("_", " ")
     if part:
         title += f" of {name_of(data, part, _index(own, part, index))}"
         own = own.isel({part: index})
@@ -180,7 +174,7 @@ def _label_values(axes: "Axes", show: str, own: "xr.DataArray", rows: NDArray[An
             middle = float(np.nanmean(rows)) if np.isfinite(rows).any() else 0.0
             wide = 0.5 * abs(middle) or 1.0
             axes.set_ylim(middle - wide, middle + wide)
-    axes.set_ylabel(f"{TITLES[show]} ({unit})" if unit else TITLES[show])
+    axes.set_ylabel(show.replace("_", " ") + (f" ({unit})" if unit else ""))
 
 
 def _counts_on(axes: "Axes", rows: NDArray[Any]) -> list[NDArray[Any]]:
@@ -224,8 +218,8 @@ def _prepared(
     from stackbounce.run.result import Status
 
     check_source(data, "status", "sweep")
-    if show not in TITLES:
-        raise InvalidValue(f"show must name a result, got {shown(show)}; {nearest(show, TITLES)}")
+    if show not in SHOWN:
+        raise InvalidValue(f"show must name a result, got {shown(show)}; {nearest(show, SHOWN)}")
     dims = data["status"].dims
     if len(dims) != count:
         right = "one dimension" if count == 1 else "two dimensions"

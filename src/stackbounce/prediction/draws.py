@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue
-from stackbounce.prediction.inputs import FEWEST, Array, Inputs
+from stackbounce.prediction.inputs import FEWEST, Inputs
 from stackbounce.run.options import Options
-from stackbounce.run.quantities import QUANTITIES, Solved
+from stackbounce.run.quantities import QUANTITIES, Array, Solved
 from stackbounce.run.result import Status
 
 DRAWS = 10_000
@@ -20,7 +20,6 @@ _FIRST = 4  # draws that are run before it is known what they cost
 Progress = Callable[[int, int], object]
 """Is called with the number of draws done and the number of all."""
 
-STEP = 0.1  # of a standard deviation, for central differences
 ROUND_OFF = 1e-10  # relative: differences of this size are none
 
 _ALLOWED = 0.1  # root mean square of their differences, in standard deviations of the result
@@ -122,22 +121,17 @@ def differentiate(
         The largest difference between a quantity of the draws and its straight line: root mean
         square, in standard deviations of the quantity.
     """
-    count = len(inputs.numbers)
-    steps = np.diag(STEP * inputs.deviations)
-    x = np.concatenate([inputs.values[None], inputs.values + steps, inputs.values - steps])
-    near = inputs.solve(x, options)
-    found = {
-        name: np.concatenate([table, solved.tables[name]]) for name, table in near.tables.items()
-    }
+    near = inputs.solve(inputs.neighbours, options)
     reason = _changed_status(np.concatenate([near.status, solved.status]))
-    reason = reason or _changed_counts(found.pop("collisions"))
-    widths = np.where(inputs.deviations > 0.0, 2.0 * STEP * inputs.deviations, np.inf)
+    reason = reason or _changed_counts(
+        np.concatenate([near.tables.pop("collisions"), solved.tables["collisions"]])
+    )
     slopes, largest = {}, 0.0
-    for name, table in found.items():
-        up, down, tested = np.split(table[1:], [count, 2 * count])
-        slope = ((up - down) / widths[:, None]).T
-        slopes[name] = table[0], slope
-        lines = table[0] + (draws - inputs.values) @ slope.T
+    for name, around in near.tables.items():
+        slope, tested = inputs.slopes(around).T, solved.tables[name]
+        slopes[name] = around[0], slope
+        lines = around[0] + (draws - inputs.values) @ slope.T
+        table = np.concatenate([around, tested])
         for part in np.flatnonzero(np.any(np.isfinite(table), axis=0)):
             here = f"{name}.{part}" if QUANTITIES[name].part else name
             if not np.all(np.isfinite(table[:, part])):

@@ -8,7 +8,7 @@ import functools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,15 +19,14 @@ from stackbounce.model import Drop
 from stackbounce.run.columns import check
 from stackbounce.run.options import Options
 from stackbounce.run.paths import Number, drop_at, number_at, value_in
-from stackbounce.run.quantities import Solved, solve_quantities
+from stackbounce.run.quantities import Array, Solved, solve_quantities
 from stackbounce.sweeps.dataset import check_together
 from stackbounce.units import quantity
-
-Array: TypeAlias = NDArray[np.float64]
 
 FEWEST = 100
 """The least number of draws."""
 
+_STEP = 0.1  # of a standard deviation, for central differences
 _ROUND_OFF = 1e-12  # relative: an error of this size is none
 _ATTEMPTS = 50  # rounds of draws, of which some are possible drops
 
@@ -96,6 +95,18 @@ class Inputs:
         """Return the drop with other numbers (numbers,)."""
         return drop_at(self.base, dict(zip(self.numbers, x.tolist(), strict=True)))
 
+    @property
+    def neighbours(self) -> Array:
+        """(2 numbers + 1, numbers) the values, then each number larger, then each smaller."""
+        steps = np.diag(_STEP * self.deviations)
+        return np.concatenate([self.values[None], self.values + steps, self.values - steps])
+
+    def slopes(self, answers: Array) -> Array:
+        """Return the derivatives (numbers, ...) of what follows of `neighbours`."""
+        larger, smaller = np.split(answers[1:], 2)
+        widths = np.where(self.deviations > 0.0, 2.0 * _STEP * self.deviations, np.inf)
+        return np.asarray(((larger - smaller).T / widths).T)
+
     def solve(self, x: Array, options: Options) -> Solved:
         """Return all quantities of drops with numbers (n, numbers)."""
         rows = dict(zip(self.numbers, x.T, strict=True))
@@ -117,10 +128,8 @@ class Inputs:
 
     def linear(self, value: float, slopes: Array) -> Any:
         """Return a value that depends on the numbers with these derivatives (numbers,)."""
-        found: Any = known_to(value, 0.0)
-        for number, slope in zip(self.errors, slopes.tolist(), strict=True):
-            found += slope * (number - number.nominal_value)
-        return found
+        apart = [number - number.nominal_value for number in self.errors]
+        return known_to(value, 0.0) + np.dot(slopes, apart)
 
     def draw(self, count: int, seed: int) -> tuple[Array, str, float]:
         """Return draws from the normal distribution of the numbers that are possible drops.

@@ -2,7 +2,7 @@
 
 import functools
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,11 +11,11 @@ import numpy as np
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
 from stackbounce.prediction.draws import Slopes, budget
-from stackbounce.prediction.inputs import FEWEST, Array, Inputs, error_of_deviation, of_draws
+from stackbounce.prediction.inputs import FEWEST, Inputs, error_of_deviation, of_draws
 from stackbounce.prediction.runs import Runs
-from stackbounce.prediction.sensitivity import fit_slopes, linear_shares, sobol_indices
+from stackbounce.prediction.sensitivity import Sensitivity, fit_slopes, linear_shares, sobol_indices
 from stackbounce.run.options import Options
-from stackbounce.run.quantities import QUANTITIES, Solved
+from stackbounce.run.quantities import QUANTITIES, Array, Solved
 from stackbounce.run.result import Result, Status
 from stackbounce.units import rounded
 from stackbounce.version import __version__
@@ -215,9 +215,7 @@ class Prediction:
             (n,) in SI units; nan if no draw has the number.
         """
         _ = self[name]
-        base, _, part = name.partition(".")
-        column = self.draws[base].values
-        return np.asarray(np.nanquantile(column[:, int(part)] if part else column, at))
+        return np.asarray(np.nanquantile(self._columns[name], at))
 
     @functools.cached_property
     def sensitivity(self) -> "xr.Dataset":
@@ -234,14 +232,8 @@ class Prediction:
         half = min(len(self.drawn) // 2, self._affordable(len(self.inputs.numbers)))
         enough = self.reason and self.inputs.independent and half >= FEWEST // 2
         found = self._sobol(half) if enough else self._linear()
-        labels = [
-            _label(name, k) for name, shares in found.items() for k in range(len(shares.first))
-        ]
-        fields = {
-            key: (("quantity", "number"), np.concatenate([getattr(s, key) for s in found.values()]))
-            for key in ("first", "first_error", "total", "total_error")
-        }
-        return xr.Dataset(fields, {"quantity": labels, "number": self.inputs.paths})
+        fields = {key: (("quantity", "number"), table) for key, table in found._asdict().items()}
+        return xr.Dataset(fields, {"quantity": list(self._columns), "number": self.inputs.paths})
 
     def advice(self, name: str = "") -> str:
         """Return which number to measure better, in a sentence; empty if there is only one.
@@ -312,11 +304,7 @@ class Prediction:
         if bad:
             found.append(f"{bad} of {len(status)} drops did not finish and were left out")
         if self.reason:
-            errors = {
-                _label(name, part): error_of_deviation(column)
-                for name in _FLOATS
-                for part, column in enumerate(self.solved.tables[name].T)
-            }
+            errors = {name: error_of_deviation(column) for name, column in self._columns.items()}
             rough = [name for name, error in errors.items() if error > _ROUGH]
             if rough:
                 names = ", ".join(rough[:3]) + " and others" * (len(rough) > 3)
@@ -422,44 +410,50 @@ class Prediction:
 
     @functools.cached_property
     def _all(self) -> dict[str, Any]:
-        return dict(self._values())
-
-    def _values(self) -> Iterator[tuple[str, Any]]:
-        """Yield the names and values of all quantities."""
+        """All quantities with their errors, by their whole names."""
+        found: dict[str, Any] = {}
         for name in _FLOATS:
             if self.reason:
                 table = self.solved.tables[name]
                 scale = float(np.max(np.abs(table), initial=0.0, where=np.isfinite(table)))
-                for part, column in enumerate(table.T):
-                    yield _label(name, part), of_draws(column, scale)
+                values = [of_draws(column, scale) for column in table.T]
             else:
-                values, slopes = self.slopes[name]
-                for part, value in enumerate(values.tolist()):
-                    yield _label(name, part), self.inputs.linear(value, slopes[part])
+                values = [
+                    self.inputs.linear(value, slopes)
+                    for value, slopes in zip(*self.slopes[name], strict=True)
+                ]
+            found |= {_label(name, part): value for part, value in enumerate(values)}
+        return found
 
     def _parts(self, name: str) -> list[Any]:
         return [self[f"{name}.{k}"] for k in range(len(self.drop.balls))]
 
-    def _solve(self, x: Array) -> dict[str, Array]:
-        """Return all quantities of some drops; nan for those that are not possible."""
+    @functools.cached_property
+    def _columns(self) -> dict[str, Array]:
+        """The draws (draws,) of each quantity by its whole name."""
+        return {
+            _label(name, part): column
+            for name in _FLOATS
+            for part, column in enumerate(self.solved.tables[name].T)
+        }
+
+    def _solve(self, x: Array) -> Array:
+        """Return all quantities (n, parts) of some drops; nan for those that are not possible."""
         good, _ = self.inputs.possible(x)
         x = np.where(good[:, None], x, self.inputs.values)
         tables = self.inputs.solve(x, self.options).tables
-        return {name: np.where(good[:, None], table, np.nan) for name, table in tables.items()}
+        return np.where(good[:, None], np.hstack([tables[name] for name in _FLOATS]), np.nan)
 
-    def _linear(self) -> dict[str, Any]:
-        inputs, slopes = self.inputs, {name: slope for name, (_, slope) in self.slopes.items()}
+    def _linear(self) -> Sensitivity:
         if self.reason:
-            slopes = {name: fit_slopes(self.drawn, self.solved.tables[name]) for name in _FLOATS}
-        return {
-            name: linear_shares(slope, inputs.covariance, independent=inputs.independent)
-            for name, slope in slopes.items()
-        }
+            slopes = fit_slopes(self.drawn, np.column_stack(list(self._columns.values())))
+        else:
+            slopes = np.vstack([slope for _, slope in self.slopes.values()])
+        return linear_shares(slopes, self.inputs.covariance, independent=self.inputs.independent)
 
-    def _sobol(self, half: int) -> dict[str, Any]:
-        answers = {name: self.solved.tables[name][: 2 * half] for name in _FLOATS}
-        first, second = self.drawn[:half], self.drawn[half : 2 * half]
-        return sobol_indices(self._solve, first, second, answers)
+    def _sobol(self, half: int) -> Sensitivity:
+        answers = np.column_stack(list(self._columns.values()))[: 2 * half]
+        return sobol_indices(self._solve, self.drawn[:half], self.drawn[half : 2 * half], answers)
 
 
 def _label(name: str, part: int) -> str:

@@ -7,10 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.prediction.draws import ROUND_OFF, STEP
-from stackbounce.prediction.inputs import Array, Inputs, of_draws
+from stackbounce.prediction.draws import ROUND_OFF
+from stackbounce.prediction.inputs import Inputs, of_draws
 from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options
+from stackbounce.run.quantities import Array
 from stackbounce.run.result import Result
 
 _ONE_SIGMA = (0.159, 0.841)
@@ -42,10 +43,8 @@ class Runs:
     @functools.cached_property
     def results(self) -> list[Result]:
         """The runs of draws; or the best one, those with each number larger, those with smaller."""
-        if self.drawn is not None:
-            return [self._simulate(x) for x in self.drawn]
-        values, steps = self.inputs.values, np.diag(STEP * self.inputs.deviations)
-        return [self.best, *map(self._simulate, [*(values + steps), *(values - steps)])]
+        rows = self.inputs.neighbours if self.drawn is None else self.drawn
+        return [self._simulate(x) for x in rows]
 
     def carry(self, function: Callable[[Result], Mapping[Any, float]]) -> dict[Any, Any]:
         """Return numbers of the results with errors, and the share of the results with each."""
@@ -58,7 +57,10 @@ class Runs:
             if self.drawn is None and share == 1.0:
                 if np.ptp(column) <= ROUND_OFF * np.max(np.abs(column)):
                     column[:] = column[0]
-                found[name] = self.inputs.linear(float(column[0]), self._slopes(column)), share
+                found[name] = (
+                    self.inputs.linear(float(column[0]), self.inputs.slopes(column)),
+                    share,
+                )
             else:
                 found[name] = of_draws(column), share
         return found
@@ -70,16 +72,9 @@ class Runs:
         if self.drawn is not None:
             low, high = np.nanquantile(curves, _ONE_SIGMA, axis=0)
             return low, high
-        each = np.tensordot(self.inputs.spread.T, self._slopes(curves), axes=1)
+        each = np.tensordot(self.inputs.spread.T, self.inputs.slopes(curves), axes=1)
         deviation = np.sqrt(np.sum(each**2, axis=0))
         return curves[0] - deviation, curves[0] + deviation
-
-    def _slopes(self, answers: Array) -> Array:
-        """Return the derivatives (numbers, ...) of answers (results, ...)."""
-        up, down = np.split(answers[1:], 2)
-        widths = 2.0 * STEP * self.inputs.deviations
-        widths[widths == 0.0] = np.inf
-        return np.asarray(((up - down).T / widths).T)
 
     def _simulate(self, x: Array) -> Result:
         return solve_one(self.inputs.drop_at(x), self.options)

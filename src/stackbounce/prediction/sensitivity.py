@@ -1,17 +1,17 @@
 """Which number makes how much of a variance: shares by derivatives, and Sobol indices."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
-from stackbounce.prediction.inputs import Array
+from stackbounce.run.quantities import Array
 
 _ROUND_OFF = 1e-10  # relative: a standard deviation of this size is none
 
 
 class Sensitivity(NamedTuple):
-    """Shares of the numbers in the variance of a quantity.
+    """Shares of the numbers in the variance of quantities.
 
     Parameters
     ----------
@@ -82,25 +82,22 @@ def fit_slopes(draws: Array, answers: Array) -> Array:
 
 
 def sobol_indices(
-    solve: Callable[[Array], Mapping[str, Array]],
-    first: Array,
-    second: Array,
-    answers: Mapping[str, Array],
-) -> dict[str, Sensitivity]:
-    """Return the Sobol indices of independent numbers for each quantity.
+    solve: Callable[[Array], Array], first: Array, second: Array, answers: Array
+) -> Sensitivity:
+    """Return the Sobol indices of independent numbers.
 
     Parameters
     ----------
     solve : callable
-        From numbers (n, numbers) to quantities (n, parts) by name; nan for what is not possible.
+        From numbers (n, numbers) to quantities (n, parts); nan for what is not possible.
     first, second : ndarray
         (n, numbers) two independent sets of draws.
-    answers : mapping
-        By name, (2 n, parts) quantities of the first set, then of the second one.
+    answers : ndarray
+        (2 n, parts) quantities of the first set, then of the second one.
 
     Returns
     -------
-    dict of str to Sensitivity
+    Sensitivity
 
     Notes
     -----
@@ -111,24 +108,14 @@ def sobol_indices(
     mixed = np.tile(first, (count, 1, 1))
     for k in range(count):
         mixed[k, :, k] = second[:, k]
-    found = solve(mixed.reshape(-1, count))
-    return {
-        name: _indices(answers[name], table.reshape(count, size, -1))
-        for name, table in found.items()
-        if name in answers
-    }
-
-
-def _indices(both: Array, changed: Array) -> Sensitivity:
-    """Return the indices from answers (2 n, parts), and (numbers, n, parts) with one exchanged."""
-    size = changed.shape[1]
-    whole = np.all(np.isfinite(both[:size] + both[size:] + changed), axis=0)
-    own, other = both[:size][None], both[size:][None]
-    found = np.full((4, *changed.shape[::2]), np.nan)
+    changed = solve(mixed.reshape(-1, count)).reshape(count, size, -1)
+    own, other = answers[:size], answers[size:]
+    whole = np.all(np.isfinite(own + other + changed), axis=0)
+    found = np.full((4, count, answers.shape[1]), np.nan)
     for part in np.flatnonzero(np.any(whole, axis=0)):
         ok = whole[:, part]
-        a, b, c = own[:, ok, part], other[:, ok, part], changed[:, ok, part]
-        known = np.concatenate([a, b], axis=None)
+        a, b, c = own[ok, part], other[ok, part], changed[:, ok, part]
+        known = np.concatenate([a, b])
         mean, variance = np.mean(known), np.var(known)
         if variance > (_ROUND_OFF * mean) ** 2:
             for k, terms in ((0, (b - mean) * (c - a)), (2, 0.5 * (a - c) ** 2)):

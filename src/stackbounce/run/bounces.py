@@ -2,7 +2,7 @@
 
 import dataclasses
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,28 +82,19 @@ def bounces_in_air(drop: Drop, count: int, air: Air | None = None) -> NDArray[An
             velocities=None,
             impact_speed=speed,
         )
-        impact = _impact(contact)
-        row = (time, speed, impact.rebound_speed, impact.contact_time)
-        released = time + impact.contact_time
+        rebound, lasting, depth = _impact(contact)
+        row, released = (time, speed, rebound, lasting), time + lasting
         # what is released while it is still flattened rises to its shape first
-        square = impact.rebound_speed**2 - 2.0 * gravity * impact.depth
+        square = rebound**2 - 2.0 * gravity * depth
         if square <= 0.0:
             rows.append((*row, released, 0.0))
             break
         leaving = math.sqrt(square)
         flight = air.flight(ball, leaving, gravity)
-        top = released + (impact.rebound_speed - leaving) / gravity + flight.rise_time
+        top = released + (rebound - leaving) / gravity + flight.rise_time
         rows.append((*row, top, flight.height))
         time, speed = top + flight.fall_time, flight.landing_speed
     return np.array(rows, dtype=BOUNCE)
-
-
-class _Impact(NamedTuple):
-    """An impact: speed after it in m/s, duration in s, and how deep in m the ball is released."""
-
-    rebound_speed: float
-    contact_time: float
-    depth: float
 
 
 def _start(drop: object, air: object) -> tuple[ContactLaw, float]:
@@ -125,8 +116,8 @@ def _start(drop: object, air: object) -> tuple[ContactLaw, float]:
     return law, speed
 
 
-def _impact(drop: Drop) -> _Impact:
-    """Return the impact of a ball on the floor."""
+def _impact(drop: Drop) -> tuple[float, float, float]:
+    """Return speed after an impact in m/s, its duration in s, and how deep in m it is released."""
     result = simulate(drop)
     speed = float(result.rebound_speeds[0])
     if result.status not in (Status.FINISHED, Status.SETTLED, Status.COLLAPSED):
@@ -136,6 +127,6 @@ def _impact(drop: Drop) -> _Impact:
         )
     end = float(result.intervals["end"][-1])
     if not math.isfinite(end):
-        return _Impact(0.0, end, 0.0)
+        return 0.0, end, 0.0
     depth = -float(result.rerun([end]).samples.position[0]) if end > 0.0 else 0.0
-    return _Impact(speed, end, max(depth, 0.0))
+    return speed, end, max(depth, 0.0)

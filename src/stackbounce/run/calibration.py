@@ -106,6 +106,7 @@ def calibrate(
     >>> round(calibrate(HuntCrossley, **measured).dissipation, 4)
     0.1653
     """
+    asked = {name: value for name, value in locals().items() if name != "law_class"}
     known_laws = LAWS | UNLISTED
     if not isinstance(law_class, type) or law_class not in known_laws.values():
         known = ", ".join(known_laws)
@@ -113,18 +114,6 @@ def calibrate(
             f"law_class must be the class of a contact law ({known}), got {shown(law_class)}"
         )
     kind: type[_Law] = law_class
-    asked = {
-        "mass": mass,
-        "contact_time": contact_time,
-        "restitution": restitution,
-        "impact_speed": impact_speed,
-        "exponent": exponent,
-        "relaxation_time": relaxation_time,
-        "buckling_time": buckling_time,
-        "buckling_share": buckling_share,
-        "frequency": frequency,
-        "decay_time": decay_time,
-    }
     given = {
         name: _checked(kind, name, value) for name, value in asked.items() if value is not None
     }

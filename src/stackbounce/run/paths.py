@@ -52,25 +52,21 @@ def numbers_of(drop: Drop) -> dict[str, Number]:
     >>> list(numbers_of(Drop([Ball(1.0)], [Spring(1.0)], height=1.0)))[-3:]
     ['contacts.0.stiffness', 'height', 'gravity']
     """
-    found = []
-    for i in range(len(drop.balls)):
-        found += [
-            Number(f"balls.{i}.{name}", "balls", i, name, unit)
-            for name, unit in _units(Ball).items()
-        ]
-    for i, law in enumerate(drop.contacts):
-        units = {} if law is None else law.units()
-        found += [
-            Number(f"contacts.{i}.{name}", "contacts", i, name, unit)
-            for name, unit in units.items()
-        ]
+    parts = [("balls", i, _units(Ball)) for i in range(len(drop.balls))]
+    parts += [("contacts", i, law.units()) for i, law in enumerate(drop.contacts) if law]
+    found = [
+        Number(f"{part}.{i}.{name}", part, i, name, unit)
+        for part, i, units in parts
+        for name, unit in units.items()
+    ]
     found += [Number(f"gaps.{i}", "gaps", i, "", "m") for i in range(len(drop.gaps))]
-    if drop.velocities is not None:
-        count = len(drop.velocities)
-        found += [Number(f"velocities.{i}", "velocities", i, "", "m/s") for i in range(count)]
-    for name, unit in _units(Drop).items():
-        if getattr(drop, name) is not None:
-            found.append(Number(name, "", 0, name, unit))
+    count = len(drop.velocities or ())
+    found += [Number(f"velocities.{i}", "velocities", i, "", "m/s") for i in range(count)]
+    found += [
+        Number(name, "", 0, name, unit)
+        for name, unit in _units(Drop).items()
+        if getattr(drop, name) is not None
+    ]
     return {number.path: number for number in found}
 
 

@@ -50,18 +50,15 @@ def _heights(out: Outcomes, speed: Array, gravity: Array) -> Any:
     return velocity * np.abs(velocity) / (2.0 * pull[:, None])
 
 
-def _durations(out: Outcomes, *_: Array) -> Any:
-    """Return the times from the first touch of each contact to its last release."""
-    return out.last_release - out.first_touch
-
-
 QUANTITIES: dict[str, Quantity] = {
     "rebound_ratios": Quantity("ball", "", "1.64 ± 0.02", lambda out, *_: out.rebound_ratio),
     "rebound_speeds": Quantity("ball", "m/s", "5.8 ± 0.1 m/s", _speeds),
     "rebound_heights": Quantity("ball", "m", "1.72 ± 0.03 m", _heights),
     "first_touch": Quantity("contact", "s", "2.0 ± 0.5 ms", lambda out, *_: out.first_touch),
     "last_release": Quantity("contact", "s", "2.0 ± 0.5 ms", lambda out, *_: out.last_release),
-    "durations": Quantity("contact", "s", "2.0 ± 0.5 ms", _durations),
+    "durations": Quantity(
+        "contact", "s", "2.0 ± 0.5 ms", lambda out, *_: out.last_release - out.first_touch
+    ),
     "energy_retained": Quantity("", "", "0.64 ± 0.02", lambda out, *_: out.energy_retained),
     "collisions": Quantity("contact", "", "2", lambda out, *_: out.collisions),
 }
@@ -118,11 +115,12 @@ def solve_quantities(drop: Drop, rows: Rows, count: int, options: Options) -> So
     (array([[1.]]), array([[0.25]]))
     """
     out = solve(drop, rows, (count,), options)
+    speed, gravity = incidence(drop, rows, count)
     unsolved = np.isin(out.status, (Status.EVENT_LIMIT, Status.INVALID))
     found = {}
     for name, quantity in QUANTITIES.items():
         with np.errstate(all="ignore"):
-            table = np.reshape(quantity.predict(out, *incidence(drop, rows, count)), (count, -1))
+            table = np.reshape(quantity.predict(out, speed, gravity), (count, -1))
         if table.dtype.kind == "f":
             table = np.where(np.isfinite(table) & ~unsolved[:, None], table, np.nan)
         found[name] = table

@@ -45,7 +45,16 @@ ROUND_OFF = 1e-15
 _KINDS = {codes.TOUCH: "touch", codes.RELEASE: "release", codes.COLLISION: "collision"}
 
 
-class Status(enum.IntEnum):
+class _Ending(enum.IntEnum):
+    """How or why a run ended, by the engine's number."""
+
+    @property
+    def advice(self) -> str:
+        """What it means and what can be done about it, in one line."""
+        return _ADVICE[self.name]
+
+
+class Status(_Ending):
     """How a run ended; `advice` says what to do about it.
 
     Examples
@@ -61,47 +70,33 @@ class Status(enum.IntEnum):
     EVENT_LIMIT = codes.EVENT_LIMIT
     INVALID = codes.INVALID
 
-    @property
-    def advice(self) -> str:
-        """What the status means and what can be done about it, in one line."""
-        return _ADVICE[self]
 
-
-_ADVICE = {
-    Status.FINISHED: "all contacts are open and no ball approaches another: nothing to do",
-    Status.SETTLED: "the stack has come to rest: nothing to do",
-    Status.COLLAPSED: "infinitely many collisions took place in a finite time and ended at their "
-    "limit: their count is given as -1",
-    Status.TIME_REACHED: "the time asked for was reached first: raise until to see more",
-    Status.EVENT_LIMIT: "a limit was met, by balls that swing or bounce on each other almost "
-    "without loss, by a contact that is far stiffer or far more damped than the others, or because "
-    "masses or stiffnesses are of very different sizes: stop earlier with until, bring these "
-    "numbers closer together, or raise event_limit",
-    Status.INVALID: "numbers left the range of floating point, or a contact was shorter than the "
-    "resolution of time, so that no speeds are known: bring masses, stiffnesses, gaps and "
-    "speeds closer together",
-}
-
-
-class Cause(enum.IntEnum):
+class Cause(_Ending):
     """Why a run met a limit; `advice` says what to do about it."""
 
     ENDLESS = codes.ENDLESS
     STIFF = codes.STIFF
     EXTREME = codes.EXTREME
 
-    @property
-    def advice(self) -> str:
-        """What the cause means and what can be done about it, in one line."""
-        return _LIMITED[self]
 
-
-_LIMITED = {
-    Cause.ENDLESS: "a limit was met, because the balls swing or bounce on each other almost "
+_ADVICE = {
+    "FINISHED": "all contacts are open and no ball approaches another: nothing to do",
+    "SETTLED": "the stack has come to rest: nothing to do",
+    "COLLAPSED": "infinitely many collisions took place in a finite time and ended at their "
+    "limit: their count is given as -1",
+    "TIME_REACHED": "the time asked for was reached first: raise until to see more",
+    "EVENT_LIMIT": "a limit was met, by balls that swing or bounce on each other almost "
+    "without loss, by a contact that is far stiffer or far more damped than the others, or because "
+    "masses or stiffnesses are of very different sizes: stop earlier with until, bring these "
+    "numbers closer together, or raise event_limit",
+    "INVALID": "numbers left the range of floating point, or a contact was shorter than the "
+    "resolution of time, so that no speeds are known: bring masses, stiffnesses, gaps and "
+    "speeds closer together",
+    "ENDLESS": "a limit was met, because the balls swing or bounce on each other almost "
     "without loss, perhaps for ever: stop earlier with until, or raise event_limit",
-    Cause.STIFF: "a limit was met, because a contact is so stiff or so damped that all steps are "
+    "STIFF": "a limit was met, because a contact is so stiff or so damped that all steps are "
     "short: lower its stiffness or its damping, raise rtol, or raise event_limit",
-    Cause.EXTREME: "a limit was met, because masses or stiffnesses are of very different sizes, so "
+    "EXTREME": "a limit was met, because masses or stiffnesses are of very different sizes, so "
     "that the fastest contact swings countless times during the slowest: bring them closer "
     "together, or raise event_limit",
 }
@@ -322,17 +317,9 @@ class Result:
         >>> sb.simulate(drop).to_mapping()["status"]
         'FINISHED'
         """
-        return {
-            "status": self.status.name,
-            "advice": self.advice,
-            "rebound_speeds": self.rebound_speeds,
-            "rebound_ratios": self.rebound_ratios,
-            "collisions": self.collisions,
-            "first_touch": self.first_touch,
-            "last_release": self.last_release,
-            "energy_retained": self.energy_retained,
-            "end_time": self.end_time,
-        }
+        arrays = ("rebound_speeds", "rebound_ratios", "collisions", "first_touch", "last_release")
+        names = ("advice", *arrays, "energy_retained", "end_time")
+        return {"status": self.status.name} | {name: getattr(self, name) for name in names}
 
     def sample(self, times: ArrayLike) -> "xarray.Dataset":
         """Return positions, velocities, forces and energy at given times, by repeating the run.

@@ -16,6 +16,7 @@ The drops of a sweep are run by `stackbounce.run.batch`.
 
 from stackbounce.sweeps.axes import grid
 from stackbounce.sweeps.dataset import sweep
-from stackbounce.sweeps.store import opened, write
+from stackbounce.sweeps.files import opened
+from stackbounce.sweeps.store import write
 
 __all__ = ["grid", "opened", "sweep", "write"]

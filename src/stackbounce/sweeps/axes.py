@@ -66,6 +66,8 @@ def axis(drop: Drop, text: str) -> tuple[str, NDArray[np.float64]]:
     >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
     >>> axis(drop, "contacts.0.stiffness=1kN/m:100kN/m:3:log")
     ('contacts.0.stiffness', array([  1000.,  10000., 100000.]))
+    >>> axis(drop, "balls.0.mass=1g:3g:3:lin"), axis(drop, "balls.0.mass=1g,20g")
+    (('balls.0.mass', array([0.001, 0.002, 0.003])), ('balls.0.mass', array([0.001, 0.02 ])))
     """
     path, equals, written = text.partition("=")
     if not equals or not written:

@@ -127,11 +127,11 @@ def writer(path: Path) -> Iterator[Writer]:
         yield write
 
 
-def opened(path: Path) -> "xr.Dataset":
-    """Open a store; numbers are read when they are needed."""
+def opened(path: str | Path) -> "xr.Dataset":
+    """Open what `write` has written; numbers are read when they are needed."""
     import xarray as xr
 
-    _check_metadata(path)
+    _check_metadata(Path(path))
     return xr.open_dataset(path, engine="zarr", chunks=None)
 
 

@@ -130,11 +130,6 @@ def write(
     return out
 
 
-def opened(path: str | Path) -> "xr.Dataset":
-    """Open what `write` has written; numbers are read when they are needed."""
-    return files.opened(Path(path))
-
-
 def _read_axes(drop: Drop, values: Mapping[str, Any]) -> _Axes:
     """Return the dimension and the values of each number that varies, all of them checked."""
     axes = {}

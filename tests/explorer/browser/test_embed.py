@@ -2,7 +2,7 @@
 
 import pytest
 
-from explorer.conftest import served
+from adversary.server import serving
 
 pytestmark = [pytest.mark.slow, pytest.mark.release]
 
@@ -21,8 +21,8 @@ def school(site):
 @pytest.fixture(scope="module")
 def open_to(school):
     """Serve the explorer where the school's pages may frame it; return its address."""
-    with served("--workers", "1", "--embed", school) as address:
-        yield address
+    with serving("--embed", school, workers=1) as server:
+        yield server.address
 
 
 @pytest.fixture

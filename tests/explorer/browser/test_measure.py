@@ -106,11 +106,8 @@ def test_a_law_that_is_new_is_offered_with_its_loss(visit):
     def add(route):
         model = route.fetch().json()
         spring = next(law for law in model["laws"] if law["law"] == "Spring")
-        field = spring["fields"][0] | {"name": "softness", "unit": "s"}
-        model["laws"].append(spring | new | {"fields": [field]})
-        number = {"name": "softness", "unit": "s", "words": "a number", "least": 0.0, "most": 1.0}
-        law = model["models"]["Spring"] | new | {"loss": "softness", "fields": [number]}
-        model["models"]["Clay"] = law
+        field = spring["fields"][0] | {"name": "softness", "unit": "s", "least": 0.0, "most": 1.0}
+        model["laws"].append(spring | new | {"loss": "softness", "fields": [field]})
         route.fulfill(json=model)
 
     page.route("**/made/model.json", add)

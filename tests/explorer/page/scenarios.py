@@ -4,30 +4,10 @@ import copy
 import decimal
 import random
 
-import numpy as np
-
 import stackbounce as sb
-from fuzz import draw, drive
+from fuzz import draw
+from fuzz.replay import drop_of
 
-LAW_NAMES = {
-    drive.SPRING: "Spring",
-    drive.HERTZ: "Hertz",
-    drive.POWER: "PowerLaw",
-    drive.DASHPOT: "Dashpot",
-    drive.VISCOELASTIC: "Viscoelastic",
-    drive.HUNT_CROSSLEY: "HuntCrossley",
-    drive.HYSTERETIC: "Hysteretic",
-    drive.RIGID: "Rigid",
-    drive.RELAXING: "StandardLinearSolid",
-}
-PARAMETERS = {
-    "Dashpot": "damping",
-    "Viscoelastic": "dissipative_time",
-    "HuntCrossley": "dissipation",
-    "Hysteretic": "unloading_exponent",
-    "Rigid": "restitution",
-    "StandardLinearSolid": "relaxation_strength",
-}
 UNITS = {
     "mass": ("kg", "g", "pounds", "oz", "milligrams", "m", "kilofurlongs", "kg/s*s", "μg", "%"),
     "diameter": ("m", "mm", "inches", "ft", "cm", "angstrom", "s", "metres", "in", "m**1"),
@@ -48,35 +28,9 @@ LUMPS = (None, [], {}, [1], [1.5, "2 mm"], {"a": 1}, "Spring", "a\tb'c", "\ud83c
 
 
 def drawn(seed, batch, count):
-    """Return random drops of fuzz.draw as mappings, with what each is run with."""
+    """Return random drops of fuzz.draw as mappings."""
     drops = draw.drops_of(seed, batch, count)
-    for row in range(count):
-        contacts = [contact(drops, row, i) for i in range(drops.mass.shape[1])]
-        yield (
-            {
-                "balls": [{"mass": mass} for mass in drops.mass[row].tolist()],
-                "contacts": contacts,
-                "gaps": drops.gap[row, 1:].tolist(),
-                "velocities": drops.velocity[row].tolist(),
-                "gravity": float(drops.gravity[row]),
-            },
-            None if np.isinf(drops.until[row]) else float(drops.until[row]),
-        )
-
-
-def contact(drops, row, i):
-    """Return a random contact as a mapping."""
-    law = int(drops.law[row, i])
-    if law == drive.NONE:
-        return {"law": "none"}
-    made = {"law": LAW_NAMES[law], "stiffness": float(drops.first[row, i])}
-    fields = sb.model.LAWS[made["law"]].quantities()
-    made["exponent"] = float(drops.second[row, i])
-    if made["law"] in PARAMETERS:
-        made[PARAMETERS[made["law"]]] = float(drops.third[row, i])
-    if law == drive.RELAXING:
-        made["relaxation_time"] = float(drops.fourth[row, i])
-    return {name: made[name] for name in made if name in (*fields, "law")}
+    return [drop_of(drops, row).to_mapping() for row in range(count)]
 
 
 def scenario(chance):

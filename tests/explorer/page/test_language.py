@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from explorer.page.asking import run_node
+from refusals import refusal
 from stackbounce import StackbounceError, units
 from stackbounce.errors import between, finite, non_negative, positive
 from stackbounce.explorer.answers.records import list_options
@@ -174,15 +175,9 @@ def test_in_english_a_comma_may_part_thousands(asked):
     assert asked("en", ["words/words", "format", 1234.5, 5]) == ["1234.5"]
 
 
-def message(check, *given):
-    with pytest.raises(StackbounceError) as caught:
-        check(*given)
-    return str(caught.value).removeprefix("number ")
-
-
 TOLD = "eine Masse (eine Zahl in kg oder ein Text wie „150 g“), angegeben ist"
 MESSAGES = [
-    (message(check, *given), told)
+    (refusal(StackbounceError, check, *given).removeprefix("number "), told)
     for check, given, told in (
         (
             positive,

@@ -25,7 +25,7 @@ def random_lines(seed, count):
     batch = 0
     while count:
         batch += 1
-        mapping, _ = next(drawn(seed, batch, 1))
+        [mapping] = drawn(seed, batch, 1)
         path, value = chance.choice(list(varying(sb.Drop.from_mapping(mapping)).items()))
         low, high = sorted((0.5 * value, 1.5 * value or 1.0))
         log = low > 0.0 and chance.random() < 0.4

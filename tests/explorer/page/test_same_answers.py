@@ -126,7 +126,7 @@ def close(ours, theirs):
 def test_random_drops_have_the_same_numbers(asked, monkeypatch, batches, count):
     """Some drops would take minutes with more events."""
     monkeypatch.setattr(play, "LIMITS", dataclasses.replace(play.LIMITS, events=EVENTS))
-    told = [mapping for batch in range(batches) for mapping, _ in drawn(SEED, batch, count)]
+    told = [mapping for batch in range(batches) for mapping in drawn(SEED, batch, count)]
     answers = asked([["simulate", drop, None, 2] for drop in told], events=EVENTS)
     alike = 0
     for mapping, ours in zip(told, answers, strict=True):
@@ -174,7 +174,7 @@ def contacts(seed, count):
     """Return random contacts with a mass and a speed."""
     chance = random.Random(seed)
     for batch in range(count):
-        (mapping, _) = next(drawn(seed, batch, 1))
+        [mapping] = drawn(seed, batch, 1)
         index = chance.randrange(len(mapping["contacts"]))
         mass, speed = 10.0 ** chance.uniform(-3, 1), 10.0 ** chance.uniform(-2, 2)
         yield mapping["contacts"][index], mass, speed
@@ -244,7 +244,7 @@ def test_stacks_of_the_catalogue_are_the_same(asked):
 
 def test_texts_of_a_drop_hold_it(asked):
     drops = [case.drop.to_mapping() for case in list_cases()]
-    drops += [drop for drop, _ in drawn(SEED, 3, 10)]
+    drops += drawn(SEED, 3, 10)
     drops[0]["balls"][0]["name"] = 'a "b" \\ \x7f é\n'
     compare_texts(asked, [(drop, {}) for drop in drops])
 
@@ -297,7 +297,7 @@ def uncertain(seed, count):
     """Return random drops, and errors of some of their numbers, many of which make none."""
     chance = random.Random(seed)
     for batch in range(count):
-        mapping, _ = next(drawn(seed, batch, 1))
+        [mapping] = drawn(seed, batch, 1)
         paths = [*numbers_of(sb.Drop.from_mapping(mapping)), "gaps.9"]
         chosen = chance.sample(paths, chance.choice((0, 1, 1, 2, 3)))
         yield mapping, {path: chance.choice(ERRORS) for path in chosen}
@@ -326,7 +326,7 @@ def requests(seed, count, log):
     """Return random requests for a map, some of which make none; with logarithmic sides or not."""
     chance = random.Random(seed)
     for batch in range(count):
-        mapping, _ = next(drawn(seed, batch, 1))
+        [mapping] = drawn(seed, batch, 1)
         if len(mapping["balls"]) < 2:
             continue
         drop = sb.Drop.from_mapping(mapping)
@@ -361,7 +361,7 @@ def test_maps_are_the_same(asked, seed, count, log):
 
 
 def test_what_a_map_can_vary_is_what_the_library_varies(asked):
-    drops = [drop for batch in range(20) for drop, _ in drawn(SEED, batch, 2)]
+    drops = [drop for batch in range(20) for drop in drawn(SEED, batch, 2)]
     for drop, ours in zip(drops, asked([["mapPaths", drop] for drop in drops]), strict=True):
         found = {number["path"]: number["value"] for number in ours["answer"]["paths"]}
         assert found == pytest.approx(own.varying(sb.Drop.from_mapping(drop)), rel=CLOSE)

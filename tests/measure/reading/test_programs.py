@@ -3,17 +3,12 @@
 import numpy as np
 import pytest
 
+from measure.make_files import rows as lines
 from stackbounce.errors import FileError
 
 STEP = 1e-4  # s
 TIMES = STEP * np.arange(60)
 VOLTS = np.round(np.where((TIMES > 1e-3) & (TIMES < 4e-3), 1.5, 0.01 * np.sin(9e4 * TIMES)), 4)
-
-
-def lines(*columns, form="{:.6e}", between=",", end="\n"):
-    return "".join(
-        between.join(form.format(cell) for cell in row) + end for row in zip(*columns, strict=True)
-    )
 
 
 def is_waveform(data, program, name="voltage"):
@@ -26,7 +21,7 @@ def is_waveform(data, program, name="voltage"):
 
 def test_a_rigol_without_times_has_them_from_start_and_increment(read):
     head = f"CH1,CH2,Start,Increment,\nVolt,Volt,-2.000000e-03,{STEP:e},\n"
-    data = read(head + lines(VOLTS, -VOLTS, end=",\n"))
+    data = read(head + lines([VOLTS, -VOLTS], end=",\n"))
     is_waveform(data, "Rigol oscilloscope")
     assert data.time.values[0] == -2e-3
     np.testing.assert_allclose(data.voltage_2.values, -VOLTS, atol=1e-6)
@@ -39,13 +34,13 @@ def test_gw_instek(read):
         f"Memory Length,{len(TIMES)},\nTrigger Level,1.0mV,\nSource,CH2,\nVertical Units,V,\n"
         f"Horizontal Units,S,\nSampling Period,{STEP:e},\nTime,01-Jan-24 10:00:00,\n"
     )
-    rows = lines(TIMES, VOLTS, end=",\n")
+    rows = lines([TIMES, VOLTS], end=",\n")
     is_waveform(read(f"{keys}Mode,Detail,\nWaveform Data,\n{rows}"), "GW Instek oscilloscope")
     with pytest.raises(FileError, match="in the mode Fast"):
         read(f"{keys}Mode,Fast,\nWaveform Data,\n{rows}")
     each = ("Memory Length,60", "Source,CH1", "Vertical Units,V", "Sampling Period,1e-4")
     beside = "".join(f"{one},{one}\n" for one in each)  # two channels
-    data = read(f"{beside}Waveform Data,\n" + lines(TIMES, VOLTS, TIMES, -VOLTS))
+    data = read(f"{beside}Waveform Data,\n" + lines([TIMES, VOLTS, TIMES, -VOLTS]))
     is_waveform(data, "GW Instek oscilloscope")
     np.testing.assert_allclose(data.voltage_2.values, -VOLTS, atol=1e-6)
 
@@ -56,13 +51,13 @@ def test_siglent_beside_keys_and_below_them(read):
         "Sample Interval,CH1:1e-4 CH2:1e-4,",
         "Vertical Units,CH1:V CH2:V,",
     ]
-    beside = ["Source,CH1,CH2", "Second,Volt,Volt", *lines(TIMES, VOLTS, -VOLTS).splitlines()]
+    beside = ["Source,CH1,CH2", "Second,Volt,Volt", *lines([TIMES, VOLTS, -VOLTS]).splitlines()]
     rows = [f"{keys[k] if k < len(keys) else ',,'},{row}" for k, row in enumerate(beside)]
     data = read("\n".join(rows))
     is_waveform(data, "Siglent oscilloscope")
     np.testing.assert_allclose(data.voltage_2.values, -VOLTS, atol=1e-6)
     below = "Record Length,60\nModel Number,SDS1104X-E\nSource,CH1\nSecond,Value\n"
-    is_waveform(read(below + lines(TIMES, VOLTS)), "Siglent oscilloscope")
+    is_waveform(read(below + lines([TIMES, VOLTS])), "Siglent oscilloscope")
 
 
 def test_lecroy_and_its_segments(read):
@@ -70,8 +65,8 @@ def test_lecroy_and_its_segments(read):
         "LECROYWS3024,0,Waveform\nSegments,2,SegmentSize,60\nSegment,TrigTime,TimeSinceSegment1\n"
         "#1,01-Jan-2024 10:00:00,0\n#2,01-Jan-2024 10:00:01,1.0\nTime,Ampl\n"
     )
-    is_waveform(read(head + lines(TIMES, VOLTS)), "LeCroy oscilloscope")
-    two = read(head + lines(TIMES, VOLTS) + lines(TIMES, 2.0 * VOLTS), run=2)
+    is_waveform(read(head + lines([TIMES, VOLTS])), "LeCroy oscilloscope")
+    two = read(head + lines([TIMES, VOLTS]) + lines([TIMES, 2.0 * VOLTS]), run=2)
     np.testing.assert_allclose(two.voltage.values, 2.0 * VOLTS, atol=1e-6)
 
 
@@ -79,7 +74,7 @@ def test_lecroy_and_its_segments(read):
     "head", ["Time [s],Channel 0", "Time[s], Channel 0", "sec,Volt1", "x-axis,1\nsecond,Volt"]
 )
 def test_saleae_and_keysight_by_their_headers(read, head):
-    data = read(f"{head}\n" + lines(TIMES, VOLTS))
+    data = read(f"{head}\n" + lines([TIMES, VOLTS]))
     np.testing.assert_allclose(data.voltage.values, VOLTS, atol=1e-6)
     assert data.attrs["holds"] == "waveform"
     assert data.voltage.attrs["units"] == ("V" if "Volt" in head else "")
@@ -94,7 +89,7 @@ def test_labview(read, timed, decimal):
         "X_Dimension\tTime\nX0\t0.0000000000000000E+0\nDelta_X\t1.000000E-4\n"
         "***End_of_Header***\t\nX_Value\tVoltage_0\tComment\n"
     )
-    rows = lines(TIMES, VOLTS, between="\t") if timed else lines(VOLTS, form="\t{:.6e}")
+    rows = lines([TIMES, VOLTS], delimiter="\t") if timed else lines([VOLTS], form="\t{:.6e}")
     data = read((head + rows).replace(".", decimal), "file.lvm")
     is_waveform(data, "LabVIEW")
     with pytest.raises(FileError, match="without their step"):
@@ -172,26 +167,26 @@ def test_a_position_beside_a_force_and_times_is_no_press_curve(read):
 
 
 def test_bare_columns_of_a_scope(read):
-    data = read(lines(TIMES, VOLTS))
+    data = read(lines([TIMES, VOLTS]))
     assert data.attrs["holds"] == "waveform"
     np.testing.assert_allclose(data.voltage.values, VOLTS, atol=1e-6)
     assert "taken as time in s, the other as the voltage of a scope" in data.attrs["doubt"]
 
 
 def test_bare_columns_that_may_be_anything_stay_a_table(read):
-    data = read(lines(TIMES, VOLTS, VOLTS))
+    data = read(lines([TIMES, VOLTS, VOLTS]))
     assert data.attrs["holds"] == "table"
     assert "taken as time in s" in data.attrs["doubt"]
-    assert read(lines(TIMES**2, VOLTS)).attrs["holds"] == "table"
-    drops = read(lines(np.arange(9) + 1, 0.6 ** np.arange(9), 0.6 ** np.arange(1, 10)))
+    assert read(lines([TIMES**2, VOLTS])).attrs["holds"] == "table"
+    drops = read(lines([np.arange(9) + 1, 0.6 ** np.arange(9), 0.6 ** np.arange(1, 10)]))
     assert drops.attrs["holds"] == "table"  # nine counted rows are no frames
-    told = read(lines(TIMES, VOLTS, VOLTS), names={1: "time", 3: "force"})
+    told = read(lines([TIMES, VOLTS, VOLTS]), names={1: "time", 3: "force"})
     assert told.attrs["holds"] == "waveform"
 
 
 def test_bare_columns_of_a_video_are_a_track(read):
     times = 0.04 * np.arange(12)
-    data = read(lines(times, times, 1.0 - times, form="{:.3f}", between=" "))
+    data = read(lines([times, times, 1.0 - times], form="{:.3f}", delimiter=" "))
     assert data.attrs["holds"] == "track"
     np.testing.assert_allclose(data.y.values[:, 0], 1.0 - times)
 

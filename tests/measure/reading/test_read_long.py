@@ -21,7 +21,7 @@ CELLS = st.one_of(
 def parsed(cells):
     """Return the numbers of a column of cells, or None where one of them is no plain number."""
     table = numbers.Table(np.empty((0, 1)), np.zeros(1, dtype=np.int64))
-    text = Text("", "\t", ".", [], [])
+    text = Text("", "\t", ".", [], [], [], [], "")
     return numbers._parsed("\n".join(f"{cell}\t0" for cell in cells), text, [0], table)
 
 

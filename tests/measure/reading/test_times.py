@@ -5,7 +5,7 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.reading.rounding import even_times, rounding_of, spread
+from stackbounce.measure.reading.series import even_times, rounding_of, spread
 
 
 @pytest.fixture

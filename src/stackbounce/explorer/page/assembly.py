@@ -45,10 +45,10 @@ def assemble(origin: str) -> Texts:
     >>> assemble("one_file").html[:15]
     '<!doctype html>'
     """
-    page = _read("index.html")
+    page = read_static("index.html")
     begin = _SCRIPT.search(page)
     assert begin is not None
-    styles = "".join(_read(name) for name in _STYLE.findall(page))
+    styles = "".join(read_static(name) for name in _STYLE.findall(page))
     script = bundle(functools.partial(_module, origin), begin[1], "js/engine/worker.js")
     return Texts(_SCRIPT.sub("", _STYLE.sub("", page)), styles, script)
 
@@ -77,29 +77,14 @@ def digest(content: bytes) -> str:
     return f"sha256-{base64.b64encode(hashlib.sha256(content).digest()).decode()}"
 
 
-def icon() -> bytes:
-    """Return the page's icon, an SVG.
+def read_static(name: str) -> str:
+    """Return one of the page's files in ``static/``, a text.
 
     Examples
     --------
-    >>> icon()[:4]
-    b'<svg'
-    """
-    return (_STATIC / "icon.svg").read_bytes()
-
-
-def service_worker() -> str:
-    """Return the script that keeps the files of a folder in the browser, without their list.
-
-    Examples
-    --------
-    >>> "caches.open" in service_worker()
+    >>> "caches.open" in read_static("js/origin/offline.js")
     True
     """
-    return _read("js/origin/offline.js")
-
-
-def _read(name: str) -> str:
     return (_STATIC / name).read_text("utf-8")
 
 
@@ -110,7 +95,7 @@ def _module(origin: str, path: str) -> str:
         return f"export const tables = {json.dumps(_tables(), ensure_ascii=False)};"
     if folder == "made":
         return made_file(name).decode()
-    return _read(f"js/origin/{origin}.js" if path == _SERVED else path)
+    return read_static(f"js/origin/{origin}.js" if path == _SERVED else path)
 
 
 def _tables() -> dict[str, dict[str, str]]:

@@ -17,13 +17,13 @@ def limits_of(check: Callable[[str, object], float]) -> dict[str, Any]:
     --------
     >>> from stackbounce.errors import fraction
     >>> limits_of(fraction)
-    {'words': 'a number from 0 to 1', 'least': 0.0, 'most': 1.0}
+    {'right': 'a number from 0 to 1', 'least': 0.0, 'most': 1.0}
     """
-    words = ""
+    right = ""
     try:
         check("x", None)
     except InvalidType as error:
-        words = str(error).removeprefix("x must be ").removesuffix(", got None")
+        right = str(error).removeprefix("x must be ").removesuffix(", got None")
 
     def holds(value: float) -> bool:
         try:
@@ -34,7 +34,7 @@ def limits_of(check: Callable[[str, object], float]) -> dict[str, Any]:
 
     inside = next(value for value in (1.0, 0.5, 2.0, -1.0, 0.0, 1e3, 1e-3) if holds(value))
     return {
-        "words": words,
+        "right": right,
         "least": _last(holds, inside, -sys.float_info.max),
         "most": _last(holds, inside, sys.float_info.max),
     }

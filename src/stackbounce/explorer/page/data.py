@@ -7,12 +7,11 @@ from typing import Any
 
 from stackbounce.cross2007.lines import list_lines
 from stackbounce.explorer.answers import play
-from stackbounce.explorer.page.bounds import limits_of
 from stackbounce.explorer.page.catalogue import WORDS, list_choices
 from stackbounce.explorer.page.lessons import list_lessons
 from stackbounce.explorer.page.units import list_units
 from stackbounce.json_values import as_json
-from stackbounce.model import LAWS, STANDARD_GRAVITY, STEEPEST, ContactLaw
+from stackbounce.model import STANDARD_GRAVITY, STEEPEST
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stack
 from stackbounce.run.result import Cause, Status
 from stackbounce.units import examples
@@ -47,7 +46,6 @@ def model_json() -> str:
             "lessons": list_lessons(),
             "lines": _list_lines(),
             "map_rtol": MAP_RTOL,
-            "models": _list_models(),
             "outcomes": WORDS["outcomes"],
             "ratios": WORDS["ratios"],
             "rtol": play.RTOL,
@@ -71,37 +69,6 @@ def _list_lines() -> list[dict[str, Any]]:
             "measured": [{"value": value, "error": error} for value, error in line.measured],
         }
         for line in list_lines()
-    ]
-
-
-def _list_models() -> dict[str, Any]:
-    """Return what the page computes with of each law: what it is in the engine, and its numbers."""
-    return {
-        name: {
-            "law": name,
-            "form": kind.form,
-            "parameters": (kind.third_number, kind.fourth_number),
-            "rigid": kind.rigid,
-            "loss": kind.loss,
-            "loss_fields": kind.loss_fields(),
-            "constant_loss": not kind.loss_depends_on,
-            "least_restitution": kind.least_restitution,
-            "exponent": kind.fixed_exponent(),
-            "usual_exponent": kind.default_exponent(),
-            "needs": {"linear": kind.calibration_needs(1.0), "other": kind.calibration_needs(2.0)},
-            "fields": _list_fields(kind),
-        }
-        for name, kind in LAWS.items()
-    }
-
-
-def _list_fields(kind: type[ContactLaw]) -> list[dict[str, Any]]:
-    """Return the numbers of a law: unit, limits, usual value, and where a search for it starts."""
-    return [
-        {"name": name, "unit": number.symbol, "start": number.slider[1 if name == kind.loss else 0]}
-        | limits_of(number.check)
-        | ({"usual": getattr(kind, name)} if hasattr(kind, name) else {})
-        for name, number in kind.quantities().items()
     ]
 
 

@@ -3,7 +3,7 @@
 import hashlib
 import json
 
-from stackbounce.explorer.page.assembly import assemble, digest, icon, service_worker, with_policy
+from stackbounce.explorer.page.assembly import assemble, digest, read_static, with_policy
 from stackbounce.explorer.page.parts import made_file
 from stackbounce.explorer.page.policy import PAGE
 
@@ -50,7 +50,7 @@ def folder_files() -> dict[str, bytes]:
         "explorer.css": styles.encode(),
         "explorer.js": script.encode(),
         "explorer.webmanifest": json.dumps(_MANIFEST, indent=1).encode(),
-        "icon.svg": icon(),
+        "icon.svg": read_static("icon.svg").encode(),
         **{f"made/{name}": made_file(name) for name in _MADE},
     }
     return files | {"offline.js": _offline(files)}
@@ -61,4 +61,5 @@ def _offline(files: dict[str, bytes]) -> bytes:
     kept = {("./" if name == "index.html" else name): digest(files[name]) for name in files}
     listed = json.dumps(kept, indent=1)
     version = hashlib.sha256(listed.encode()).hexdigest()[:16]
-    return f'const VERSION = "{version}";\nconst FILES = {listed};\n\n{service_worker()}'.encode()
+    worker = read_static("js/origin/offline.js")
+    return f'const VERSION = "{version}";\nconst FILES = {listed};\n\n{worker}'.encode()

@@ -1,6 +1,6 @@
 """Published measurements beside what each contact law gives for them.
 
-- `series.py`: a dataset as restitutions or contact times at several speeds, with their covariance
+- `series.py`: a dataset as restitutions at several speeds, with their covariance
 - `family.py`: the laws of a class that a calibration at one speed gives
 - `comparison.py`: χ² and p of each law for a series, also with half and twice the assumed errors
 - `results.py`: `validate`, all datasets and all laws; `write`, the page and the tables of that

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from stackbounce.errors import StackbounceError
-from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.validation.family import Family, families, reason_to_skip
-from stackbounce.fitting.validation.series import RESTITUTION, Series
+from stackbounce.fitting.validation.series import Series
+from stackbounce.run.quantities import Array
 
 AGREES, DOUBTFUL, REFUTED = "agrees", "doubtful", "refuted"
 REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05
@@ -17,7 +17,7 @@ REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05
 
 _NODES = 9  # at which a family is computed, for the fit
 _WIDER = 1.5  # logarithm by which the fit may leave the measured values
-_GRID = 61  # values of which the best one is where the fit begins
+_STEP = 1e-5  # of a numerical derivative
 _ALIKE = 1e-6  # relative, of curves that are one and the same
 
 
@@ -87,7 +87,7 @@ class Comparison:
     skipped : dict of str to str
         The laws that say nothing about the series, and why.
     exponent, exponent_error : float
-        q and its standard deviation, if the loss ``1 - e``, or the contact time, grows as ``v**q``.
+        q and its standard deviation, if the loss ``1 - e`` grows as ``v**q``.
     p_power : float or None
         p of that power; None of two points, which have one exactly.
     curves : dict of str to Family
@@ -240,39 +240,33 @@ def _probability(squares: float, freedom: int, series: Series, scale: float = 1.
     return float(f.sf(squares / freedom, freedom, errors))
 
 
-def _scaled(series: Series, values: Array) -> Array:
-    """Return what is nearly linear in its start: log(-log e), or the logarithm of the time."""
-    return np.asarray(np.log(-np.log(values) if series.quantity == RESTITUTION else values))
+def _scaled(values: Array) -> Array:
+    """Return what is nearly linear in its start: log(-log e)."""
+    return np.asarray(np.log(-np.log(values)))
 
 
-def _unscaled(series: Series, scaled: Array | float) -> Array:
-    return np.asarray(np.exp(-np.exp(scaled) if series.quantity == RESTITUTION else scaled))
+def _unscaled(scaled: Array | float) -> Array:
+    return np.asarray(np.exp(-np.exp(scaled)))
 
 
 def _reach(series: Series) -> tuple[float, float]:
     """Return the bounds of the scaled value in a fit."""
-    scaled = _scaled(series, series.values)
+    scaled = _scaled(series.values)
     return float(scaled.min()) - _WIDER, float(scaled.max()) + _WIDER
 
 
 def _interpolated(family: Family, series: Series) -> Callable[[float], Array]:
     """Return the curve of a family by the scaled value at its speed: from some exact curves."""
-    if family.is_constant:
-        return lambda start: np.full(series.speeds.shape, _unscaled(series, start))
+    from scipy.interpolate import KroghInterpolator
+
     if family.law_class.rigid:  # in closed form, and with a corner where the restitution is 1
-        return lambda start: family.at(float(_unscaled(series, start)), series.speeds)
+        return lambda start: family.at(float(_unscaled(start)), series.speeds)
     low, high = _reach(series)
-    middle, half = 0.5 * (low + high), 0.5 * (high - low)
-    nodes = np.polynomial.chebyshev.chebpts1(_NODES)
-    starts = _unscaled(series, middle + half * nodes)
-    exact = [_scaled(series, family.at(start, series.speeds)) for start in starts.tolist()]
-    through = np.polynomial.chebyshev.chebfit(nodes, np.array(exact), _NODES - 1)
-
-    def curve(start: float) -> Array:
-        scaled = np.polynomial.chebyshev.chebval((start - middle) / half, through)
-        return _unscaled(series, np.asarray(scaled, dtype=np.float64))
-
-    return curve
+    nodes = 0.5 * (low + high + (high - low) * np.polynomial.chebyshev.chebpts1(_NODES))
+    starts = _unscaled(nodes).tolist()
+    through = [_scaled(family.at(start, series.speeds)) for start in starts]
+    scaled = KroghInterpolator(nodes, through)
+    return lambda start: _unscaled(scaled(start))
 
 
 def _fitted(
@@ -287,14 +281,12 @@ def _fitted(
         apart = series.values - curve(start)
         return float(apart @ weight @ apart)
 
-    grid = np.linspace(*_reach(series), _GRID)
-    first = int(np.argmin([squares(start) for start in grid]))
-    ends = grid[max(0, first - 1)], grid[min(grid.size - 1, first + 1)]
-    best = minimize_scalar(squares, bounds=ends, method="bounded", options={"xatol": 1e-9})
+    bounds, exactly = _reach(series), {"xatol": 1e-9}
+    best = minimize_scalar(squares, bounds=bounds, method="bounded", options=exactly)
     start = float(best.x)
     slope = _slope(curve, start)
-    value = float(_unscaled(series, start))
-    by_value = -value * np.log(value) if series.quantity == RESTITUTION else value
+    value = float(_unscaled(start))
+    by_value = -value * np.log(value)
     return value, float(by_value / np.sqrt(slope @ weight @ slope)), float(best.fun)
 
 
@@ -304,7 +296,7 @@ def _of_the_rest(curve: Callable[[float], Array], series: Series) -> float:
     What is left over is ``y_i - f_i(y_0)``, and its covariance has the error of y_0 in all places.
     """
     first = int(np.argmax(series.speeds))
-    start = float(_scaled(series, series.values)[first])
+    start = float(_scaled(series.values)[first])
     slope = _slope(curve, start)
     slope = slope / slope[first]  # by the value at the first speed itself
     apart = series.values - curve(start)
@@ -315,20 +307,19 @@ def _of_the_rest(curve: Callable[[float], Array], series: Series) -> float:
     return float(apart[kept] @ np.linalg.solve(covariance, apart[kept]))
 
 
-def _slope(curve: Callable[[float], Array], start: float, step: float = 1e-5) -> Array:
-    return (curve(start + step) - curve(start - step)) / (2.0 * step)
+def _slope(curve: Callable[[float], Array], start: float) -> Array:
+    return (curve(start + _STEP) - curve(start - _STEP)) / (2.0 * _STEP)
 
 
 def _power(series: Series) -> tuple[float, float, float | None]:
-    """Return the exponent of the loss, or of the time, in the speed, its error, and p."""
-    values = series.values
-    grows = 1.0 - values if series.quantity == RESTITUTION else values
-    scaled, change = np.log(grows), np.diag(1.0 / grows)
+    """Return the exponent of the loss in the speed, its error, and p."""
+    losses = 1.0 - series.values
+    scaled, change = np.log(losses), np.diag(1.0 / losses)
     weight = np.linalg.inv(change @ series.covariance() @ change)
-    design = np.column_stack([np.ones(values.size), np.log(series.speeds)])
+    design = np.column_stack([np.ones(losses.size), np.log(series.speeds)])
     covariance = np.linalg.inv(design.T @ weight @ design)
     best = covariance @ design.T @ weight @ scaled
     apart = scaled - design @ best
-    freedom = values.size - 2
+    freedom = losses.size - 2
     p = _probability(float(apart @ weight @ apart), freedom, series) if freedom else None
     return float(best[1]), float(np.sqrt(covariance[1, 1])), p

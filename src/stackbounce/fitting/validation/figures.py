@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from stackbounce.fitting.validation.comparison import Comparison
-from stackbounce.fitting.validation.series import RESTITUTION
 from stackbounce.plots.style import COLORS, styled_figure
 
 if TYPE_CHECKING:
@@ -26,7 +25,6 @@ def draw(comparison: Comparison) -> "Figure":
 def draw_on(axes: "Axes", comparison: Comparison) -> None:
     """Draw the points of a dataset with their errors, and the best curve of each law."""
     series = comparison.series
-    factor = 1.0 if series.quantity == RESTITUTION else 1e3
     speeds = np.linspace(series.speeds.min(), series.speeds.max(), _POINTS)
     places = list(comparison.curves)  # a law has its colour, whichever is the best
     for outcome in comparison.outcomes:
@@ -34,12 +32,10 @@ def draw_on(axes: "Axes", comparison: Comparison) -> None:
         curve = comparison.curves[outcome.laws[0]].at(outcome.value, speeds)
         style = _STYLES[i % len(_STYLES)]
         label = f"{outcome.short_name}: p = {outcome.p:.2g}"
-        axes.plot(speeds, factor * curve, style, color=COLORS[i % len(COLORS)], label=label)
-    errors = factor * np.sqrt(series.covariance().diagonal())
-    axes.errorbar(
-        series.speeds, factor * series.values, errors, fmt="o", color="black", ms=4, lw=1.0
-    )
+        axes.plot(speeds, curve, style, color=COLORS[i % len(COLORS)], label=label)
+    errors = np.sqrt(series.covariance().diagonal())
+    axes.errorbar(series.speeds, series.values, errors, fmt="o", color="black", ms=4, lw=1.0)
     axes.margins(0.04)  # whatever the style: no point lies on the frame
     axes.set_xlabel("impact speed (m/s)")
-    axes.set_ylabel("restitution" if factor == 1.0 else "contact time (ms)")
+    axes.set_ylabel("restitution")
     axes.legend(fontsize=8, loc="best")

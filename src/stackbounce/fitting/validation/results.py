@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from stackbounce import datasets
-from stackbounce.cross2007.pages import data_uri
+from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.extras import need
 from stackbounce.files import prepare_folder, write_folder
 from stackbounce.fitting.validation.comparison import (
@@ -29,7 +29,7 @@ _COLUMNS = (
     "law", "verdict", "p", "p_calibrated", "p_half", "p_twice", "p_without_air", "steady",
     "chi_squared", "freedom", "value", "error",
 )  # fmt: skip
-_OF_SERIES = ("name", "title", "ball", "quantity", "drag", "speeds", "values")
+_OF_SERIES = ("name", "title", "ball", "drag", "speeds", "values")
 _OF_COMPARISON = ("skipped", "tells_apart", "steady", "summary")
 
 
@@ -40,7 +40,7 @@ class Validation:
     Parameters
     ----------
     comparisons : tuple of Comparison
-        One for each dataset that has a quantity as a function of the speed.
+        One for each dataset that has restitutions at several speeds.
     left_out : dict of str to str
         The other datasets, and why.
     """
@@ -138,6 +138,7 @@ def write(out: Path, progress: Callable[[str], None] = lambda _: None) -> Valida
 def _as_dict(comparison: Comparison) -> dict[str, Any]:
     series = comparison.series
     found = {name: getattr(series, name) for name in _OF_SERIES} | {
+        "quantity": "restitution",
         "errors": [float(variance) ** 0.5 for variance in series.covariance().diagonal()],
         "assumed_errors": series.has_assumed_errors,
         "freedom_of_errors": series.freedom(),
@@ -173,13 +174,8 @@ def _csv(done: Validation) -> str:
 def _page(done: Validation, figures: dict[str, bytes]) -> str:
     import jinja2
 
-    pages = jinja2.Environment(
-        loader=jinja2.PackageLoader("stackbounce.fitting.validation"),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined,
-    )
+    own = jinja2.PackageLoader("stackbounce.fitting.validation")
+    pages = make_environment().overlay(loader=own)
     pages.filters["p"] = lambda value: "–" if value is None else format_p(value)
     return pages.get_template("validation.html.j2").render(
         done=done,

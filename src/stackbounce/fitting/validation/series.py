@@ -1,6 +1,6 @@
-"""A dataset as a series: restitutions or contact times at several speeds, with a covariance.
+"""A dataset as a series: restitutions at several speeds, with a covariance.
 
-Each kind of table has a `View`, which is chosen by the names of its columns.
+Each kind of table has a formula, which is chosen by the names of its columns.
 """
 
 import math
@@ -10,20 +10,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from stackbounce.fitting.quantities import Array
-from stackbounce.model.drag import (
-    fallen_speed,
-    flight_speed,
-    landing_speed,
-    launch_speed,
-    sphere_drag,
-)
+from stackbounce.model import drag as in_air
 from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.run.quantities import Array
 
 if TYPE_CHECKING:
     import xarray as xr
-
-RESTITUTION, CONTACT_TIME = "restitution", "contact time"
 
 _AIR_DENSITY = 1.2  # kg/m**3
 _DRAG_COEFFICIENT, _DRAG_ERROR = 0.45, 0.05
@@ -38,14 +30,12 @@ _STEP = 1e-6  # relative, of a numerical derivative
 
 @dataclass(frozen=True)
 class Series:
-    """A quantity of one ball as a function of its impact speed.
+    """The restitution of one ball as a function of its impact speed.
 
     Parameters
     ----------
     name, title, ball : str
         Of the dataset.
-    quantity : str
-        `RESTITUTION` or `CONTACT_TIME`.
     speeds, values : array
         Impact speeds in m/s and the values, (n,).
     published, assumed : array
@@ -53,8 +43,6 @@ class Series:
         its readings, and from errors that are assumed, that of the drag among them.
     drag : float
         k of `stackbounce.model.drag` in 1/m; 0 if the air was left out.
-    restitution : float, optional
-        The restitution that goes with contact times.
     scatters : tuple of (array, float), optional
         The parts of `published` that are estimated from the scatter of readings, (n, n), each with
         its degrees of freedom.
@@ -63,13 +51,11 @@ class Series:
     name: str
     title: str
     ball: str
-    quantity: str
     speeds: Array
     values: Array
     published: Array
     assumed: Array
     drag: float
-    restitution: float | None = None
     scatters: tuple[Scatter, ...] = ()
 
     def covariance(self, scale: float = 1.0) -> Array:
@@ -106,24 +92,15 @@ class Series:
         return bool(np.any(self.assumed != 0.0))
 
 
-@dataclass(frozen=True)
-class _View:
-    """How a table with some columns becomes a series."""
-
-    columns: tuple[str, ...]
-    quantity: str
-    transform: _Transform
-
-
 def why_not(data: "xr.Dataset") -> str:
     """Return why a dataset is no series; empty if it is one."""
     if data.attrs["kind"] == "rule":
         return "it has the limits of rules, no measurement"
     if data.sizes["row"] < 2:
         return "it has one value only"
-    if _view_of(data) is not None or {"flight", "flight_time"} <= set(data):
+    if _columns_of(data) or {"flight", "flight_time"} <= set(data):
         return ""
-    return "it has no restitutions or contact times of one ball at known speeds"
+    return "it has no restitutions of one ball at known speeds"
 
 
 def make_series(data: "xr.Dataset", *, air: bool = True) -> Series:
@@ -142,26 +119,13 @@ def make_series(data: "xr.Dataset", *, air: bool = True) -> Series:
     Series
     """
     drag = _drag_of_ball(data) if air else 0.0
-    speeds, values, published, assumed, scatters = _points(drag, data)
+    found = _points(drag, data)
     if drag:  # it is not known well, and changes all values together
         more = 1.0 + _DRAG_ERROR / _DRAG_COEFFICIENT
-        shift = _points(more * drag, data).values - values
-        assumed = assumed + np.outer(shift, shift)
-    view = _view_of(data)
-    quantity = RESTITUTION if view is None else view.quantity
-    kept = data.get("restitution") if quantity == CONTACT_TIME else None
+        shift = _points(more * drag, data).values - found.values
+        found = found._replace(assumed=found.assumed + np.outer(shift, shift))
     return Series(
-        name=data.attrs["name"],
-        title=data.attrs["title"],
-        ball=data.attrs["ball"],
-        quantity=quantity,
-        speeds=speeds,
-        values=values,
-        published=published,
-        assumed=assumed,
-        drag=drag if quantity == RESTITUTION else 0.0,
-        restitution=None if kept is None else float(kept[0]),
-        scatters=scatters,
+        **{key: data.attrs[key] for key in ("name", "title", "ball")}, **found._asdict(), drag=drag
     )
 
 
@@ -176,15 +140,15 @@ class _Measured(NamedTuple):
 
 
 def _points(drag: float, data: "xr.Dataset") -> _Measured:
-    view = _view_of(data)
-    return _flights(drag, data) if view is None else _propagated(view, drag, data)
+    columns = _columns_of(data)
+    return _propagated(columns, drag, data) if columns else _flights(drag, data)
 
 
 def _drag_of_ball(data: "xr.Dataset") -> float:
     """Return the drag of a dataset's ball in 1/m; 0 if its mass or its diameter is not known."""
     if not {"mass", "diameter"} <= set(data.attrs):
         return 0.0
-    sphere = sphere_drag(_AIR_DENSITY, _DRAG_COEFFICIENT, data.attrs["diameter"])
+    sphere = in_air.sphere_drag(_AIR_DENSITY, _DRAG_COEFFICIENT, data.attrs["diameter"])
     return sphere / float(data.attrs["mass"])
 
 
@@ -194,13 +158,13 @@ def _each(formula: Callable[[float, float, float], float], drag: float, values: 
 
 def _speeds_of_flight(drag: float, time: Array) -> tuple[Array, Array]:
     """Return the speeds in m/s at the start and at the end of flights of some times in s."""
-    leaving = _each(flight_speed, drag, time)
-    return leaving, _each(landing_speed, drag, leaving)
+    leaving = _each(in_air.flight_speed, drag, time)
+    return leaving, _each(in_air.landing_speed, drag, leaving)
 
 
 def _rebounds(drag: float, given: dict[str, Array]) -> _Points:
-    before = _each(fallen_speed, drag, given["drop_height"])
-    return before, _each(launch_speed, drag, given["rebound_height"]) / before
+    before = _each(in_air.fallen_speed, drag, given["drop_height"])
+    return before, _each(in_air.launch_speed, drag, given["rebound_height"]) / before
 
 
 def _ratios(drag: float, given: dict[str, Array]) -> _Points:
@@ -220,7 +184,7 @@ def _at_speeds(_: float, given: dict[str, Array]) -> _Points:
 
 def _knocks(drag: float, given: dict[str, Array]) -> _Points:
     leaving, landing = _speeds_of_flight(drag, np.diff(given["knock_time"]))
-    before = np.append(_each(fallen_speed, drag, given["drop_height"][:1]), landing[:-1])
+    before = np.append(_each(in_air.fallen_speed, drag, given["drop_height"][:1]), landing[:-1])
     return before, leaving / before
 
 
@@ -232,35 +196,30 @@ def _blocks(_: float, given: dict[str, Array]) -> _Points:
     return speed, 1.0 + np.diff(flight) / np.diff(middle)
 
 
-def _contacts(drag: float, given: dict[str, Array]) -> _Points:
-    return _each(fallen_speed, drag, given["drop_height"]), given["contact_time"]
+_FORMULAS: dict[tuple[str, ...], _Transform] = {
+    ("drop_height", "rebound_height"): _rebounds,
+    ("drop_height", "knock_time"): _knocks,
+    ("drop_height", "restitution"): _ratios,
+    ("impact_speed", "restitution"): _at_speeds,
+    ("apex_height",): _apexes,
+    ("start", "end", "flights"): _blocks,
+}
 
 
-_VIEWS = (
-    _View(("drop_height", "contact_time"), CONTACT_TIME, _contacts),
-    _View(("drop_height", "rebound_height"), RESTITUTION, _rebounds),
-    _View(("drop_height", "knock_time"), RESTITUTION, _knocks),
-    _View(("drop_height", "restitution"), RESTITUTION, _ratios),
-    _View(("impact_speed", "restitution"), RESTITUTION, _at_speeds),
-    _View(("apex_height",), RESTITUTION, _apexes),
-    _View(("start", "end", "flights"), RESTITUTION, _blocks),
-)
+def _columns_of(data: "xr.Dataset") -> tuple[str, ...]:
+    """Return the columns that a formula takes; empty if none does."""
+    return next((columns for columns in _FORMULAS if set(columns) <= set(data)), ())
 
 
-def _view_of(data: "xr.Dataset") -> _View | None:
-    return next((view for view in _VIEWS if set(view.columns) <= set(data)), None)
-
-
-def _propagated(view: _View, drag: float, data: "xr.Dataset") -> _Measured:
+def _propagated(names: tuple[str, ...], drag: float, data: "xr.Dataset") -> _Measured:
     """Return speeds, values and their covariances, by the derivatives by each number given."""
-    columns = {name: _read(data, name) for name in view.columns}
+    transform, columns = _FORMULAS[names], {name: _read(data, name) for name in names}
     given = {name: column.means for name, column in columns.items()}
-    speeds, values = view.transform(drag, given)
+    speeds, values = transform(drag, given)
     published, assumed = np.zeros((2, values.size, values.size))
     scatters: list[Scatter] = []
     for name, column in columns.items():
-        rows = range(column.means.size)
-        slopes = np.stack([_slope(view.transform, drag, given, name, i) for i in rows], axis=1)
+        slopes = _slopes(transform, drag, given, name)
         published += (slopes * column.variances) @ slopes.T
         assumed += column.assumed**2 * slopes @ slopes.T
         if column.scatter:
@@ -269,15 +228,14 @@ def _propagated(view: _View, drag: float, data: "xr.Dataset") -> _Measured:
     return _Measured(speeds, values, published, assumed, tuple(scatters))
 
 
-def _slope(transform: _Transform, drag: float, given: dict[str, Array], name: str, i: int) -> Array:
-    step = _STEP * max(abs(given[name][i]), _STEP)
-    ends = []
-    for sign in (1.0, -1.0):
-        moved = given[name].copy()
-        moved[i] += sign * step
-        ends.append(transform(drag, given | {name: moved})[1])
-    slope: Array = (ends[0] - ends[1]) / (2.0 * step)
-    return slope
+def _slopes(transform: _Transform, drag: float, given: dict[str, Array], name: str) -> Array:
+    """Return the derivatives (values, rows) of the values by the numbers of a column."""
+    steps = _STEP * np.maximum(np.abs(given[name]), _STEP)
+    larger, smaller = (
+        np.array([transform(drag, given | {name: row})[1] for row in given[name] + moved])
+        for moved in (np.diag(steps), np.diag(-steps))
+    )
+    return np.asarray((larger - smaller).T / (2.0 * steps))
 
 
 class _Column(NamedTuple):
@@ -316,11 +274,10 @@ def _flights(drag: float, data: "xr.Dataset") -> _Measured:
     covariance are those of the throws, taken together for all bounces. Correlated errors tell the
     variance worse: n of them as n / (1 + 2 r**2) others, with the correlation r of neighbours.
     """
-    number = np.asarray(data.flight.values, dtype=int)
-    leaving, landing = _speeds_of_flight(
-        drag, np.asarray(data.flight_time.values, dtype=np.float64)
-    )
-    after = np.flatnonzero(np.diff(number) == 1) + 1  # whose flight follows that of the row above
+    leaving, landing = _speeds_of_flight(drag, data.flight_time.values)
+    after = (
+        np.flatnonzero(np.diff(data.flight.values) == 1) + 1
+    )  # whose flight follows that of the row above
     ratios = leaving[after] / landing[after - 1]
     values = ratios.mean(axis=1)
     apart = ratios - values[:, None]
@@ -328,9 +285,9 @@ def _flights(drag: float, data: "xr.Dataset") -> _Measured:
     variance = np.mean(apart**2) * throws / (throws - 1.0)
     next_too = np.flatnonzero(np.diff(after) == 1)
     shared = np.mean(apart[next_too] * apart[next_too + 1]) * throws / (throws - 1.0)
-    covariance: Array = np.diag(np.full(values.size, variance))
+    covariance = np.diag(np.full(bounces, variance))
     covariance[next_too, next_too + 1] = covariance[next_too + 1, next_too] = shared
-    speeds: Array = landing[after - 1].mean(axis=1)
-    result: Array = covariance / throws
+    covariance /= throws
     freedom = bounces * (throws - 1.0) / (1.0 + 2.0 * float(shared / variance) ** 2)
-    return _Measured(speeds, values, result, np.zeros_like(result), ((result, freedom),))
+    speeds, scatters = landing[after - 1].mean(axis=1), ((covariance, freedom),)
+    return _Measured(speeds, values, covariance, np.zeros_like(covariance), scatters)

@@ -9,14 +9,12 @@ numbers    the rows below -> an array, by pandas where they are plain
 headings   "Run 1: Time (ms)" -> name, unit, run
 roles      names and units -> what a column is
 layouts    which program wrote a table, and where its columns are
-formats/   a file for each program whose tables are recognised
+formats/   a function for each program whose tables are recognised
 bare       columns without names -> what their numbers look like
 video      frames as times, pixels as lengths, one row for each frame
 dataset    columns -> the Dataset of what they hold
 clock      what a column of times counts: since when, in which unit
-series     the rows in time: runs, gaps, repeats
-rounding   to what steps times were rounded, and the even times that they were
-bounces    the table of phyphox's (in)elastic collision
+series     the rows in time: runs, gaps, repeats, and times that were rounded
 tables     the tables of a file with several, or in a packing of its own, as bytes
 zipped     a zip archive
 sheets     spreadsheets of Excel

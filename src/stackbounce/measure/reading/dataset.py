@@ -12,7 +12,6 @@ from stackbounce.measure.kind import Kind
 from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading.bounces import INFERRED, bounces
 from stackbounce.measure.reading.clock import on_the_clock
 from stackbounce.measure.reading.roles import ACCELERATIONS, ROLES, Column
 from stackbounce.measure.reading.series import in_time, step_of
@@ -22,6 +21,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _ASSUMED = {"time": "s", "knock_time": "s", "force": "N", "compression": "m", "x": "m", "y": "m"}
+_INFERRED = (
+    "height 0, of the drop, was not measured: phyphox infers it from the bounces that followed"
+)
 _OTHER_UNITS = {"s": "ms", "N": "kN", "m": "cm"}  # examples in doubts
 _SMALLEST = 1e-60  # number in any unit; squares and ratios of such are finite
 _LARGEST = 1e60  # number in any unit
@@ -74,7 +76,7 @@ def assemble(
     measurable = (sizes == 0.0) | ((sizes >= _SMALLEST) & (sizes <= _LARGEST))
     values = np.where(measurable, values, np.nan)
     if holds == "bounces":
-        return bounces(columns, values), [INFERRED]
+        return _bounces(columns, values)
     kind = KINDS[holds]
     columns, values = _named_first(columns, values)
     over_time = {"time": _series, "track": _track}.get(kind.dimension)
@@ -132,8 +134,8 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
 
 def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
     """Return columns; those in a role of `_ASSUMED` without a unit are assumed to be in SI."""
-    without = [column for column in columns if column.role in _ASSUMED and not column.unit]
-    bare = [column for column in without if not column.heading.unit]
+    untold = [column for column in columns if not (column.unit or column.heading.unit)]
+    bare = [column for column in untold if column.role in _ASSUMED]
     if bare:
         names = dict.fromkeys(column.heading.name or column.variable for column in bare)
         units = dict.fromkeys(_ASSUMED[column.role] for column in bare)
@@ -238,6 +240,45 @@ def _rows(kind: Kind, columns: Sequence[Column], values: Array, run: object) -> 
     if not whole.any():
         raise FileError(f"it has no row with {' and '.join(roles)}")
     return xr.Dataset(_data(columns, values[whole], kind.dimension)), []
+
+
+def _bounces(columns: Sequence[Column], values: Array) -> _Built:
+    """Return the knocks that phyphox heard, and what it derived of them; the last row counts.
+
+    If it heard no knock k, phyphox computes height k and energy k from the time since knock k - 1;
+    these are left out.
+    """
+    import xarray as xr
+
+    numbers = np.nan_to_num(values)
+    names = [column.heading.name.casefold() for column in columns]
+    first = [name == "bounce 0" for name in names]
+    heard = np.flatnonzero((numbers[:, first] > 0.0).any(axis=1))
+    if not heard.size:
+        raise FileError("phyphox heard no knock in it")
+    found = dict(zip(names, numbers[heard[-1]].tolist(), strict=True))
+    times = [found["bounce 0"]]
+    while found.get(f"bounce {len(times)}", 0.0) > times[-1]:
+        times.append(found[f"bounce {len(times)}"])
+    count = len(times)
+    heights, energies = (
+        np.array([found.get(f"{name} {k}", 0.0) for k in range(count)])
+        for name in ("height", "energy")
+    )
+    if count < 3:  # phyphox compares the first two flights to infer the drop
+        heights[0] = 0.0
+    energies[0] = 0.0
+    if count > 1 and not energies[1]:
+        energies[1] = 1.0  # phyphox sets the others in proportion to this one
+    data = {
+        name: ("bounce", np.where(row > 0.0, row, np.nan), {"units": unit, "long_name": text})
+        for name, row, unit, text in (
+            ("height", heights, "m", "Height: apex before this knock; of the drop at 0"),
+            ("energy", energies, "1", "Energy, of that after knock 0"),
+        )
+    }
+    said = {"units": "s", "long_name": "Bounce: time of a knock"}
+    return xr.Dataset({"knock_time": ("knock", np.array(times), said), **data}), [_INFERRED]
 
 
 def _at(columns: Sequence[Column], role: str) -> int:

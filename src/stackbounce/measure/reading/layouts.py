@@ -1,12 +1,12 @@
 """Which program wrote a table, and where its columns are: one registry of layouts.
 
-The format of a program is one file in `formats/`: a function of the table's first lines, marked
-with `layout`, that returns a `Layout`, or None if another program wrote the table.
+The format of a program is a function in `formats/`: of the table's first lines, marked with
+`layout`, that returns a `Layout`, or None if another program wrote the table.
 """
 
 import re
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -79,13 +79,10 @@ def first_row(text: Text, start: int = 0, columns: Sequence[int] | None = None) 
     FileError
         If there is none.
     """
-    for index in range(start, len(text.head)):
-        row = text.head[index]
-        if columns is None:
-            found = count_numbers(row, text.decimal) > 0
-        else:
-            found = all(k < len(row) and count_numbers([row[k]], text.decimal) for k in columns)
-        if found:
+    least = 1 if columns is None else len(columns)
+    for index, row in enumerate(text.head[start:], start):
+        cells = row if columns is None else [row[k] for k in columns if k < len(row)]
+        if count_numbers(cells, text.decimal) >= least:
             return index
     raise FileError("it has a header and no row of numbers below it")
 
@@ -112,6 +109,22 @@ def columns_of(
         unit = None if units is None else units[k] if k < len(units) else ""
         columns.append(column(k, heading(name, unit)))
     return tuple(columns)
+
+
+def line_of(text: Text, name: str) -> int:
+    """Return the first line that a name begins which has more cells; 0 where there is none."""
+    lines = enumerate(text.head)
+    return next((k for k, row in lines if row[:1] == [name] and len(row) > 1), 0)
+
+
+def keys_above(text: Text, until: int) -> dict[str, list[str]]:
+    """Return the first lines up to some one as keys, their first cells, with the cells beside."""
+    return {row[0]: row[1:] for row in text.head[:until] if row}
+
+
+def told(keys: Mapping[str, Sequence[str]], key: str, index: int = 0) -> str:
+    """Return one of the cells beside a key, empty where there is none."""
+    return next(iter(keys.get(key, ())[index:]), "")
 
 
 def general(text: Text) -> Layout:
@@ -187,7 +200,7 @@ def _named(text: Text, index: int, width: int) -> list[str]:
         while cells and not cells[-1]:
             cells = cells[:-1]
         return cells
-    line = text.line(index).lstrip("#% ").rstrip()
+    line = text.lines[index].lstrip("#% ").rstrip()
     for pattern in (r"\S+", r"\S+(?: \S+)*", r"\S+(?:\s*[(\[][^)\]]*[)\]])?", r"[^,;]+"):
         found = re.findall(pattern, line)
         if len(found) == width:

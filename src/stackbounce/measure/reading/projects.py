@@ -145,8 +145,7 @@ def _first(tree: Element, of: str) -> Element | None:
 
 
 def _property(one: Element | None, name: str) -> Element | None:
-    own = () if one is None else one.findall("property")
-    return next((each for each in own if each.get("name") == name), None)
+    return None if one is None else one.find(f"property[@name='{name}']")
 
 
 def _text(one: Element | None, name: str) -> str:

@@ -77,8 +77,8 @@ class Column:
         role, factor, symbol, doubt = _role(name or self.heading.name, said.unit, self.role)
         if name:
             role = name if name in ROLES else ""
-        changed = replace(self, heading=said, role=role, factor=factor, unit=symbol, doubt=doubt)
-        return replace(changed, named=name or self.named)
+        named = name or self.named
+        return Column(self.index, said, role, factor, symbol, self.track, named, doubt)
 
 
 def column(index: int, said: Heading, role: str = "", track: str = "") -> Column:

@@ -3,7 +3,7 @@
 import csv
 import re
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from stackbounce.errors import FileError, InvalidValue, shown
 from stackbounce.measure.messages import Message, OptionHint, about_option
@@ -34,29 +34,24 @@ class Text:
         A tab, ``;``, ``,`` or a space for any run of blanks.
     decimal : str
         The decimal mark, ``.`` or ``,``.
-    head : list of list of str
-        The cells of the first lines.
+    lines, head : list of str, list of list of str
+        The first lines, and their cells.
     starts : list of int
         Where each of these begins in `content`.
-    doubts : list of str, optional
+    doubts : list of str
         What is unsure about delimiter and decimal mark.
-    name : str, optional
+    name : str
         That of the file, for programs that tell by it what they wrote.
     """
 
     content: str
     delimiter: str
     decimal: str
+    lines: list[str]
     head: list[list[str]]
     starts: list[int]
-    doubts: list[str] = field(default_factory=list)
-    name: str = ""
-
-    def line(self, index: int) -> str:
-        """Return one of the first lines."""
-        start = self.starts[index]
-        end = self.content.find("\n", start)
-        return self.content[start : end if end >= 0 else None]
+    doubts: list[str]
+    name: str
 
 
 def decode(content: bytearray) -> str:
@@ -151,7 +146,7 @@ _GROUPED = {
 _POINTS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:\.[0-9]{3})+")
 
 
-def tabulate(content: str, decimal: str | None = None, name: str = "") -> Text:
+def tabulate(content: str, decimal: str | None, name: str) -> Text:
     """Find the delimiter and the decimal mark of a table in its first lines.
 
     Raises
@@ -162,13 +157,10 @@ def tabulate(content: str, decimal: str | None = None, name: str = "") -> Text:
     if decimal not in (None, ".", ","):
         raise InvalidValue(about_option("decimal", f' must be "." or ",", got {shown(decimal)}'))
     starts, lines = _head(content)
-    marks = decimal or ".,"
-    found = [_score(lines, delimiter, marks) for delimiter in _DELIMITERS]
-    if decimal == ",":  # a comma is no delimiter then, but where cells are quoted
-        quoted = any('"' in line for line in lines)
-        found[2] = found[2] if quoted else (0, 0)
-    best = max(range(len(found)), key=lambda k: found[k])
-    delimiter = _DELIMITERS[best] if found[best] > (0, 0) else "\t"
+    scores = {delimiter: _score(lines, delimiter, decimal or ".,") for delimiter in _DELIMITERS}
+    if decimal == "," and not any('"' in line for line in lines):
+        del scores[","]  # it is a delimiter only where cells are quoted
+    delimiter = max(scores, key=scores.__getitem__)
     head = [split(line, delimiter) for line in lines]
     wide = max(map(len, head), default=0)
     if wide > COLUMNS:
@@ -179,7 +171,7 @@ def tabulate(content: str, decimal: str | None = None, name: str = "") -> Text:
             f"it has no row of numbers in its first {len(head)} lines; "
             f"it begins with {shown(next((line for line in lines if line.strip()), ''))}"
         )
-    return Text(content, delimiter, mark, head, starts, doubts, name)
+    return Text(content, delimiter, mark, lines, head, starts, doubts, name)
 
 
 def _head(content: str) -> tuple[list[int], list[str]]:

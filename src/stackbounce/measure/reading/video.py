@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import islice
+from typing import TypeAlias
 
 import numpy as np
 
@@ -10,6 +11,9 @@ from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.roles import FRAME, PIXEL, POINT, Column, column
+
+_Tracks: TypeAlias = tuple[list[Column], Array, list[str]]
+"""Columns with their numbers, and what is unsure."""
 
 _TRACKS = 12
 """Tracks below each other that are read, at most: the longest ones."""
@@ -45,29 +49,27 @@ def on_frames(
     if "time" not in roles and "frame" not in roles and {"x", "y"} <= roles <= _ROLES:
         found.append(column(-1, heading("row"), "frame"))
         doubts.append("it does not count frames either, so that each row is one")
-    found, more = _timed(found, frame_rate)
-    return _scaled(found, scale, [*more, *doubts])
+    timed = _timed(found, frame_rate)
+    return found, [*timed, *doubts, *_scaled(found, scale)]
 
 
-def _timed(found: list[Column], frame_rate: float | None) -> tuple[list[Column], list[str]]:
-    """Return columns in which frames are times, where there are no others."""
+def _timed(found: list[Column], frame_rate: float | None) -> list[str]:
+    """Make frames times, where columns hold no others; return what is unsure."""
     at = next((k for k, member in enumerate(found) if member.role == "frame"), None)
     if at is None or any(column.role == "time" for column in found):
         unused = Message(_RATE, " is not used, as the file has times")
-        return found, [] if frame_rate is None else [unused]
+        return [] if frame_rate is None else [unused]
     said = replace(found[at].heading, unit=FRAME)
     factor, unit = (1.0, FRAME) if frame_rate is None else (1.0 / frame_rate, "s")
     found[at] = replace(found[at], heading=said, role="time", factor=factor, unit=unit)
     doubt = Message(
         "it has no times, so that a frame is the unit of time: ", _RATE, " tells frames per second"
     )
-    return found, [doubt] if frame_rate is None else []
+    return [doubt] if frame_rate is None else []
 
 
-def _scaled(
-    found: list[Column], scale: float | None, doubts: list[str]
-) -> tuple[list[Column], list[str]]:
-    """Return columns with positions in m, or in pixels where no scale is known."""
+def _scaled(found: list[Column], scale: float | None) -> list[str]:
+    """Make columns of positions those in m, or in pixels where no scale is known."""
     by_frame = any(column.role == "time" and column.heading.unit == FRAME for column in found)
     places = [k for k, member in enumerate(found) if member.role in ("x", "y")]
     bare = [k for k in places if not found[k].heading.unit and (by_frame or scale is not None)]
@@ -77,15 +79,13 @@ def _scaled(
         found[k] = replace(found[k], factor=factor, unit=unit, doubt="")
     if pixels and scale is None:
         names = " and ".join(dict.fromkeys(found[k].role for k in pixels))
-        doubts.append(Message(f"{names} are taken as pixels: ", _SCALE, " tells metres per pixel"))
+        return [Message(f"{names} are taken as pixels: ", _SCALE, " tells metres per pixel")]
     if scale is not None and not pixels:
-        doubts.append(Message(_SCALE, " is not used, as the positions have units"))
-    return found, doubts
+        return [Message(_SCALE, " is not used, as the positions have units")]
+    return []
 
 
-def rows_by_frame(
-    columns: Sequence[Column], values: Array
-) -> tuple[list[Column], Array, list[str]]:
+def rows_by_frame(columns: Sequence[Column], values: Array) -> _Tracks:
     """Return a table of tracks with one row for each time, and what is unsure.
 
     Tracks that stand below each other, told apart by a column of their numbers, are put side by
@@ -102,16 +102,12 @@ def rows_by_frame(
         return list(columns), values, []
     places = [k for k, column in enumerate(columns) if column.role in ("x", "y")]
     kept = _nearest(values[:, time], values[:, places])
-    if len(kept) == len(values):
-        return list(columns), values, []
     many = len(values) - len(kept)
     doubt = f"{many} rows are further points in a frame: the one next to the point before is taken"
-    return list(columns), values[kept], [doubt]
+    return list(columns), values[kept], [doubt] * (many > 0)
 
 
-def _side_by_side(
-    columns: Sequence[Column], values: Array, time: int, at: int
-) -> tuple[list[Column], Array, list[str]]:
+def _side_by_side(columns: Sequence[Column], values: Array, time: int, at: int) -> _Tracks:
     ids, counts = np.unique(values[np.isfinite(values[:, at]), at], return_counts=True)
     longest = np.sort(ids[np.argsort(-counts, kind="stable")[:_TRACKS]])
     rows = [np.flatnonzero(values[:, at] == track) for track in longest]
@@ -151,9 +147,7 @@ def _nearest(frames: Array, places: Array) -> list[int]:
     return kept
 
 
-def _linked(
-    columns: Sequence[Column], values: Array, time: int
-) -> tuple[list[Column], Array, list[str]]:
+def _linked(columns: Sequence[Column], values: Array, time: int) -> _Tracks:
     """Return tracks that are put together from points, each next to where it should be."""
     back = np.flatnonzero(np.diff(values[:, time]) < 0.0)
     values = values[: back[0] + 1] if back.size else values

@@ -2,7 +2,6 @@
 
 import io
 import struct
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from stackbounce.measure.reading.limits import CELLS
 if TYPE_CHECKING:
     import xarray as xr
 
+_CHUNKS = 10_000  # that are looked at
 _STREAMED = (0, 0xFFFFFFFF)  # sizes that recorders write before they know the end
 
 
@@ -75,27 +75,20 @@ def read_wav(content: bytearray) -> tuple["xr.Dataset", str, list[str]]:
 
 def _found(content: bytearray, order: str) -> tuple[bytearray, int, int]:
     """Return the format chunk, and where the samples start and their size as the file has it."""
-    form = bytearray()
-    for name, start, size in _chunks(content, order):
+    form, start = bytearray(), 20
+    for _ in range(_CHUNKS):
+        if start > len(content):
+            break
+        name, size = struct.unpack_from(f"{order}4sI", content, start - 8)
         if name == b"fmt ":
             form = content[start : start + size - size % 2]
             if len(form) < 16:
                 raise FileError("it is a WAV sound, but broken: its format is cut off")
         elif name == b"data" and form:
             return form, start, size
+        start += 8 + size + size % 2
     missing = "sound" if form else "the format of its sound"
     raise FileError(f"it is a WAV sound, but broken: {missing} is missing")
-
-
-def _chunks(content: bytearray, order: str) -> Iterator[tuple[bytes, int, int]]:
-    """Yield name, start and size of each chunk, a limited number of them."""
-    start = 12
-    for _ in range(10_000):
-        if start + 8 > len(content):
-            return
-        name, size = struct.unpack_from(f"{order}4sI", content, start)
-        yield name, start + 8, size
-        start += 8 + size + size % 2
 
 
 def _decoded(form: bytearray, samples: memoryview, order: str, frames: int) -> NDArray[Any]:

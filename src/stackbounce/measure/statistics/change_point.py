@@ -40,8 +40,6 @@ class Kink(NamedTuple):
     shift, gain : float
         By which the force under the lowest ball alone was shifted, in s, and multiplied, to match
         that under the stack.
-    until : float
-        The end of the fit, in s since the touch.
     pressed : bool
         Whether the force under the stack is the larger one late in the contact.
     """
@@ -50,7 +48,6 @@ class Kink(NamedTuple):
     error: float
     shift: float
     gain: float
-    until: float
     pressed: bool
 
 
@@ -99,7 +96,7 @@ def find_kink(
         time, error, gain, moved = _search(times[used], force[used], known, noise, (until, lasting))
         shift += moved / gain
     like = gain * np.interp(times - shift, *alone)
-    return Kink(time, error, shift, gain, until, _pressed(times / lasting, force, like, noise))
+    return Kink(time, error, shift, gain, _pressed(times / lasting, force, like, noise))
 
 
 def _pressed(share: Array, force: Array, like: Array, noise: float) -> bool:

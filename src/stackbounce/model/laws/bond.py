@@ -6,10 +6,10 @@ from typing import Annotated, ClassVar, Self
 
 from stackbounce.errors import InvalidValue, non_negative
 from stackbounce.model.laws.law import ContactLaw, Given, Quantity, stiffness_in
-from stackbounce.model.laws.registry import register_unlisted
+from stackbounce.model.laws.registry import register
 
 
-@register_unlisted
+@register
 @dataclass(frozen=True)
 class Bond(ContactLaw):
     """A spring and a dashpot that push and pull, and never open: two parts of one body.
@@ -60,6 +60,7 @@ class Bond(ContactLaw):
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section II"
     form = "BOND"
     third_number = "damping"
+    listed = False
     pulls = True
     loss = "damping"
 
@@ -71,8 +72,8 @@ class Bond(ContactLaw):
     ] = 0.0
 
     def series_constants(self) -> dict[str, float]:
-        """Return the quantities that two bonds in series must have in common: also b/k."""
-        return super().series_constants() | {"damping/stiffness": self.damping / self.stiffness}
+        """Return what two bonds in series must have in common: b/k."""
+        return {"damping/stiffness": self.damping / self.stiffness}
 
     def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
         """Return stiffness and damping of two bonds in series; b/k is that of each."""

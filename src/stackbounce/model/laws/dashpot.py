@@ -105,8 +105,8 @@ class Dashpot(ContactLaw):
         return Flank(0.01, 0.3, "jump"), Flank(1.0, 1.0)
 
     def series_constants(self) -> dict[str, float]:
-        """Return the quantities that two dashpots in series must have in common: also b/k."""
-        return super().series_constants() | {"damping/stiffness": self.damping / self.stiffness}
+        """Return what two dashpots in series must have in common: b/k."""
+        return {"damping/stiffness": self.damping / self.stiffness}
 
     def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
         """Return stiffness and damping of two dashpots in series; b/k is that of each."""

@@ -114,14 +114,9 @@ restitution 0.75'
         k, knee, ratio, e = self.values(varied)
         return FORMS[self.form], k, e * e, knee, ratio
 
-    @property
-    def contact_time_depends_on(self) -> tuple[str, ...]:
-        """Mass and speed: a faster ball buckles further."""
-        return ("mass", "impact_speed")
-
     @classmethod
     def _needs_speed(cls, exponent: float) -> bool:
-        return True
+        return True  # a faster ball buckles further
 
     @classmethod
     def calibrated(cls, given: Given) -> Self:
@@ -153,7 +148,7 @@ restitution 0.75'
 
     def series_constants(self) -> dict[str, Any]:
         """Return what two laws in series must have in common: all but the stiffness."""
-        return super().series_constants() | {
+        return {
             "buckling force": self.stiffness * self.buckling_compression,
             "stiffness_ratio": self.stiffness_ratio,
             "restitution": self.restitution,

@@ -124,7 +124,7 @@ class HuntCrossley(ContactLaw):
     def series_constants(self) -> dict[str, float]:
         """Return the quantities that two laws in series must have in common: also χ/k**(1/p)."""
         rate = self.dissipation / self.stiffness ** (1.0 / self.exponent)
-        return super().series_constants() | {"dissipation/stiffness**(1/exponent)": rate}
+        return {"exponent": self.exponent, "dissipation/stiffness**(1/exponent)": rate}
 
     def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
         """Return stiffness and dissipation of two laws in series; the latter is χ times `share`."""

@@ -100,11 +100,9 @@ class Hysteretic(ContactLaw):
         k = _STIFFNESS.check("stiffness", self.stiffness)
         p = EXPONENT.check("exponent", self.exponent)
         e, n, derived = _losses(p, self.restitution, self.unloading_exponent)
-        object.__setattr__(self, "stiffness", k)
-        object.__setattr__(self, "exponent", p)
-        object.__setattr__(self, "restitution", e)
-        object.__setattr__(self, "unloading_exponent", n)
-        object.__setattr__(self, "derived", derived)
+        names = ("stiffness", "exponent", "restitution", "unloading_exponent", "derived")
+        for name, value in zip(names, (k, p, e, n, derived), strict=True):
+            object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
         given = next(name for name in _ONE_OF if name != self.derived)
@@ -172,9 +170,8 @@ class Hysteretic(ContactLaw):
         return touch, Flank(n, n)
 
     def series_constants(self) -> dict[str, Any]:
-        """Return what two laws in series must have in common: all but the stiffness."""
-        names = ("exponent", "unloading_exponent")
-        return {name: getattr(self, name) for name in names}
+        """Return what two laws in series must have in common: both exponents."""
+        return {"exponent": self.exponent, "unloading_exponent": self.unloading_exponent}
 
     def as_hysteretic(self) -> "Hysteretic":
         """Return the law itself."""

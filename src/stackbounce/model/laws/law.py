@@ -113,6 +113,8 @@ class ContactLaw:
     """The field that is the third of the engine's numbers, such as the damping."""
     fourth_number: ClassVar[str] = ""
     """The field that is the fourth one, such as a relaxation time."""
+    listed: ClassVar[bool] = True
+    """Whether menus and tables offer the law."""
     rigid: ClassVar[bool] = False
     """Whether collisions are instantaneous."""
     pulls: ClassVar[bool] = False
@@ -345,8 +347,9 @@ class ContactLaw:
     # two contacts in series
 
     def series_constants(self) -> dict[str, Any]:
-        """Return the quantities that two laws in series must have in common, by name."""
-        return {"exponent": self.exponent}
+        """Return what two laws in series must have in common, by name: all but the stiffness."""
+        names = [name for name in self.quantities() if name != "stiffness"]
+        return {name: getattr(self, name) for name in ("exponent", *names)}
 
     def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
         """Return the fields of two laws in series that differ from those of this law.

@@ -17,15 +17,14 @@ UNLISTED: dict[str, type[ContactLaw]] = {}
 
 def usual_laws() -> list[str]:
     """Return the names of the laws that `standard_models` compares."""
-    rigid = [name for name, law in LAWS.items() if law.rigid and not law.loss_depends_on]
-    return rigid + [name for name, law in LAWS.items() if law.usual_models]
+    return ["Rigid", *(name for name, law in LAWS.items() if law.usual_models)]
 
 
 _JOINED = str.maketrans("", "", "-_")
 
 
 def register(law: type[_Law]) -> type[_Law]:
-    """Add a law's class to `LAWS`; used as a decorator.
+    """Add a law's class to `LAWS`, or to `UNLISTED` if it is not `listed`; used as a decorator.
 
     Raises
     ------
@@ -33,15 +32,6 @@ def register(law: type[_Law]) -> type[_Law]:
         If the class lacks `formula`, `source` or `form`, or another law has its name, or
         the engine does not know its form.
     """
-    return _registered(law, LAWS)
-
-
-def register_unlisted(law: type[_Law]) -> type[_Law]:
-    """Add a law's class to `UNLISTED`; see `register`."""
-    return _registered(law, UNLISTED)
-
-
-def _registered(law: type[_Law], laws: dict[str, type[ContactLaw]]) -> type[_Law]:
     missing = [name for name in ("formula", "source", "form") if not hasattr(law, name)]
     if missing:
         raise TypeError(f"{law.__name__} must set {', '.join(missing)}")
@@ -52,7 +42,7 @@ def _registered(law: type[_Law], laws: dict[str, type[ContactLaw]]) -> type[_Law
         hint = nearest(law.form, FORMS)
         raise TypeError(f"{law.__name__} has the form of force {law.form}; {hint}")
     law.says = (law.__doc__ or "").partition("\n")[0]
-    laws[law.__name__] = law
+    (LAWS if law.listed else UNLISTED)[law.__name__] = law
     return law
 
 

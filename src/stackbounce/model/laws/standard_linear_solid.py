@@ -138,11 +138,6 @@ class StandardLinearSolid(ContactLaw):
         """Return the flanks: the force rises and falls linearly."""
         return Flank(1.0, 1.0), Flank(1.0, 1.0)
 
-    def series_constants(self) -> dict[str, float]:
-        """Return what two of them in series must have in common: all but the stiffness."""
-        names = ("relaxation_strength", "relaxation_time")
-        return super().series_constants() | {name: getattr(self, name) for name in names}
-
 
 def collision(strength: float, time: float) -> tuple[float, float]:
     """Return the restitution e, and the contact time in units of ``C/v = sqrt(m/k)``.

@@ -25,7 +25,7 @@ from stackbounce.model.laws.law import (
     Flanks,
     Given,
 )
-from stackbounce.model.laws.registry import register_unlisted
+from stackbounce.model.laws.registry import register
 from stackbounce.units import Unit
 
 MOST_POINTS = 16
@@ -41,7 +41,7 @@ Piece = tuple[float, float, float, float]
 """Where a piece begins, and a, b, s of ``a + b d + s d**2``, d being the distance from there."""
 
 
-@register_unlisted
+@register
 @dataclass(frozen=True)
 class Tabulated(ContactLaw):
     """A law from measured points, such as those of a press curve: force over compression.
@@ -95,6 +95,7 @@ class Tabulated(ContactLaw):
     formula = "F = the monotone spline through the points"
     source = "L. L. Schumaker, SIAM J. Numer. Anal. 20, 853 (1983)"
     form = "TABULATED"
+    listed = False
     rate_free = True
     loss = "restitution"
     loss_depends_on = ("mass", "impact_speed")
@@ -170,11 +171,6 @@ class Tabulated(ContactLaw):
             "law_a and law_b must be laws with a formula, got Tabulated: give the table of both "
             "together, as a press measures it with one ball on the other"
         )
-
-    @property
-    def contact_time_depends_on(self) -> tuple[str, ...]:
-        """Mass and speed."""
-        return ("mass", "impact_speed")
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution of a mass in kg at a speed in m/s, by a simulation."""

@@ -111,10 +111,6 @@ class Viscoelastic(ContactLaw):
         """Return the flanks: ``root`` at the touch and ``fade`` at the release; see `Flank`."""
         return Flank(0.01, 0.3, "root"), Flank(0.01, 0.3, "fade")
 
-    def series_constants(self) -> dict[str, float]:
-        """Return the quantities that two laws in series must have in common: also A."""
-        return super().series_constants() | {"dissipative_time": self.dissipative_time}
-
 
 @functools.lru_cache(maxsize=256)
 def _collision(squared: float) -> tuple[float, float]:

@@ -50,16 +50,25 @@ def record_of(data: Any, gravity: float) -> Record:
     InvalidValue
         If there are too few samples, or times do not ascend.
     """
-    notes: list[str] = []
-    if not hasattr(data, "data_vars"):
-        times, *axes = columns(data, ("time", "acceleration"))
-        size, linear, cut = axes[0], False, False
-    else:
-        times, axes, size, notes = _of_dataset(data)
-        cut = any(
-            (size == np.nanmax(size)).sum() >= _CLIPPED for size in map(np.abs, axes) if size.size
+    told = hasattr(data, "data_vars")
+    names = [str(name) for name in data.data_vars] if told else ["acceleration"]
+    axes = [name for name in names if name.startswith("acceleration")]
+    if not axes:
+        raise InvalidType(
+            f"data must hold an acceleration over time, got {', '.join(names) or 'nothing'}"
         )
-        linear = _is_linear(data, times, size, gravity)
+    times, *felt = columns(data, ("time", *axes))
+    notes: list[str] = []
+    if set(_AXES) <= set(axes):
+        size = np.sqrt(sum(felt[axes.index(axis)] ** 2 for axis in _AXES))
+    else:
+        size = np.abs(felt[-1])
+        if told and axes[-1] != "acceleration_absolute":
+            notes.append("only one axis is there: flights are where it shows nothing")
+    cut = told and any(
+        (size == np.nanmax(size)).sum() >= _CLIPPED for size in map(np.abs, felt) if size.size
+    )
+    linear = told and _is_linear(data, times, size, gravity)
     known = np.isfinite(times) & np.isfinite(size)
     times, size = times[known], size[known]
     if len(times) < 2 * FEWEST or (np.diff(times) <= 0.0).any():
@@ -76,23 +85,6 @@ def record_of(data: Any, gravity: float) -> Record:
             "acceleration with g"
         )
     return Record(times, size, linear, float(size.max()) if cut else np.inf, notes)
-
-
-def _of_dataset(data: Any) -> tuple[Array, list[Array], Array, list[str]]:
-    """Return times, the columns of acceleration, the size of it, and notes."""
-    names = [str(name) for name in data.data_vars if str(name).startswith("acceleration")]
-    if not names:
-        raise InvalidType(
-            "data must hold an acceleration over time, got "
-            f"{', '.join(map(str, data.data_vars)) or 'nothing'}"
-        )
-    times, *axes = columns(data, ("time", *names))
-    if all(axis in names for axis in _AXES):
-        size = np.sqrt(sum(axes[names.index(axis)] ** 2 for axis in _AXES))
-        return times, axes, size, []
-    whole = names[-1] == "acceleration_absolute"
-    notes = ["only one axis is there: flights are where it shows nothing"]
-    return times, axes, np.abs(axes[-1]), [] if whole else notes
 
 
 def _is_linear(data: Any, times: Array, size: Array, gravity: float) -> bool:

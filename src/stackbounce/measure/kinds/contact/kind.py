@@ -1,12 +1,12 @@
 """A known contact time and restitution, as a result like those of the analyses."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 from stackbounce.errors import fraction
 from stackbounce.measure.constants import dynamic_stiffness
-from stackbounce.measure.finding import Finding
-from stackbounce.measure.quantities import Number, Row, known_rows, measured_if_given, nominal
+from stackbounce.measure.finding import Finding, Listed
+from stackbounce.measure.quantities import Number, measured_if_given, nominal
 from stackbounce.measure.setup import Setup
 
 
@@ -16,30 +16,20 @@ class Known(Finding):
 
     Attributes
     ----------
+    stiffness : ufloat or None
+        Dynamic, in N/m, where contact time and mass are known.
     contact_time : ufloat or None
         In s.
     restitution : ufloat or None
         Of the bounce.
-    stiffness : ufloat or None
-        Dynamic, in N/m, where contact time and mass are known.
     notes : tuple of str
         What should be known about it, a sentence each.
     """
 
-    contact_time: Number | None
-    restitution: Number | None
-    stiffness: Number | None
+    stiffness: Annotated[Number | None, Listed("dynamic stiffness", "N/m")]
+    contact_time: Annotated[Number | None, Listed("contact time", "s")]
+    restitution: Annotated[Number | None, Listed("restitution")]
     notes: tuple[str, ...] = ()
-
-    def rows(self) -> list[Row]:
-        """Return the table, the most important first."""
-        return known_rows(
-            [
-                ("dynamic stiffness", self.stiffness, "N/m"),
-                ("contact time", self.contact_time, "s"),
-                ("restitution", self.restitution, ""),
-            ]
-        )
 
     def parts(self) -> dict[str, Any]:
         """Return the floor's contact, as in a drop's TOML."""
@@ -71,4 +61,4 @@ def of_numbers(setup: Setup) -> Known:
     time = measured_if_given("contact_time", setup.contact_time, "seconds")
     kept = measured_if_given("restitution", setup.restitution, check=fraction)
     known = time is not None and setup.mass is not None
-    return Known(time, kept, dynamic_stiffness(setup.mass, time) if known else None)
+    return Known(dynamic_stiffness(setup.mass, time) if known else None, time, kept)

@@ -1,7 +1,10 @@
 """Heights of bounces as a kind of measurement: a table's column, or typed."""
 
+import re
 from dataclasses import replace
 from typing import Any
+
+import numpy as np
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds import KINDS
@@ -9,15 +12,15 @@ from stackbounce.measure.kinds.heights.analysis import heights
 from stackbounce.measure.kinds.heights.result import Heights
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.setup import Setup
-from stackbounce.measure.unrecognised import unrecognised
 
 _MANY = 100  # heights of one drop
+_LISTED = 6  # columns that are described
 
 
 def analyse(data: Any, setup: Setup) -> Heights:
     """Analyse a table with one column of heights, the drop height above those of the bounces."""
     if "y" not in data:
-        raise InvalidValue(unrecognised(data, KINDS))
+        raise InvalidValue(_unrecognised(data))
     column = data["y"].values.tolist()
     if not setup.repeated:
         _check_fall(column)
@@ -54,3 +57,28 @@ def _check_fall(heights: list[float]) -> None:
                 OptionHint({"repeated": None}),
             )
         )
+
+
+def _unrecognised(data: Any) -> Message:
+    """Return why a table cannot be analysed: its columns, their first numbers, and what to type."""
+    columns = list(data.data_vars.values())
+    described = ", ".join(map(_described, columns[:_LISTED]))
+    more = f" and {len(columns) - _LISTED} more" if len(columns) > _LISTED else ""
+    file = str(data.attrs.get("source", "FILE"))
+    hint = OptionHint({"holds": "track", "names": {1: "time", 2: "y"}}, file)
+    others = ", ".join(name for name in KINDS if name not in ("track", "bounces", "table"))
+    return Message(
+        f"its columns do not tell a kind of measurement: {described}{more}. For times and heights "
+        "of a ball: ",
+        hint,
+        f"; other kinds: {others}",
+    )
+
+
+def _described(column: Any) -> str:
+    """Return the name of a column, or its number, and its first numbers."""
+    values = np.asarray(column.values, dtype=np.float64).ravel()
+    first = ", ".join(f"{value:.5g}" for value in values[np.isfinite(values)][:3])
+    name = str(column.attrs.get("long_name", column.name))
+    shown = name if re.fullmatch(r"column \d+", name) else f"{name[:40]!r}"
+    return f"{shown} ({first})"

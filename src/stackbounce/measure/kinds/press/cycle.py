@@ -6,13 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.kinds.press.fits import (
-    LARGEST_LOG,
-    fit_power_law,
-    power,
-    power_law,
-    rough_contact,
-)
 from stackbounce.measure.kinds.press.record import Cycle, Record
 from stackbounce.measure.kinds.press.result import Curve, Press
 from stackbounce.measure.quantities import Array, known_to
@@ -29,6 +22,11 @@ _AVERAGED = 0.1  # of a branch, over which its residuals are averaged to see a m
 _SMALL_MISFIT = 0.01  # of the peak force, below which a misfit does not matter
 _LEAST_CORRELATED = 8  # points of a branch, whose residuals can tell a misfit as autocorrelation
 _CLEAR_MISFIT = 2.5  # times what noise makes of it: up to it, the curve fits
+
+_FIRST_EXPONENTS = (0.7, 1.0, 1.5, 2.0, 3.0)  # of the grid on which the fit's start is sought
+_FIRST_CONTACTS = 48  # places of the contact on the same grid
+_GRID_POINTS = 300  # of the curve that are compared on that grid, for speed
+_LARGEST_LOG = 20.0  # of a parameter, so that no power overflows
 
 
 class _Branch(NamedTuple):
@@ -70,7 +68,7 @@ def result_of(record: Record, cycle: Cycle) -> Press:
 
     peak = cycle.peak
     up, down, (levels, weights, unseen) = _branches(record, cycle)
-    contact, exponent = rough_contact(up.x, up.y)
+    contact, exponent = _rough_contact(up.x, up.y)
     length = max(peak - contact, 1e-3 * float(np.ptp(up.x)))
     law = _fitted(record, up, peak, np.array([up.y[-1], np.log(exponent), np.log(length)]), 3)
     _refuse_strange(law, up.x > peak - law.length, record)
@@ -125,7 +123,7 @@ def _branches(record: Record, cycle: Cycle) -> tuple[_Branch, _Branch, tuple[Arr
         for places in (cycle.loading, cycle.unloading)
     ]
     (x, y, time), count = np.concatenate(both, axis=1), len(both[0][0])
-    contact, _ = rough_contact(x[:count], y[:count])
+    contact, _ = _rough_contact(x[:count], y[:count])
     slack = x < contact - max(_SLACK_MARGIN * (cycle.peak - contact), 3.0 * record.jitter)
     before, after = (part.sum() >= _LEAST_SLACK for part in (slack[:count], slack[count:]))
     line = np.stack([np.ones(len(x)), (time - time.mean()) / np.ptp(time)], axis=1)
@@ -154,20 +152,20 @@ def _fitted(record: Record, branch: _Branch, peak: float, first: Array, free: in
     values, scale = first, np.ones(len(branch.x))
     values[0] = max(values[0], 0.1 * float(np.ptp(branch.y)))
     for _ in range(2):
-        values = fit_power_law(branch.x, branch.y, peak, values, free, scale)
+        values = _fit_power_law(branch.x, branch.y, peak, values, free, scale)
         top, (p, c) = values[0], np.exp(values[1:])
-        slope = top * p / c * power(1.0 - (peak - branch.x) / c, max(p - 1.0, 0.0))
+        slope = top * p / c * _power(1.0 - (peak - branch.x) / c, max(p - 1.0, 0.0))
         noise = np.hypot(record.hiss, slope * record.jitter)
         if 0.0 < noise.max() < np.inf:
             scale = np.maximum(noise / noise.max(), 1e-3)
-    force, slopes = power_law(branch.x, peak, values)
+    force, slopes = _power_law(branch.x, peak, values)
     return _Law(values, float(np.exp(values[2])), branch.y - force, slopes, scale)
 
 
 def _refuse_strange(law: _Law, touched: NDArray[np.bool_], record: Record) -> None:
     """Refuse a loading of no point in contact, or whose ``C**p`` no float holds."""
     _, log_p, log_c = np.abs(law.values)
-    held = max(log_p, log_c) < LARGEST_LOG and log_c * np.exp(law.values[1]) < _LARGEST_POWER
+    held = max(log_p, log_c) < _LARGEST_LOG and log_c * np.exp(law.values[1]) < _LARGEST_POWER
     if held and touched.any():
         return
     span = f"{np.ptp(record.compression):.3g} m and {np.ptp(record.force):.3g} N"
@@ -240,3 +238,105 @@ def _curve(branch: _Branch, law: _Law, contact: float, peak: float) -> Curve:
     share = off / peak if peak > 0.0 else np.inf
     fits = share < _SMALL_MISFIT or off < _CLEAR_MISFIT * rest / np.sqrt(width)
     return Curve(branch.x - contact, branch.y, branch.y - law.residual, share, fits)
+
+
+def _power(ratio: Array, exponent: float) -> Array:
+    """Return a ratio to a power, 0 where it is not above 0.
+
+    Examples
+    --------
+    >>> _power(np.array([-1.0, 0.0, 0.25]), 1.5)
+    array([0.   , 0.   , 0.125])
+    """
+    return np.power(ratio, exponent, out=np.zeros_like(ratio), where=ratio > 0.0)
+
+
+def _rough_contact(x: Array, y: Array) -> tuple[float, float]:
+    """Return rough values of the contact and the exponent, independent of the force's zero.
+
+    Parameters
+    ----------
+    x, y : ndarray
+        (N,) compression and force of a loading.
+
+    Returns
+    -------
+    tuple of float
+    """
+    some = np.linspace(0, len(x) - 1, min(len(x), _GRID_POINTS)).astype(int)
+    x, y = x[some], y[some]
+    low, high = float(x.min()), float(x.max())
+    places = np.linspace(low - 0.5 * (high - low), high - 0.1 * (high - low), _FIRST_CONTACTS)
+    best = (np.inf, low, 1.0)
+    dy = y - y.mean()
+    for p in _FIRST_EXPONENTS:
+        rise = _power((x[None, :] - places[:, None]) / (high - low), p)
+        rise -= rise.mean(axis=1, keepdims=True)
+        square = (rise**2).sum(axis=1) + 1e-300
+        along = rise @ dy
+        rest = dy @ dy - np.where(along > 0.0, along**2 / square, 0.0)
+        i = int(rest.argmin())
+        if rest[i] < best[0]:
+            best = (float(rest[i]), float(places[i]), p)
+    return best[1], best[2]
+
+
+def _power_law(x: Array, peak: float, values: Array) -> tuple[Array, Array]:
+    """Return ``P ((x - peak + C)/C)**p``, and its derivatives by P, ln p and ln C.
+
+    Parameters
+    ----------
+    x : ndarray
+        (N,) compression.
+    peak : float
+        Where the force is P.
+    values : ndarray
+        P, ln p and ln C.
+
+    Returns
+    -------
+    force : ndarray
+        (N,).
+    jacobian : ndarray
+        (N, 3).
+    """
+    top, p, c = values[0], *np.exp(np.clip(values[1:], -_LARGEST_LOG, _LARGEST_LOG))
+    ratio = 1.0 - (peak - x) / c
+    unit = _power(ratio, p)
+    by_exponent = top * p * unit * np.log(np.where(ratio > 0.0, ratio, 1.0))
+    by_length = top * p * _power(ratio, p - 1.0) * (1.0 - ratio)
+    return top * unit, np.column_stack([unit, by_exponent, by_length])
+
+
+def _fit_power_law(x: Array, y: Array, peak: float, first: Array, free: int, scale: Array) -> Array:
+    """Return P, ln p and ln C of the `_power_law` that fits points best.
+
+    Parameters
+    ----------
+    x, y : ndarray
+        (N,) compression, and force less its zero.
+    peak : float
+        Where the force is P.
+    first : ndarray
+        P, ln p and ln C to start from.
+    free : int
+        How many of them are fitted: 3, or 2 where C is known.
+    scale : ndarray
+        (N,) relative noise of the points.
+    """
+    from scipy.optimize import least_squares
+
+    def curve(values: Array) -> tuple[Array, Array]:
+        return _power_law(x, peak, np.append(values, first[free:]))
+
+    solved = least_squares(
+        lambda values: (curve(values)[0] - y) / scale,
+        first[:free],
+        jac=lambda values: curve(values)[1][:, :free] / scale[:, None],
+        method="lm",
+        xtol=1e-10,
+        ftol=1e-12,
+        max_nfev=300,
+    )
+    values = np.append(solved.x, first[free:])
+    return np.append(values[0], np.clip(values[1:], -_LARGEST_LOG, _LARGEST_LOG))

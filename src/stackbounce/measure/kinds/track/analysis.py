@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -10,8 +11,8 @@ from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.drag import Drag, with_error_of_drag
 from stackbounce.measure.kinds.track import motion
 from stackbounce.measure.kinds.track.free_flight import comparable, no_flight, no_gain, what_is_seen
-from stackbounce.measure.kinds.track.notes import notes_of, stays_long, uneven
-from stackbounce.measure.kinds.track.parabolas import Flights
+from stackbounce.measure.kinds.track.notes import notes_of, stays_long
+from stackbounce.measure.kinds.track.parabolas import Parabolas
 from stackbounce.measure.kinds.track.paths import (
     Columns,
     Upward,
@@ -24,7 +25,7 @@ from stackbounce.measure.kinds.track.result import Track, Tracks
 from stackbounce.measure.kinds.track.shape import shape_of
 from stackbounce.measure.kinds.track.time_base import TrackUnits, check_time_base, units_of
 from stackbounce.measure.messages import Message, OptionHint
-from stackbounce.measure.quantities import Array, nominal
+from stackbounce.measure.quantities import nominal
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
@@ -34,12 +35,10 @@ _WANTED = "data must hold a ball that falls and bounces, got "
 
 
 class _Flown(NamedTuple):
-    """A ball, the points of its track, its flights, and after which of them it bounces."""
+    """A ball, the flights in its track, and after which of them it bounces."""
 
     name: str
-    times: Array
-    heights: Array
-    fit: Flights
+    fit: Parabolas
     bounces: list[int]
 
 
@@ -150,12 +149,9 @@ def _flown(
     flown = _flights(found, up, gravity)
     across = "x" if up.axis == "y" else "y"
     if flown and across in found.positions[0]:
-        own = []
-        for ball in flown:
-            position = found.positions[found.names.index(ball.name)]
-            side = position[across][np.isfinite(up.heights(position))]
-            own.append((ball.times, ball.heights, side, ball.fit.flights))
-        angle, error = tilt_of(own)
+        seen = [found.positions[found.names.index(ball.name)] for ball in flown]
+        sides = [position[across][np.isfinite(up.heights(position))] for position in seen]
+        angle, error = tilt_of([ball.fit for ball in flown], sides)
         if abs(angle) > max(_LEAST_TILT, 3.0 * error):
             tilted = up._replace(tilt=angle)
             again = _flights(found, tilted, gravity)
@@ -176,10 +172,9 @@ def _flights(found: Columns, up: Upward, gravity: float) -> list[_Flown]:
         good = np.isfinite(heights)
         if good.sum() < 5 or np.ptp(heights[good]) == 0.0:
             continue
-        times, heights = found.times[good], heights[good]
-        flights = flights_of(times, heights, gravity)
+        flights = flights_of(found.times[good], heights[good], gravity)
         if flights is not None:
-            flown.append(_Flown(name, times, heights, *flights))
+            flown.append(_Flown(name, *flights))
     return flown
 
 
@@ -245,13 +240,12 @@ def _track(
     """Return a ball's bounces from its parabolas; a drag is taken to be exact."""
     from uncertainties import ufloat
 
-    name, times, heights, fit, bounces = ball
-    flat = heights
+    name, fit, bounces = ball
     if drag is not None:
-        flat, fit = motion.straightened(times, heights, fit, drag)
-    shape = shape_of(times, flat, fit.flights)
-    numbers = motion.flight_numbers(times, flat, fit, shape)
-    met = [_bounce(times, fit, numbers, flight, floor, drag) for flight in bounces]
+        fit = motion.straightened(fit, drag)
+    shape = shape_of(fit.times, fit.heights, fit.flights)
+    numbers = motion.flight_numbers(fit, shape)
+    met = [_bounce(fit, numbers, flight, floor, drag) for flight in bounces]
     moments, levels, impacts, rebounds = (tuple(column) for column in zip(*met, strict=True))
     gravity = numbers[0][0]
     if shape.widening > 1.0:
@@ -260,13 +254,7 @@ def _track(
     scale = ufloat(1.0, shape.scatter) if shape.scatter > 0.0 else 1.0  # after over before
     height, time = motion.fallen(impacts[0], numbers[bounces[0]][0], drag)
     fall_time = time or impacts[0] / gravity
-    notes = [
-        *uneven(name, shape),
-        *notes_of(name, times, fit, bounces, moments[0], fall_time, units.time),
-    ]
-    if floor is None and units.known:
-        notes += stays_long(name, times, fit, bounces[0], impacts[0], gravity, alone=alone)
-    return Track(
+    found = Track(
         name=name,
         impact_times=moments,
         levels=levels,
@@ -279,17 +267,20 @@ def _track(
         ),
         restitutions=tuple(out / into * scale for into, out in zip(impacts, rebounds, strict=True)),
         gravity=gravity,
-        times=times,
-        heights=heights,
+        times=fit.times,
+        heights=ball.fit.heights,
         fit=fit,
         bounces=tuple(bounces),
-        notes=tuple(notes),
+        notes=(),
     )
+    notes = notes_of(found, shape, fall_time, units.time)
+    if floor is None and units.known:
+        notes += stays_long(found, alone=alone)
+    return replace(found, notes=tuple(notes))
 
 
 def _bounce(
-    times: Array,
-    fit: Flights,
+    fit: Parabolas,
     numbers: Sequence[motion.Numbers],
     flight: int,
     floor: float | None,
@@ -298,7 +289,7 @@ def _bounce(
     """Return time, level, impact and rebound speed of the bounce after a flight."""
     both = slice(flight, flight + 2)
     before, after = fit.flights[both]
-    time = 0.5 * (times[before.last - 1] + times[after.first])
+    time = 0.5 * (fit.times[before.last - 1] + fit.times[after.first])
     time += motion.meeting(numbers[both], fit.origins[both], time, drag)
     (low, into, fall), (high, out, back) = (
         motion.state(flight, float(time - origin), drag)

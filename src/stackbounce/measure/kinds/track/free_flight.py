@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 
 from stackbounce.measure.kinds.track.flights import Flight
-from stackbounce.measure.kinds.track.parabolas import Flights, fit_flights
+from stackbounce.measure.kinds.track.parabolas import Parabolas
 from stackbounce.measure.kinds.track.shape import curvatures, shape_of
 from stackbounce.measure.kinds.track.time_base import is_usual
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import resolution
+from stackbounce.measure.statistics.ar_noise import difference_noise
 
 _GRAVITY_RATIO = (0.6, 1.6)  # of the flights' acceleration to gravity, by a wrong scale or clock
 _UNSCALED = 30.0  # the same ratio, from which on only another unit of length explains it
@@ -56,21 +57,12 @@ def comparable(data: Any) -> bool:
     return all(said == unit for said, unit in units)
 
 
-def no_flight(
-    times: Array,
-    heights: Array,
-    fit: Flights,
-    bounces: Sequence[int],
-    axis: str,
-    gravity: float | None,
-) -> str:
+def no_flight(fit: Parabolas, bounces: Sequence[int], axis: str, gravity: float | None) -> str:
     """Return why flights and bounces are none, or nothing where they are.
 
     Parameters
     ----------
-    times, heights : ndarray
-        (n,) of the points.
-    fit : Flights
+    fit : Parabolas
         The parabolas.
     bounces : sequence of int
         After which flights it bounces.
@@ -85,10 +77,10 @@ def no_flight(
     fall, error = float(fit.values[0]), math.sqrt(max(float(fit.covariance[0, 0]), 0.0))
     if error > _SEEN_WITHIN * fall:
         return "no free flight: the pieces have no common acceleration"
-    rate = 1.0 / max(float(np.median(np.diff(times))), 1e-300)
+    rate = 1.0 / max(float(np.median(np.diff(fit.times))), 1e-300)
     if gravity is not None and not _falls(fall, error, gravity, rate):
         return _other(fall, gravity, axis)
-    shape = shape_of(times, heights, _arcs(fit.flights, bounces))
+    shape = shape_of(fit.times, fit.heights, _arcs(fit.flights, bounces))
     if abs(shape.change) > max(_LARGEST_CHANGE, _CLEAR_CHANGE * shape.change_error):
         return (
             f"no free flight: within a flight the acceleration changes by {shape.change:+.0%} from "
@@ -100,7 +92,7 @@ def no_flight(
             f"no free flight: the accelerations of the flights differ by {shape.scatter:.0%}; a "
             "ball that rolls, or is held?"
         )
-    return _lasting(times, fit.flights, bounces, None if gravity is None else fall / gravity)
+    return _lasting(fit, bounces, None if gravity is None else fall / gravity)
 
 
 def no_gain(restitutions: Sequence[Any], moments: Sequence[Any]) -> str:
@@ -122,7 +114,7 @@ def what_is_seen(times: Array, heights: Array, axis: str, gravity: float | None)
     noise = float(np.median(np.abs(np.diff(heights, 2)))) if len(heights) > 3 else 0.0
     if len(heights) < 5 or extent <= _STILL * noise:
         return f"nothing that moves along {axis} by more than the errors of its points"
-    whole = fit_flights(times, heights, [Flight(0, len(times))])
+    whole = Parabolas(times, heights, [Flight(0, len(times))])
     fall, left = float(whole.values[0]), float(np.nanstd(whole.residuals))
     flies = gravity is None or _GRAVITY_RATIO[0] < fall / gravity < _GRAVITY_RATIO[1]
     if left < _ONE_PARABOLA * extent and fall > 0.0 and flies:
@@ -168,10 +160,9 @@ def _arcs(flights: Sequence[Flight], bounces: Sequence[int]) -> list[Flight]:
     return arcs
 
 
-def _lasting(
-    times: Array, flights: Sequence[Flight], bounces: Sequence[int], ratio: float | None
-) -> str:
+def _lasting(fit: Parabolas, bounces: Sequence[int], ratio: float | None) -> str:
     """Return why contacts are too long; `ratio` of the acceleration to gravity tells the clock."""
+    times, flights = fit.times, fit.flights
     step = float(np.median(np.diff(times)))
     lasts, shares = [], []
     for j in bounces:
@@ -194,8 +185,7 @@ def _lasting(
 
 def _usual_acceleration(times: Array, heights: Array) -> float:
     """Return the typical size of the accelerations, in windows that are long enough to tell it."""
-    noise = float(np.median(np.abs(np.diff(heights, 3)))) / (0.6745 * math.sqrt(20.0))
-    noise = max(noise, resolution(heights) / math.sqrt(12.0))
+    noise = max(difference_noise(heights, 3), resolution(heights) / math.sqrt(12.0))
     step = float(np.median(np.diff(times)))
     found = 0.0
     for wide in _WINDOWS:

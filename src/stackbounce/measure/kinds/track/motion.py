@@ -8,7 +8,7 @@ import numpy as np
 
 from stackbounce.measure.drag import Drag
 from stackbounce.measure.kinds.track.flights import Flight
-from stackbounce.measure.kinds.track.parabolas import Flights, fit_flights
+from stackbounce.measure.kinds.track.parabolas import Parabolas
 from stackbounce.measure.kinds.track.shape import OWN, Shape, own_noise
 from stackbounce.measure.quantities import Array, nominal
 from stackbounce.measure.statistics.regression import widening
@@ -24,7 +24,7 @@ Numbers: TypeAlias = tuple[Any, Any, Any]
 """Acceleration, level and speed of a flight at its middle: numbers with errors."""
 
 
-def flight_numbers(times: Array, heights: Array, fit: Flights, shape: Shape) -> Sequence[Numbers]:
+def flight_numbers(fit: Parabolas, shape: Shape) -> Sequence[Numbers]:
     """Return the numbers of each flight.
 
     All flights have one acceleration, unless their own differ by more than chance makes them, as
@@ -38,7 +38,7 @@ def flight_numbers(times: Array, heights: Array, fit: Flights, shape: Shape) -> 
     if shape.widening <= 1.0:
         numbers = correlated_values(fit.values, wider * fit.covariance)
         return [(numbers[0], *numbers[1 + 2 * k : 3 + 2 * k]) for k in range(len(fit.flights))]
-    noise = own_noise(times, heights, fit.flights)
+    noise = own_noise(fit.times, fit.heights, fit.flights)
     mean, scatter = float(fit.values[0]), shape.scatter * float(fit.values[0])
     found: list[Numbers] = []
     for k, flight in enumerate(fit.flights):
@@ -47,7 +47,7 @@ def flight_numbers(times: Array, heights: Array, fit: Flights, shape: Shape) -> 
             values = fit.values[some]
             covariance = shape.widening**2 * fit.covariance[np.ix_(some, some)]
         else:
-            alone = fit_flights(times, heights, [flight])
+            alone = Parabolas(fit.times, fit.heights, [flight])
             values = alone.values
             covariance = (noise / max(alone.sigma, 1e-300)) ** 2 * alone.covariance
             share = covariance[0] / (covariance[0, 0] + scatter**2)
@@ -57,8 +57,8 @@ def flight_numbers(times: Array, heights: Array, fit: Flights, shape: Shape) -> 
     return found
 
 
-def straightened(times: Array, heights: Array, fit: Flights, drag: Drag) -> tuple[Array, Flights]:
-    """Return heights without what the drag does to them, and the parabolas through these.
+def straightened(fit: Parabolas, drag: Drag) -> Parabolas:
+    """Return the parabolas through heights without what the drag does to them.
 
     A flight in air and its parabola have height, velocity and gravity in common at the middle of
     the flight. What is between them is computed from these numbers, which a fit to what is left
@@ -70,26 +70,26 @@ def straightened(times: Array, heights: Array, fit: Flights, drag: Drag) -> tupl
     >>> from stackbounce.model.drag import flown
     >>> times = np.linspace(-0.3, 0.3, 30)
     >>> heights = np.array([flown(0.1, 1.0, time, 9.81)[0] for time in times])
-    >>> fit = fit_flights(times, heights, [Flight(0, 30)])
+    >>> fit = Parabolas(times, heights, [Flight(0, 30)])
     >>> air = Drag(np.pi / 8, 1.0, 0.1, 1.0)  # k = 0.1 / m
-    >>> [round(float(one.values[2]), 6) for one in (fit, straightened(times, heights, fit, air)[1])]
+    >>> [round(float(one.values[2]), 6) for one in (fit, straightened(fit, air))]
     [1.033092, 1.0]
     """
-    flat = heights
+    times, heights = fit.times, fit.heights
     for _ in range(_MOST_ROUNDS):
         before = fit.values
         flat = heights.copy()
         for j, (first, last) in enumerate(fit.flights):
             at = times[first:last]
             flat[first:last] -= curve(fit, j, at, drag) - curve(fit, j, at, None)
-        fit = fit_flights(times, flat, fit.flights)
+        fit = Parabolas(times, flat, fit.flights)
         if np.abs(fit.values - before).max() > _SETTLED * np.abs(before).max():
             continue
         flights = [_without_strange_ends(flight, fit.residuals) for flight in fit.flights]
         if flights == fit.flights:
             break
-        fit = fit_flights(times, flat, flights)
-    return flat, fit
+        fit = Parabolas(times, flat, flights)
+    return fit
 
 
 def _without_strange_ends(flight: Flight, residuals: Array) -> Flight:
@@ -102,7 +102,7 @@ def _without_strange_ends(flight: Flight, residuals: Array) -> Flight:
     return Flight(first + int(fits[0]), first + int(fits[-1]) + 1)
 
 
-def curve(fit: Flights, flight: int, times: Array, drag: Drag | None) -> Array:
+def curve(fit: Parabolas, flight: int, times: Array, drag: Drag | None) -> Array:
     """Return the heights of a flight at some times, in air or on its parabola."""
     level, speed = fit.values[1 + 2 * flight : 3 + 2 * flight]
     fall, since = fit.values[0], times - fit.origins[flight]

@@ -4,10 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.measure.kinds.track.parabolas import Flights
+from stackbounce.measure.kinds.track.result import Track
 from stackbounce.measure.kinds.track.shape import Shape
 from stackbounce.measure.messages import Message, OptionHint
-from stackbounce.measure.quantities import Array
 
 _CORRELATED = 0.2  # correlation of neighbouring points' errors that is mentioned
 _BENT = 0.05  # of the acceleration within a flight: a smaller change is not mentioned
@@ -15,25 +14,18 @@ _OFF = 0.07  # of that change: by so much a restitution is off, in simulated dis
 _NOTICED = 1.0  # standard errors of a speed, from which on its bias is mentioned
 
 
-def notes_of(
-    name: str,
-    times: Array,
-    fit: Flights,
-    bounces: list[int],
-    impact: Any,
-    fallen: Any,
-    unit: str = "s",
-) -> tuple[str, ...]:
-    """Return the notes on a ball's track; `fallen` is its time of fall from rest, in a unit."""
-    notes = []
-    first = fit.flights[bounces[0]]
-    late = float(times[first.first] - (impact - fallen).nominal_value)
-    if late > 0.2 * fallen.nominal_value:
+def notes_of(ball: Track, shape: Shape, fall_time: Any, unit: str) -> list[str]:
+    """Return the notes on a ball's track; its time of fall from rest is in a unit."""
+    name, fit = ball.name, ball.fit
+    notes = _uneven(name, shape)
+    first = fit.flights[ball.bounces[0]]
+    late = float(fit.times[first.first] - (ball.impact_times[0] - fall_time).nominal_value)
+    if late > 0.2 * fall_time.nominal_value:
         notes.append(
             f"{name}: its track begins {late:.2g} {unit} after the fall did; the drop height is "
             "that of a fall from rest with the same impact speed."
         )
-    elif late < -0.1 * fallen.nominal_value:
+    elif late < -0.1 * fall_time.nominal_value:
         notes.append(
             f"{name}: it goes up before it falls; the drop height is that of its highest point."
         )
@@ -45,32 +37,31 @@ def notes_of(
             f"{name}: the errors of neighbouring points go together (correlation "
             f"{fit.correlation:.2g}), as when a mark drifts on the ball; the errors allow for it."
         )
-    return tuple(notes)
+    return notes
 
 
-def stays_long(
-    name: str, times: Array, fit: Flights, bounce: int, impact: Any, fall: Any, *, alone: bool
-) -> tuple[str, ...]:
+def stays_long(ball: Track, *, alone: bool) -> list[str]:
     """Return a note where a long contact biases the speeds at the touch."""
+    fit, bounce = ball.fit, ball.bounces[0]
     before, after = fit.flights[bounce].last, fit.flights[bounce + 1].first
-    lasts = max(after - before - 1, 0) * float(np.median(np.diff(times)))  # at least
-    excess = 0.5 * fall.nominal_value * lasts
-    if excess < _NOTICED * impact.std_dev:
-        return ()
+    lasts = max(after - before - 1, 0) * float(np.median(np.diff(fit.times)))  # at least
+    excess = 0.5 * ball.gravity.nominal_value * lasts
+    if excess < _NOTICED * ball.impact_speeds[0].std_dev:
+        return []
     biased = (
-        f"{name} is in contact for {1e3 * lasts:.0f} ms or more: its speeds, where the flights "
-        f"before and after meet, are too high by {excess:.2g} m/s or more, beyond their "
+        f"{ball.name} is in contact for {1e3 * lasts:.0f} ms or more: its speeds, where the "
+        f"flights before and after meet, are too high by {excess:.2g} m/s or more, beyond their "
         "errors, and so are its heights"
     )
     if not alone:
-        return (f"{biased}; what is fitted to them is off by as much",)
+        return [f"{biased}; what is fitted to them is off by as much"]
     hint = OptionHint({"floor": None})
-    return (Message(f"{biased}; ", hint, " tells the floor's level, for those at the touch"),)
+    return [Message(f"{biased}; ", hint, " tells the floor's level, for those at the touch")]
 
 
-def uneven(name: str, shape: Shape) -> tuple[str, ...]:
+def _uneven(name: str, shape: Shape) -> list[str]:
     """Return notes where the acceleration differs between flights, or changes within them."""
-    notes = []
+    notes: list[str] = []
     if shape.widening > 1.0:
         notes.append(
             f"{name}: the accelerations of its flights differ by {shape.scatter:.1%}, as where a "
@@ -83,4 +74,4 @@ def uneven(name: str, shape: Shape) -> tuple[str, ...]:
             "a lens or air changes it; restitutions may be off by "
             f"{_OFF * abs(shape.change):.1g}, beyond their errors"
         )
-    return tuple(notes)
+    return notes

@@ -19,39 +19,6 @@ _FAR = 100  # steps, beyond which errors are taken as independent
 _ALMOST_NONE = 1e-9  # degrees of freedom of as many points as parameters
 
 
-class Flights(NamedTuple):
-    """Flights fitted together: ``u = level + speed (t - origin) - acceleration (t - origin)²/2``.
-
-    Attributes
-    ----------
-    flights : list of Flight
-        N of them.
-    values : ndarray
-        (1 + 2 N,) acceleration, then level and speed of each.
-    covariance : ndarray
-        (1 + 2 N, 1 + 2 N).
-    origins : ndarray
-        (N,) in s, the middle of each.
-    sigma : float
-        Standard deviation of one point's error.
-    correlation : float
-        Of the errors of neighbouring points.
-    residuals : ndarray
-        Of each point, NaN where it is in no flight.
-    freedom : int
-        Points less parameters.
-    """
-
-    flights: list[Flight]
-    values: Array
-    covariance: Array
-    origins: Array
-    sigma: float
-    correlation: float
-    residuals: Array
-    freedom: int
-
-
 class _Fits(NamedTuple):
     """Least squares fits for each of K correlations.
 
@@ -90,7 +57,15 @@ class Parabolas:
     times, heights : ndarray
         (n,) in s and m, up-positive.
     flights : list of Flight
-        N of them, with three points or more each.
+        N of them, with three points or more each:
+        ``u = level + speed (t - origin) - acceleration (t - origin)²/2``.
+
+    Attributes
+    ----------
+    origins : ndarray
+        (N,) in s, the middle of each.
+    freedom : int
+        Points less parameters.
     """
 
     def __init__(self, times: Array, heights: Array, flights: list[Flight]) -> None:
@@ -157,30 +132,43 @@ class Parabolas:
         error = np.sqrt(weights @ (spread + (each - jump) ** 2))
         return jump, error, weights @ (speeds[:, :-1] - falls * since)
 
-    def together(self) -> Flights:
-        """Return the averaged fit with the covariance of all its parameters."""
+    @property
+    def correlation(self) -> float:
+        """That of the errors of neighbouring points."""
+        return float(self.weights @ self.tried)
+
+    @cached_property
+    def values(self) -> Array:
+        """Acceleration, then level and speed of each flight, (1 + 2 N,)."""
+        return np.concatenate([self.rough.fall, self.rough.own.ravel()]) + self.weights @ self._each
+
+    @cached_property
+    def covariance(self) -> Array:
+        """The covariance of these values, (1 + 2 N, 1 + 2 N)."""
         fits, weights = self.fits, self.weights
-        count = len(self.flights)
-        each = np.column_stack([fits.fall, fits.own.reshape(len(weights), -1)])
-        mean = weights @ each
         along = np.column_stack([np.ones(len(weights)), -fits.slope.reshape(len(weights), -1)])
-        off = each - mean
+        off = self._each - weights @ self._each
         covariance = (along * (weights * fits.variance / fits.strength)[:, None]).T @ along
         covariance += (off * weights[:, None]).T @ off
         blocks = np.einsum("k,knij->nij", weights * fits.variance, fits.inverse)
-        at = 1 + 2 * np.arange(count)
+        at = 1 + 2 * np.arange(len(self.flights))
         for i in (0, 1):
             for j in (0, 1):
                 covariance[at + i, at + j] += blocks[:, i, j]
-        values = mean + np.concatenate([self.rough.fall, self.rough.own.ravel()])
+        return np.asarray(covariance)
+
+    @cached_property
+    def residuals(self) -> Array:
+        """The residual of each point, NaN where it is in no flight."""
         residuals = np.full(len(self.times), np.nan)
-        flown = self._modelled(values[0], values[1:].reshape(-1, 2))
+        flown = self._modelled(self.values[0], self.values[1:].reshape(-1, 2))
         residuals[self.rows] = self.heights[self.rows] - flown
-        correlation = float(weights @ self.tried)
-        return Flights(
-            self.flights, values, covariance, self.origins, self.sigma, correlation,
-            residuals, self.freedom,
-        )  # fmt: skip
+        return residuals
+
+    @cached_property
+    def _each(self) -> Array:
+        """The values of the fit for each correlation, less those of the one without."""
+        return np.column_stack([self.fits.fall, self.fits.own.reshape(len(self.tried), -1)])
 
     def _modelled(self, fall: float, flights: Array) -> Array:
         own = flights[self.owner]
@@ -260,8 +248,3 @@ class Parabolas:
                 found.append((float(steps[k]), int(counts[k]), sums))
         sums = np.add.reduceat(products, self.begins, axis=2)
         return [*found, (float(steps[usual]), int(counts[usual]), sums)]
-
-
-def fit_flights(times: Array, heights: Array, flights: list[Flight]) -> Flights:
-    """Return the parabolas of flights with one common acceleration; see `Parabolas`."""
-    return Parabolas(times, heights, flights).together()

@@ -2,14 +2,14 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.measure.kinds.track.flights import Flight, find_flights, unexplained
-from stackbounce.measure.kinds.track.parabolas import Flights, Parabolas, fit_flights
+from stackbounce.measure.kinds.track.parabolas import Parabolas
 from stackbounce.measure.kinds.track.shape import curvatures, own_noise
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns, resolution
@@ -29,6 +29,10 @@ _ALIKE = 0.05  # relative difference of two accelerations that are one guess
 _DIFFER = 1.5  # scatter around one acceleration, over that around each flight's own
 _BESIDE = 3  # points between two pieces of one flight, at most
 _AXES = {"x": ("x", 1.0), "y": ("y", 1.0), "-x": ("x", -1.0), "-y": ("y", -1.0)}
+
+
+Bounced: TypeAlias = tuple[Parabolas, list[int]]
+"""The flights of a ball, and after which of them it bounces."""
 
 
 class Columns(NamedTuple):
@@ -121,25 +125,26 @@ def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
         if name not in found.positions[0]:
             raise InvalidValue(f"axis must be one of the track's, got {shown(axis)}")
         return Upward(name, sign)
-    best = ("y" if "y" in found.positions[0] else "x", 1.0, 0.0)
+    best, most = Upward("y" if "y" in found.positions[0] else "x", 1.0), 0.0
     for name in found.positions[0]:
-        gains = [0.0, 0.0]  # upward, downward
-        for position in found.positions:
-            good = np.isfinite(position[name])
-            times, heights = found.times[good], position[name][good]
-            if good.sum() < 5 or np.ptp(heights) == 0.0:
-                continue
-            told = _moving(times, heights)
-            times, heights = times[told], heights[told]
-            falls = _guesses(times, heights, gravity)
-            both = np.concatenate([[0.0], falls, -_guesses(times, -heights, gravity)])
-            costs = unexplained(times, heights, _noise(heights), both)
-            gains[0] += float(costs[0] - costs[1 : 1 + len(falls)].min())
-            gains[1] += float(costs[0] - costs[1 + len(falls) :].min())
-        for sign, gain in zip((1.0, -1.0), gains, strict=True):
-            if gain > best[2]:
-                best = (name, sign, gain)
-    return Upward(*best[:2])
+        each = [_gains(found.times, position[name], gravity) for position in found.positions]
+        for sign, gain in zip((1.0, -1.0), map(sum, zip(*each, strict=True)), strict=True):
+            if gain > most:
+                best, most = Upward(name, sign), gain
+    return best
+
+
+def _gains(times: Array, heights: Array, gravity: float) -> tuple[float, float]:
+    """Return by how much flights explain a track better than none, upward and downward."""
+    good = np.isfinite(heights)
+    if good.sum() < 5 or np.ptp(heights[good]) == 0.0:
+        return 0.0, 0.0
+    told = _moving(times[good], heights[good])
+    times, heights = times[good][told], heights[good][told]
+    falls = _guesses(times, heights, gravity)
+    both = np.concatenate([[0.0], falls, -_guesses(times, -heights, gravity)])
+    none, *costs = unexplained(times, heights, _noise(heights), both).tolist()
+    return none - min(costs[: len(falls)]), none - min(costs[len(falls) :])
 
 
 def _guesses(times: Array, heights: Array, gravity: float) -> Array:
@@ -163,7 +168,7 @@ def _accelerations(times: Array, heights: Array, wide: int) -> Array:
     return curvatures(t, u)
 
 
-def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Flights, list[int]] | None:
+def flights_of(times: Array, heights: Array, gravity: float) -> Bounced | None:
     """Return the flights of a ball, and after which of them it bounces, None where it never does.
 
     The acceleration is fitted, as the frame rate and the scale of the track may be wrong. In a long
@@ -174,23 +179,21 @@ def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Flights, l
     sigma = _noise(heights)
     guesses = _guesses(t, u, gravity)
     acceleration = float(guesses[np.argmin(unexplained(t, u, sigma, guesses))])
-    fitted: Parabolas | None = None
-    jumps: list[int] = []
+    found: Bounced | None = None
     for _ in range(_ROUNDS):
-        fitted, jumps = _joined(t, u, find_flights(t, u, sigma, acceleration))
-        if fitted is None:
+        found = _joined(t, u, find_flights(t, u, sigma, acceleration))
+        if found is None:
             return None
-        new, wider = fitted.fall, max(_noise_floor(heights), _spread(fitted))
+        new, wider = found[0].fall, max(_noise_floor(heights), _spread(found[0]))
         steady = abs(new / acceleration - 1.0) < 1e-3 and abs(wider / sigma - 1.0) < 0.05
         if new <= 0.0 or steady:
             break
         acceleration, sigma = new, wider
     if len(t) < len(times):
-        fitted, jumps = _joined(times, heights, find_flights(times, heights, sigma, acceleration))
-    if fitted is None or fitted.fall <= 0.0:
+        found = _joined(times, heights, find_flights(times, heights, sigma, acceleration))
+    if found is None or found[0].fall <= 0.0:
         return None
-    kept = fitted.together()
-    return fit_flights(times, heights, _released(times, kept, jumps)), jumps
+    return Parabolas(times, heights, _released(*found)), found[1]
 
 
 def _spread(fitted: Parabolas) -> float:
@@ -209,7 +212,7 @@ def _moving(times: Array, heights: Array) -> NDArray[np.intp] | slice:
     return np.concatenate([np.arange(start, start + _STRETCH) for start in most.tolist()])
 
 
-def _released(times: Array, fitted: Flights, bounces: list[int]) -> list[Flight]:
+def _released(fitted: Parabolas, bounces: list[int]) -> list[Flight]:
     """Return the flights, less the first points of a fall that follows a rest.
 
     Just after its release a ball has moved by less than the error of a point. Such a point may
@@ -223,7 +226,7 @@ def _released(times: Array, fitted: Flights, bounces: list[int]) -> list[Flight]
             continue
         apex = fitted.origins[j] + fitted.values[2 + 2 * j] / fall
         after = apex + math.sqrt(2.0 * _SEEN_FALL * fitted.sigma / fall)
-        start = max(first, int(np.searchsorted(times, after)))
+        start = max(first, int(np.searchsorted(fitted.times, after)))
         if last - start >= _LEAST_FALL:
             flights[j] = Flight(start, last)
     return flights
@@ -241,17 +244,12 @@ def _noise_floor(heights: Array) -> float:
     return max(resolution(heights) / math.sqrt(12.0), 1e-5 * float(np.ptp(heights)), 1e-12)
 
 
-def _joined(
-    times: Array, heights: Array, flights: list[Flight]
-) -> tuple[Parabolas | None, list[int]]:
-    """Return the fit of the flights, joined where no bounce separates them, and the bounces.
-
-    The fit is None where there is no bounce.
-    """
+def _joined(times: Array, heights: Array, flights: list[Flight]) -> Bounced | None:
+    """Return the fit of the flights, joined where no bounce separates them, and the bounces."""
     while flights:
         fitted = Parabolas(times, heights, flights)
         if fitted.freedom < 1 or fitted.fall <= 0.0:
-            return None, []
+            return None
         jumps, errors, before = fitted.jumps()
         weak = np.flatnonzero(np.abs(jumps) < _CLEAR_JUMP * errors)
         if weak.size:
@@ -265,11 +263,11 @@ def _joined(
         bounces = np.flatnonzero(bouncing & (jumps > _LEAST_JUMP * jumps.max(initial=0.0))).tolist()
         used = sorted({j for b in bounces for j in (b, b + 1)})
         if not used:
-            return None, []
+            return None
         if len(used) == len(flights):
             return fitted, bounces
         flights = [flights[j] for j in used]
-    return None, []
+    return None
 
 
 def _small(fitted: Parabolas, jumps: Array) -> NDArray[np.intp]:
@@ -296,18 +294,18 @@ def _united(flights: list[Flight], weakest: NDArray[np.intp]) -> list[Flight]:
     return sorted([*rest, *(Flight(flights[j].first, flights[j + 1].last) for j in taken)])
 
 
-def tilt_of(balls: Sequence[tuple[Array, Array, Array, list[Flight]]]) -> tuple[float, float]:
+def tilt_of(fits: Sequence[Parabolas], sides: Sequence[Array]) -> tuple[float, float]:
     """Return the angle in radians between an axis and the vertical, and its error.
 
-    Of each ball `balls` has the times, the positions along the axis and across it, the flights.
+    Of each ball `fits` has the flights along the axis, and `sides` the positions across it.
     """
     angles, weights = [], []
-    for t, up, side, own in balls:
-        good = np.isfinite(up) & np.isfinite(side)
-        kept = [Flight(a, b) for a, b in own if good[a:b].all()]
+    for fit, across in zip(fits, sides, strict=True):
+        known = np.isfinite(across)
+        kept = [flight for flight in fit.flights if known[slice(*flight)].all()]
         if not kept:
             continue
-        first, second = (fit_flights(t, np.where(good, axis, 0.0), kept) for axis in (up, side))
+        first, second = (Parabolas(fit.times, axis, kept) for axis in (fit.heights, across))
         fall, drift = first.values[0], second.values[0]
         angles.append(math.atan2(drift, fall))
         error = math.sqrt(max(second.covariance[0, 0], 0.0)) / max(abs(fall), 1e-300)

@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 from stackbounce.measure.drag import Drag
 from stackbounce.measure.finding import Curve, Finding, as_ratios, rigid_contact
 from stackbounce.measure.kinds.track.motion import curve
-from stackbounce.measure.kinds.track.parabolas import Flights
+from stackbounce.measure.kinds.track.parabolas import Parabolas
 from stackbounce.measure.kinds.track.time_base import SI, TimeBase, TrackUnits
 from stackbounce.measure.quantities import Array, Number, Row, nominal
 
@@ -35,8 +35,8 @@ class Track:
         Of the flights, as tracked, in m/s².
     times, heights : ndarray
         (N,) of the points, in s and m, up-positive.
-    fit : Flights
-        The parabolas.
+    fit : Parabolas
+        Those of the flights.
     bounces : tuple of int
         After which flights it bounces.
     notes : tuple of str
@@ -54,7 +54,7 @@ class Track:
     gravity: Number
     times: Array
     heights: Array
-    fit: Flights
+    fit: Parabolas
     bounces: tuple[int, ...]
     notes: tuple[str, ...]
 

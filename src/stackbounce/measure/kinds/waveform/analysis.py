@@ -10,17 +10,16 @@ from numpy.typing import ArrayLike, NDArray
 from stackbounce.errors import InvalidValue, positive, shown
 from stackbounce.measure.kinds.waveform.baseline import first_guess, quiet_parts
 from stackbounce.measure.kinds.waveform.contact import Seen, measure_contact
-from stackbounce.measure.kinds.waveform.droop import undrooped
-from stackbounce.measure.kinds.waveform.ends import UNTOLD, ends_of
 from stackbounce.measure.kinds.waveform.intervals import (
     Stretch,
     find_stretches,
     smoothed,
     which_sign,
 )
-from stackbounce.measure.kinds.waveform.record import Record, read_record
+from stackbounce.measure.kinds.waveform.record import Record, read_record, undrooped
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.sensor import sensitivity_of
+from stackbounce.measure.kinds.waveform.shapes import UNTOLD, ends_of
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, known_to, measured_if_given
 from stackbounce.model.laws import ContactLaw
@@ -143,9 +142,8 @@ def waveform(
         notes += _droops(seen, record.step)
     if ends == UNTOLD:
         notes += _steep(contacts)
-    sensitivity, why = sensitivity_of(contacts, record.unit, m, v)
     zero = seen.zero
-    return Waveform(
+    found = Waveform(
         contacts=contacts,
         unit=record.unit,
         noise=zero.noise,
@@ -154,14 +152,16 @@ def waveform(
         hum=zero.hum,
         sign=seen.sign,
         step=record.step,
-        notes=(*notes, *why),
-        sensitivity=sensitivity,
+        notes=tuple(notes),
+        sensitivity=None,
         mass=m,
         impact_speed=v,
         times=record.times,
         force=seen.signal,
         zero=seen.sign * zero.baseline,
     )
+    sensitivity, why = sensitivity_of(found)
+    return replace(found, notes=(*notes, *why), sensitivity=sensitivity)
 
 
 def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) -> Seen:

@@ -1,6 +1,5 @@
 """One contact: its own baseline, its flanks, peaks and impulse."""
 
-from dataclasses import dataclass
 from math import hypot
 from typing import NamedTuple
 
@@ -8,12 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.measure.kinds.waveform.baseline import Quiet, fit_quiet, scatter
-from stackbounce.measure.kinds.waveform.ends import Ends
-from stackbounce.measure.kinds.waveform.flanks import Flank, fit_flank
+from stackbounce.measure.kinds.waveform.flanks import Part, fit_flank
 from stackbounce.measure.kinds.waveform.intervals import Stretch
-from stackbounce.measure.kinds.waveform.peaks import Peak, find_peaks, flat_top, impulse_of
+from stackbounce.measure.kinds.waveform.peaks import find_peaks, flat_top, impulse_of
 from stackbounce.measure.kinds.waveform.result import Contact
-from stackbounce.measure.kinds.waveform.shapes import Shape
+from stackbounce.measure.kinds.waveform.shapes import Ends
 from stackbounce.measure.quantities import Array, known_to
 from stackbounce.measure.samples import quantisation_error
 
@@ -21,7 +19,6 @@ _BESIDE = 2  # times the contact's length: baseline that is looked at on each si
 _LEAST_BESIDE = 40  # samples of baseline that are looked at on each side
 _LEVEL_SAMPLES = 4  # quiet ones, at least, that tell a level
 _NOISE_SAMPLES = 60  # quiet ones, at least, that tell the noise
-_AVERAGES = 80  # moving averages over a contact, by which its flanks are found
 _TAIL = 0.25  # of a contact's length that its end may still reach
 
 
@@ -59,23 +56,6 @@ class Seen(NamedTuple):
     sign: int
 
 
-@dataclass(frozen=True, eq=False)
-class _Part:
-    """The samples around a contact, with the local baseline subtracted.
-
-    `offset` is the baseline's standard error. The noise is that beside the contact, where there are
-    enough samples.
-    """
-
-    times: Array
-    values: Array
-    first: int
-    last: int
-    offset: float
-    noise: float
-    density: float
-
-
 def measure_contact(
     seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | None, ends: Ends
 ) -> Contact:
@@ -98,15 +78,15 @@ def measure_contact(
     pad = len(one) // 20 + 2
     inner = slice(max(0, part.first - pad), part.last + pad + 1)
     peaks = find_peaks(part.times[inner], part.values[inner], part.noise, part.density)
-    rise = _flank(part, peaks[0], ends.touch, forward=True) if one.first > 1 else None
+    rise = fit_flank(part, peaks[0], ends.touch, forward=True) if one.first > 1 else None
     whole = one.last < len(seen.times) - 2
-    fall = _flank(part, peaks[-1], ends.release, forward=False) if whole else None
+    fall = fit_flank(part, peaks[-1], ends.release, forward=False) if whole else None
+    start, end = (flank.time if flank else None for flank in (rise, fall))
     inside = (
-        rise.time if rise else float(part.times[part.first]),
-        fall.time if fall else float(part.times[part.last]),
+        part.times[part.first] if start is None else start.nominal_value,
+        part.times[part.last] if end is None else end.nominal_value,
     )
     area = impulse_of(part.times, part.values, part.density, part.offset, inside)
-    start, end = (known_to(flank.time, flank.error) if flank else None for flank in (rise, fall))
     times = [known_to(peak.time, peak.time_error) for peak in peaks]
     forces = [known_to(peak.force, hypot(peak.force_error, part.offset)) for peak in peaks]
     return Contact(
@@ -118,17 +98,14 @@ def measure_contact(
         impulse=known_to(*area),
         rise=None if start is None else times[0] - start,
         fall=None if end is None else end - times[-1],
-        exponents=(
-            known_to(rise.exponent, rise.exponent_error) if rise else None,
-            known_to(fall.exponent, fall.exponent_error) if fall else None,
-        ),
+        exponents=(rise.exponent if rise else None, fall.exponent if fall else None),
         clipped=flat_top(seen.raw[one.first : one.last + 1], seen.quantum),
         samples=len(one),
         flanks=(rise, fall),
     )
 
 
-def _part(seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | None) -> _Part:
+def _part(seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | None) -> Part:
     """Return a contact with the quiet samples around it, less a baseline fitted to these."""
     reach = max(_BESIDE * len(one), _LEAST_BESIDE)
     low, high = max(0, one.first - reach), min(len(seen.times) - 1, one.last + reach)
@@ -152,24 +129,4 @@ def _part(seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | Non
             density = max(density, 1e-6 * float(np.ptp(values)))
         own = density / np.sqrt(sum(sides))
         offset = float(np.hypot(own, quantisation_error(seen.quantum, noise)))
-    return _Part(times, values, one.first - low, one.last - low, offset, noise, density)
-
-
-def _flank(part: _Part, peak: Peak, shape: Shape, *, forward: bool) -> Flank | None:
-    """Return the flank before the first peak, or with time reversed the one after the last."""
-    top = int(np.searchsorted(part.times, peak.time))
-    if forward:
-        times, values = part.times[: top + 1], part.values[: top + 1]
-    else:
-        times, values = -part.times[top - 1 :][::-1], part.values[top - 1 :][::-1]
-    found = fit_flank(
-        times,
-        values,
-        part.density,
-        shape,
-        peak=peak.force,
-        offset=part.offset,
-        length=float(part.times[part.last] - part.times[part.first]),
-        width=2 * ((part.last - part.first) // _AVERAGES // 2) + 1,
-    )
-    return found if found is None or forward else found.reversed()
+    return Part(times, values, one.first - low, one.last - low, offset, noise, density)

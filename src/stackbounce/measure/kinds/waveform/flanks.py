@@ -12,14 +12,16 @@ from typing import NamedTuple
 import numpy as np
 
 from stackbounce.measure.kinds.waveform.intervals import smoothed
+from stackbounce.measure.kinds.waveform.peaks import Peak
 from stackbounce.measure.kinds.waveform.shapes import Shape
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, Number, known_to
 
 _STARTS = 21  # of the force, on the grid
 _ZOOMS = 7  # of the grid
 _SETTLED = 3  # of these zooms, after which each unknown has its best start
 _REACH = 4.5  # standard deviations, from the middle of a finer grid to its ends
 _MOST_POINTS = 36  # that are fitted; more are averaged
+_AVERAGES = 80  # moving averages over a contact, by which its flanks are found
 _LEVELS = (0.7, 0.5, 0.35, 0.25, 0.15, 0.1)  # of the peak: how far up a flank is fitted, in turn
 _FEW_POINTS = 8  # on a flank, below which it is not cut shorter
 _LOWEST_LEVEL = 3.0  # noise levels
@@ -34,9 +36,9 @@ class Flank:
 
     Parameters
     ----------
-    time, error : float
-        When the force began, in s, and one standard deviation.
-    exponent, exponent_error : float
+    time : UFloat
+        When the force began, in s.
+    exponent : UFloat
         The power with which it began.
     times, force : ndarray
         The fitted curve, for a picture: in s and in the record's unit.
@@ -44,10 +46,8 @@ class Flank:
         Root of chi squared per degree of freedom; above 1 it multiplies the errors.
     """
 
-    time: float
-    error: float
-    exponent: float
-    exponent_error: float
+    time: Number
+    exponent: Number
     times: Array
     force: Array
     misfit: float
@@ -56,6 +56,23 @@ class Flank:
         """Return the flank with time reversed."""
         times, force = -self.times[::-1], self.force[::-1]
         return replace(self, time=-self.time, times=times, force=force)
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """The samples around a contact, with the local baseline subtracted.
+
+    `offset` is the baseline's standard error. The noise is that beside the contact, where there are
+    enough samples.
+    """
+
+    times: Array
+    values: Array
+    first: int
+    last: int
+    offset: float
+    noise: float
+    density: float
 
 
 class _Points(NamedTuple):
@@ -78,63 +95,49 @@ class _Points(NamedTuple):
     length: float
 
 
-def fit_flank(
-    times: Array,
-    values: Array,
-    sigma: float,
-    shape: Shape,
-    *,
-    peak: float,
-    offset: float,
-    length: float,
-    width: int = 1,
-) -> Flank | None:
-    """Return the fit of a rise from the baseline, or None where nothing rises.
+def fit_flank(part: Part, peak: Peak, shape: Shape, *, forward: bool) -> Flank | None:
+    """Return the fit of the flank before a peak, or of that after it; None where nothing rises.
 
     Parameters
     ----------
-    times : ndarray
-        (n,) ascending, in s, from well before the rise to its peak.
-    values : ndarray
-        (n,) without baseline.
-    sigma : float
-        Standard deviation of a value.
+    part : Part
+        The samples around the contact.
+    peak : Peak
+        The first one of the contact, or the last one for the flank after it.
     shape : Shape
         The curve and the prior of its unknown.
-    peak : float
-        The height of the first peak.
-    offset : float
-        Standard error of the baseline.
-    length : float
-        Of the contact, in s, roughly.
-    width : int, optional
-        How many samples are averaged to find the rise; odd.
-
-    Returns
-    -------
-    Flank or None
+    forward : bool
+        Whether it is the flank before the peak; the other one is fitted with time reversed.
 
     Examples
     --------
-    >>> times = np.arange(0.0, 1.0, 0.01)
-    >>> values = np.sin(np.maximum(times - 0.314, 0.0))
-    >>> shape = Shape(1.0, 1.5)
-    >>> flank = fit_flank(times, values, 1e-3, shape, peak=0.6, offset=0.0, length=1.4)
-    >>> abs(flank.time - 0.314) < 2 * flank.error < 0.02
+    >>> times = np.arange(0.0, 4.0, 0.01)
+    >>> values = np.sin(np.clip(times - 0.314, 0.0, np.pi))
+    >>> part, peak = Part(times, values, 31, 345, 0.0, 1e-3, 1e-3), Peak(1.885, 0.0, 1.0, 0.0)
+    >>> flank = fit_flank(part, peak, Shape(1.0, 1.5), forward=True)
+    >>> abs(flank.time.n - 0.314) < 2 * flank.time.s < 0.02
     True
     """
-    found: Flank | None = None
+    top = int(np.searchsorted(part.times, peak.time))
+    if forward:
+        times, values = part.times[: top + 1], part.values[: top + 1]
+    else:
+        times, values = -part.times[top - 1 :][::-1], part.values[top - 1 :][::-1]
+    width = 2 * ((part.last - part.first) // _AVERAGES // 2) + 1
     even = smoothed(values, width)
-    calm = sigma / np.sqrt(width)
+    calm = part.density / np.sqrt(width)
+    length = float(part.times[part.last] - part.times[part.first])
+    found: Flank | None = None
     for level in _LEVELS:
-        start, foot, stop = _cut(times, even, calm, level * peak)
+        high = level * peak.force
+        start, foot, stop = _cut(times, even, calm, high)
         if stop == 0 or (found is not None and (stop - foot) // width < _FEW_POINTS):
             break
-        samples = _averages(times[start:stop], values[start:stop], sigma)
-        found = _fit(_Points(*samples, level * peak, level, offset, length), shape)
+        samples = _averages(times[start:stop], values[start:stop], part.density)
+        found = _fit(_Points(*samples, high, level, part.offset, length), shape)
         if found.misfit == 1.0:
             break
-    return found
+    return found if found is None or forward else found.reversed()
 
 
 def _cut(times: Array, even: Array, calm: float, level: float) -> tuple[int, int, int]:
@@ -192,7 +195,8 @@ def _fit(points: _Points, shape: Shape) -> Flank:
     freedom = max(1, len(times) - 5)
     fits = chi < freedom + _FITS_WITHIN * np.sqrt(2.0 * freedom)
     misfit = 1.0 if fits else float(np.sqrt(chi / freedom))
-    return Flank(t, e * misfit, p, r * misfit, *_curve(points, shape, *best), misfit)
+    start, exponent = known_to(t, e * misfit), known_to(p, r * misfit)
+    return Flank(start, exponent, *_curve(points, shape, *best), misfit)
 
 
 def _closer(

@@ -2,7 +2,7 @@
 
 import math
 
-from stackbounce.measure.kinds.waveform.result import Contact
+from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.quantities import Number
 from stackbounce.model.drop import STANDARD_GRAVITY
 
@@ -22,38 +22,20 @@ def restitution_of(contacts: tuple[Contact, ...], speed: Number) -> Number | Non
     return e if long and e.nominal_value <= 1.0 + 3.0 * e.std_dev else None
 
 
-def sensitivity_of(
-    contacts: tuple[Contact, ...],
-    unit: str,
-    mass: Number | float | None,
-    speed: Number | float | None,
-) -> tuple[Number | None, list[str]]:
+def sensitivity_of(found: Waveform) -> tuple[Number | None, list[str]]:
     """Return a sensor's volts per newton from a ball's first bounce, and notes about it.
 
-    Parameters
-    ----------
-    contacts : tuple of Contact
-        Of the record, in order.
-    unit : str
-        Only a record in V is calibrated.
-    mass, speed : UFloat, float or None
-        Of the ball, in kg and m/s.
-
-    Returns
-    -------
-    UFloat or None
-        In V/N; None where something is missing.
-    list of str
-        Notes, a sentence each.
+    It is None where mass or speed are missing, or the record is not in V.
     """
     from uncertainties import ufloat
 
-    if unit != "V" or mass is None or speed is None or not contacts:
+    mass, speed = found.mass, found.impact_speed
+    if found.unit != "V" or mass is None or speed is None or not found.contacts:
         return None, []
-    first = contacts[0]
+    first = found.contacts[0]
     if first.time is None or first.clipped:
         return None, ["the first contact is not whole: the sensor cannot be calibrated by it"]
-    e = restitution_of(contacts, speed)
+    e = restitution_of(found.contacts, speed)
     if e is not None:
         weight = mass * STANDARD_GRAVITY * first.time
         note = f"calibrated by the first bounce, with restitution {e:.2u}"

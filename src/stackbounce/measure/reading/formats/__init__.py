@@ -1,4 +1,4 @@
-"""The layouts of programs, a file for each program; every module in this folder is imported."""
+"""The layouts of programs, a file for each sort of them; every module here is imported."""
 
 from importlib import import_module
 from pkgutil import iter_modules

@@ -123,8 +123,8 @@ export function between(name, value, low, high = Infinity, unit = "") {
 }
 
 /** Check a number by the limits that the catalogue has of it: `{words, least, most}`. */
-export function within(name, value, { words, least, most }) {
-  return checked(name, value, words, (number) => number >= least && number <= most);
+export function within(name, value, { right, least, most }) {
+  return checked(name, value, right, (number) => number >= least && number <= most);
 }
 
 // unknown names

@@ -3,5 +3,5 @@
 export const known = {};
 
 export function learn(data) {
-  Object.assign(known, data);
+  Object.assign(known, data, { models: Object.fromEntries(data.laws.map((kind) => [kind.law, kind])) });
 }

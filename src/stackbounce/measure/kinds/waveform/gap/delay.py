@@ -10,12 +10,12 @@ where q is the lower ball's displacement, up-positive, as it bounces alone: on a
 """
 
 import math
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
 
 from stackbounce.errors import InvalidValue, fraction, shown
-from stackbounce.measure.finding import force_channels
+from stackbounce.measure.finding import Finding, Listed, force_channels
 from stackbounce.measure.kinds.waveform.analysis import waveform
-from stackbounce.measure.kinds.waveform.gap.result import SensorGap
 from stackbounce.measure.kinds.waveform.result import Waveform
 from stackbounce.measure.quantities import Number, measured, measured_if_given
 from stackbounce.measure.statistics.propagation import propagate
@@ -24,6 +24,25 @@ from stackbounce.run.driver import simulate
 
 if TYPE_CHECKING:
     from stackbounce.model.laws import ContactLaw
+
+
+@dataclass(frozen=True)
+class SensorGap(Finding):
+    """The delay and the gap of two balls from two sensors; made by `sensor_gap`.
+
+    Attributes
+    ----------
+    gap : UFloat or None
+        Between the balls as they fell, in m; None where speed or contact time are not known.
+    delay : UFloat
+        From the floor's first touch to that of the balls, in s.
+    notes : tuple of str
+        What should be known about it, a sentence each.
+    """
+
+    gap: Annotated[Number | None, Listed("gap between the balls", "m")]
+    delay: Annotated[Number, Listed("delay of their touch", "s")]
+    notes: tuple[str, ...]
 
 
 def gap_from_delay(
@@ -199,9 +218,9 @@ def sensor_gap(data: Any, *, impact_speed: Any = None, contact_time: Any = None)
     said = f"{names[0]} is taken as the floor's force, {names[1]} as that between the balls"
     if impact_speed is None or contact_time is None:
         missing = "impact speed" if impact_speed is None else "contact time of the lower ball alone"
-        return SensorGap(later, None, (said, f"the gap needs the {missing} too"))
+        return SensorGap(None, later, (said, f"the gap needs the {missing} too"))
     gap = gap_from_delay(later, impact_speed, contact_time=contact_time)
-    return SensorGap(later, gap, (said,))
+    return SensorGap(gap, later, (said,))
 
 
 def _spring_gap(t: float, v: float, tau: float, e: float) -> float:

@@ -1,16 +1,25 @@
 """The gap between two falling balls from the force on the floor, with and without the upper one."""
 
 import math
-from typing import Any, NamedTuple
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from stackbounce.errors import InvalidValue, fraction
+from stackbounce.measure.finding import Finding
 from stackbounce.measure.kinds.waveform.analysis import waveform
-from stackbounce.measure.kinds.waveform.gap.result import FloorGap
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.sensor import restitution_of
-from stackbounce.measure.quantities import Array, known_to, measured, measured_if_given, nominal
+from stackbounce.measure.quantities import (
+    Array,
+    Number,
+    Row,
+    known_to,
+    measured,
+    measured_if_given,
+    nominal,
+)
 from stackbounce.measure.statistics.change_point import Kink, find_kink
 
 _RESTITUTION = (0.75, 0.144)  # mean and deviation of the prior: uniform from 0.5 to 1
@@ -18,6 +27,49 @@ _REPEATED_WITHIN = 0.04  # relative, by which two drops from one height may diff
 _EARLY = 0.33  # of the contact time alone: earlier change points do not exclude a gap of 0
 _LATE = 0.6  # of the contact time alone: later a second ball may be invisible
 _SAME_IMPACT = 8.0  # contact times within which a second contact belongs to the same impact
+
+
+@dataclass(frozen=True, eq=False)
+class FloorGap(Finding):
+    """The delay and the gap of two balls from the floor's force; made by `floor_gap`.
+
+    Parameters
+    ----------
+    delay : UFloat or None
+        From the floor's first touch to that of the balls, in s; None where only limits are known.
+    gap : UFloat or None
+        Between the balls as they fell, in m; None where only limits are known.
+    delay_limits, gap_limits : (float, float)
+        Limits in s and m: two standard errors each way, or those without a change point.
+    gain : float
+        Ratio of the stack's force to the lower ball's alone, before the balls touch.
+    notes : tuple of str
+        What should be known about it, a sentence each.
+    stack, alone : Waveform
+        The two records.
+    kink : Kink
+        The change point at which the two forces part.
+    """
+
+    picture: ClassVar[str] = "gap"
+
+    delay: Number | None
+    gap: Number | None
+    delay_limits: tuple[float, float]
+    gap_limits: tuple[float, float]
+    gain: float
+    notes: tuple[str, ...]
+    stack: Waveform = field(repr=False)
+    alone: Waveform = field(repr=False)
+    kink: Kink = field(repr=False)
+
+    def rows(self) -> list[Row]:
+        """Return the table, the most important first."""
+        return [
+            Row("gap between the balls", _limited(self.gap, self.gap_limits), "m"),
+            Row("delay of their touch", _limited(self.delay, self.delay_limits), "s"),
+            Row("force over that of the ball alone", self.gain),
+        ]
 
 
 def floor_gap(
@@ -106,6 +158,18 @@ def floor_gap(
         gap = scale * (fall.of(kink.time) + fall.speed(kink.time) * (delay - kink.time))
     notes = (*both.notes, *_notes(kink, lasting), *why)
     return FloorGap(delay, gap, limits, reach, kink.gain, notes, both, single, kink)
+
+
+def _limited(value: Any, limits: tuple[float, float]) -> Any:
+    """Return a value or, where there is none, its limits as words."""
+    low, high = limits
+    if value is not None:
+        return value
+    if math.isinf(high):
+        return "unknown"
+    if low <= 0.0:
+        return f"below {high:.2g}"
+    return f"{low:.2g} to {high:.2g}"
 
 
 class _Fall(NamedTuple):

@@ -11,16 +11,8 @@ from dataclasses import dataclass
 
 from mpmath import mp, mpf
 
-from reference.common import (
-    DIGITS,
-    TINY,
-    Interval,
-    Number,
-    Outcome,
-    first_zero,
-    kinetic,
-    leading_order,
-)
+from benchmarks.impacts.first_zero import first_zero, leading_order
+from reference.common import DIGITS, TINY, Interval, Number, Outcome, kinetic
 
 MOST = 8  # balls; with more that touch, the highest contact begins with an order above `ORDERS`
 ORDERS = 16  # of the derivatives that are looked at

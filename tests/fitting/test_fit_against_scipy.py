@@ -1,10 +1,8 @@
-"""Smooth fits beside lmfit and scipy used plainly, with `simulate` one drop at a time."""
+"""Smooth fits beside scipy used plainly, with `simulate` one drop at a time."""
 
-import lmfit
 import numpy as np
 import pytest
-from scipy.optimize import least_squares
-from scipy.stats import chi2
+from scipy.optimize import least_squares, minimize_scalar
 
 import stackbounce as sb
 
@@ -53,26 +51,21 @@ def test_values_errors_and_correlations_are_those_of_scipy(case):
 
 
 @pytest.mark.slow
-def test_intervals_are_those_of_lmfit():
+def test_intervals_end_where_the_least_chi_squared_of_scipy_has_risen():
     law, truth = CASES["springs"]
     target, found = ours(law, truth)
-    parameters = lmfit.Parameters()
-    for k, value in enumerate(truth):
-        parameters.add(f"k{k}", value=value, min=value / 4, max=value * 4)
-    minimizer = lmfit.Minimizer(
-        lambda trial: (predicted(law, trial.valuesdict().values()) - target) / ERRORS,
-        parameters,
-        scale_covar=False,
-    )
-    limits = lmfit.conf_interval(
-        minimizer,
-        minimizer.minimize(),
-        sigmas=[1, 2],  # lmfit's default is an F test; ours is a rise of chi squared
-        prob_func=lambda best, other: float(chi2.cdf(max(other.chisqr - best.chisqr, 0.0), 1)),
-    )
-    for sigma, (low, high) in {1.0: (1, 3), 2.0: (0, 4)}.items():
-        own = found.intervals(sigma=sigma)
-        for k, name in enumerate(NAMES):
-            rows = [value for _, value in limits[f"k{k}"]]
-            margin = 5e-3 * found[name].std_dev
-            assert own[name][:2] == pytest.approx((rows[low], rows[high]), abs=margin)
+
+    def rise(k, value):
+        """Return how much more chi squared is, with the other stiffness refitted."""
+
+        def chi_squared(other):
+            trial = [other, value] if k else [value, other]
+            return np.sum(((predicted(law, trial) - target) / ERRORS) ** 2)
+
+        bounds = (truth[1 - k] / 4, truth[1 - k] * 4)
+        return minimize_scalar(chi_squared, bounds=bounds, method="bounded").fun - found.chi_squared
+
+    for sigma in (1.0, 2.0):
+        for k, interval in enumerate(found.intervals(sigma=sigma).values()):
+            for end in interval[:2]:
+                assert rise(k, end) == pytest.approx(sigma**2, rel=5e-3)

@@ -1,0 +1,47 @@
+"""Many drops at once, as kernels take them and leave them, by compiled code."""
+
+import numpy as np
+
+from stackbounce.engine import native
+from stackbounce.engine.memory import memory, spring_workspace
+from stackbounce.engine.records import Drops, Outcomes
+from stackbounce.engine.tables import Table
+from stackbounce.run.batch import new_outcomes
+
+
+def bits(values):
+    """Return the bits of numbers, where all that is not a number is alike."""
+    array = np.asarray(values)
+    if array.dtype.kind == "f":
+        array = np.where(np.isnan(array), np.nan, array)
+    return array.tobytes()
+
+
+def numbers_of(drawn, rows=slice(None)):
+    """Return some drops of `fuzz.draw` as kernels take them."""
+    return Drops._make(np.ascontiguousarray(getattr(drawn, name)[rows]) for name in Drops._fields)
+
+
+def swept(engine, drops, options):
+    """Return the outcomes of drops."""
+    out = _room(drops)
+    room = memory(engine, drops.mass.shape[1], compiled=True)
+    room.run_batch(engine.run_batch, drops, options, out)
+    find_ratios(drops, out)
+    return out
+
+
+def on_two_springs(drops, event_limit):
+    """Return the outcomes of two balls on springs by their own kernel, without ratios."""
+    out, space = _room(drops), Table(spring_workspace(compiled=True))
+    native.compiled("run_two_springs")(Table(drops), event_limit, Table(out), space)
+    return out
+
+
+def find_ratios(drops, out):
+    """Put ratios into outcomes."""
+    native.compiled("find_ratios")(Table(drops), Table(out))
+
+
+def _room(drops):
+    return Outcomes._make(map(np.zeros_like, new_outcomes(*drops.mass.shape)))
