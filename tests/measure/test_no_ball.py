@@ -150,3 +150,13 @@ def test_an_onset_is_not_left_out_for_its_louder_tail(late):
         "tail of a sound",
         "second sound of one impact",
     }
+
+
+@pytest.mark.parametrize("silent", [0.004, 0.01, 0.02])
+def test_where_a_codec_begins_is_no_knock(silent):
+    data = sound(falls(0.5, 0.8, bounces=6), noise=5e-3, before=0.3, seed=3)
+    values = data.sound.values.copy()
+    values[: round(silent * 48000)] = 0.0
+    found = knocks(values, rate=48000.0)
+    assert len(found.times) == 6
+    assert found.dropped == () or found.dropped[0].time > 0.3

@@ -53,7 +53,7 @@ class _Comparison(NamedTuple):
 
 
 def aligned(
-    values: NDArray[np.float32], rate: float, about: Array, least: float = 0.0
+    values: NDArray[np.float32], rate: float, about: Array, least: float = 0.0, faint: float = 0.0
 ) -> tuple[Array, Array]:
     """Return the times of the knocks of one ball, consistent with each other, and their errors.
 
@@ -71,6 +71,8 @@ def aligned(
         (K,) approximate times in s, at least two, within 3 ms.
     least : float, optional
         Variance of the quantisation error of a sample.
+    faint : float, optional
+        Share of the largest power of a knock, in each band, below which nothing is compared.
 
     Returns
     -------
@@ -99,7 +101,8 @@ def aligned(
     before, after = max(_SECONDS_BEFORE, few), max(_SECONDS_AFTER, few)
     shortest = float(np.diff(about).min())
     reach = max(min(_FARTHEST, _FARTHEST_OF_FLIGHT * shortest), 0.5 * few)
-    bands = band_powers(values, rate, about, -before - 2.0 * reach, after + 2.0 * reach, least)
+    start, stop = -before - 2.0 * reach, after + 2.0 * reach
+    bands = band_powers(values, rate, about, start, stop, least, faint)
     window = _window(bands, before, after)
     shifts: Array = np.zeros(len(about))
     compared, template = _compared(_shifted(bands, window, shifts), window, bands, None)

@@ -1,6 +1,6 @@
 """A recording of a bouncing ball -> the times of its knocks."""
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,9 @@ from stackbounce.measure.samples import runs
 _LEAST_RATE = 400  # samples per second: with fewer an onset lies between two samples
 _DEAD_SECONDS = 8e-3  # s: two knocks closer than that are one impact
 _LONGEST_FLIGHT = 2.02  # s: of a bounce of 5 m
+_PRE_ECHO = 0.04  # of a knock's largest power: a codec's echo before it is fainter
+_PRE_ECHO_SECONDS = 0.3e-3  # s by which it shifts a time at least
+_PRE_ECHO_FACTOR = 1.5  # by which errors of times without it are larger at most
 _SAME_DELAY = 1.5e-3  # s by which the delays of one echo differ at most
 _SECOND_SERIES = 4  # knocks of another series that is worth a note
 _LOUDNESS_SECONDS = 10e-3  # s of a knock that tell how loud it is
@@ -125,11 +128,10 @@ def knocks(
         _note_series(chain, rises, dead, origin, notes)
     about = rises.times[list(chain.indices)]
     best = clearest(white, rate, about, rounded) if len(white) > 1 else 0
-    times, errors = about, np.full(len(about), 1.0 / rate)
-    if not loud_only:
-        times, errors = onsets(white[best], rate, about, float(rounded[best]))
+    heard = _Channel(samples[best], white[best], rate, float(rounded[best]))
+    times, errors = heard.onsets(about)
     if len(times) > 1 and not against:
-        times, errors = _aligned(samples[best], rate, times, float(rounded[best]), chain.missed)
+        times, errors = _consistent(heard, about, chain.missed, notes)
     loudness = _loudness(white, rate, times)
     left_out = sorted([*doubles, *dropped], key=lambda sound: sound.time)
     return Knocks(
@@ -151,15 +153,46 @@ def _all_sounds(rises: Rises) -> tuple[Chain, list[Dropped]]:
     return Chain(kept, (0,) * (len(kept) - 1)), left_out
 
 
-def _aligned(
-    values: NDArray[np.float32], rate: float, onsets: Array, rounded: float, missed: tuple[int, ...]
+class _Channel(NamedTuple):
+    """One channel of a recording: samples, whitened ones, rate, variance of their rounding."""
+
+    samples: NDArray[np.float32]
+    white: NDArray[np.float32]
+    rate: float
+    rounded: float
+
+    def onsets(self, about: Array, faint: float = 0.0) -> tuple[Array, Array]:
+        """Return the onset of each knock; of a record of amplitudes where it is known about."""
+        if self.samples.min() >= 0.0:
+            return about, np.full(len(about), 1.0 / self.rate)
+        return onsets(self.white, self.rate, about, self.rounded, faint)
+
+    def aligned(self, about: Array, faint: float = 0.0) -> tuple[Array, Array]:
+        """Return times that are consistent with each other, as late on average as the onsets."""
+        first, _ = self.onsets(about, faint)
+        times, errors = aligned(self.samples, self.rate, first, self.rounded, faint)
+        return times + np.median(first - times), errors
+
+
+def _consistent(
+    heard: _Channel, about: Array, missed: tuple[int, ...], notes: list[str]
 ) -> tuple[Array, Array]:
-    """Return times that are consistent with each other, as late on average as the onsets."""
-    times, errors = aligned(values, rate, onsets, rounded)
-    times = times + np.median(onsets - times)
+    """Return the times of a series of bounces and their errors.
+
+    A codec (MP3, AAC, Opus) puts a faint echo before a knock. Times that do not look at what is so
+    faint are returned where they differ from those that do, and the flights scatter hardly more.
+    """
+    times, errors = heard.aligned(about)
     errors = errors * misjudgement(times, errors, missed)
-    if values.min() >= 0.0:  # each amplitude is of a whole interval
-        errors = np.hypot(errors, _INTERVAL_SIGMA / rate)
+    later, sure = heard.aligned(about, _PRE_ECHO)
+    off = np.abs(later - times - np.median(later - times))
+    if (off > _PRE_ECHO_SECONDS).any():
+        sure = sure * misjudgement(later, sure, missed)
+        if np.median(sure) < _PRE_ECHO_FACTOR * np.median(errors):
+            notes.append("A faint sound precedes some knocks, as of a codec: it is not looked at.")
+            times, errors = later, sure
+    if heard.samples.min() >= 0.0:  # each amplitude is of a whole interval
+        errors = np.hypot(errors, _INTERVAL_SIGMA / heard.rate)
     return times, errors
 
 

@@ -14,7 +14,6 @@ _HIGHEST_SHARE = 0.46  # of the sampling rate
 _LONGEST_STEP = 1.0 / 32e3  # s between powers
 _AMPLITUDE_STEPS = 8  # to a sample of a record of amplitudes
 _SKIRT_SIGMAS = 4.5  # standard deviations of a filter's response in time that are kept
-_PRE_ECHO = 3e-3  # of a knock's largest power: a codec's echo before a knock is fainter
 _SILENCE = 1e-10  # of the largest power
 
 
@@ -33,7 +32,13 @@ class Bands(NamedTuple):
 
 
 def band_powers(
-    values: NDArray[np.float32], rate: float, about: Array, start: float, stop: float, least: float
+    values: NDArray[np.float32],
+    rate: float,
+    about: Array,
+    start: float,
+    stop: float,
+    least: float,
+    faint: float = 0.0,
 ) -> Bands:
     """Return the power of a recording in bands of an octave, around each of some times.
 
@@ -52,6 +57,8 @@ def band_powers(
         What is wanted around each of them, in s.
     least : float
         Variance of a sample that is taken for silence.
+    faint : float, optional
+        Share of the largest power around each time, in each band, below which powers are hidden.
 
     Returns
     -------
@@ -90,7 +97,7 @@ def band_powers(
     floor = np.maximum(silence, _SILENCE * power.max(axis=(0, 2)))
     step = 1.0 / (rate * finer)
     correlation = np.maximum(math.sqrt(2.0 * math.pi) * lasts / step, 1.0)
-    quiet = floor[:, None] + _PRE_ECHO * power.max(axis=2, keepdims=True)
+    quiet = floor[:, None] + faint * power.max(axis=2, keepdims=True)
     return Bands(np.log(power + quiet), first * step, step, correlation)
 
 

@@ -11,6 +11,8 @@ from stackbounce.measure.statistics.ar_noise import linear_prediction_residual
 
 # Set by hand on the recordings of `benchmarks/coverage/sound.py` and `docs/lab`.
 _HOP_SECONDS = 0.5e-3  # s, step of the search
+_SETTLING_SECONDS = 0.03  # s at the start, in which no noise rises above that of the recording
+_QUIET_PERCENT = 20.0  # of the recording are quieter than its noise, or hardly louder
 _HOPS_AFTER, _HOPS_BEFORE, _HOPS_BETWEEN = 4, 16, 1  # whose loudness is compared, and between them
 _ORDER = 24  # of the linear prediction that removes hum and stationary noise
 _FALSE_ALARMS = 0.01  # rises of stationary noise in a recording, on average
@@ -122,9 +124,9 @@ def _around(energy: Array, rounded: float) -> tuple[Array, Array]:
     start = np.maximum(stop - _HOPS_BEFORE, 0)
     filled = stop > start
     before = np.where(filled, (sums[stop] - sums[start]) / np.maximum(stop - start, 1), np.inf)
-    # Too few hops precede the first ones; digital silence is given a little noise.
-    first = before[: _HOPS_BEFORE + _HOPS_BETWEEN]
-    first[:] = np.maximum(first, np.median(energy))
+    # At first a codec is silent or a gain settles; digital silence is given a little noise.
+    first = before[: round(_SETTLING_SECONDS / _HOP_SECONDS)]
+    first[:] = np.maximum(first, np.percentile(energy, _QUIET_PERCENT))
     return np.maximum(before, max(rounded, 1e-9 * float(energy.max()), 1e-30)), after
 
 

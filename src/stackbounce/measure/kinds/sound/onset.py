@@ -16,6 +16,7 @@ _CLEAR_SIGMAS = 5.0  # an onset is refined within `_NEAR` if that is so many of 
 _NOISE_SECONDS, _GUARD_SECONDS = 8e-3, 0.5e-3  # s before a knock for the noise, and between the two
 _POWER_SECONDS = 2e-3  # s after the onset for the power of the knock
 _COLOR_SECONDS = 4e-3  # s after the onset for the autocorrelation
+_SILENT = 1e-9  # of a knock's power: the smallest noise
 _LEAST_POWER = 1e-3  # of the noise: the smallest power of a knock
 _ONE_SIGMA = (0.15865525, 0.84134475)  # probabilities at one sigma below and above the mean
 
@@ -31,7 +32,7 @@ class _Knock(NamedTuple):
 
 
 def onsets(
-    white: NDArray[np.float32], rate: float, about: Array, rounded: float
+    white: NDArray[np.float32], rate: float, about: Array, rounded: float, faint: float = 0.0
 ) -> tuple[Array, Array]:
     """Return the onsets of the knocks of one ball, and their errors.
 
@@ -52,6 +53,8 @@ def onsets(
         (K,) approximate onsets, within 1 ms, in s.
     rounded : float
         Variance of the quantisation error of a sample: the smallest possible noise.
+    faint : float, optional
+        Share of a knock's power that is taken for noise at least.
 
     Returns
     -------
@@ -77,7 +80,7 @@ def onsets(
     # Power and autocorrelation are measured after the onset, and improve with it.
     for reach in (_FAR, _FAR, _NEAR) if far > _MOST_SAMPLES else (_FAR, _FAR):
         thin = math.ceil(2.0 * reach * rate / _MOST_SAMPLES)
-        knocks = [_knock(white, at, rate, reach, thin, rounded) for at in about]
+        knocks = [_knock(white, at, rate, reach, thin, rounded, faint) for at in about]
         times, sure = _improved(knocks, rate / thin)
         times += 0.5 * (thin - 1) / rate  # the middle of the samples that were taken together
         within = np.full(len(about), reach == _FAR) | (errors < reach / _CLEAR_SIGMAS)
@@ -89,13 +92,19 @@ def clearest(white: NDArray[np.float32], rate: float, about: Array, rounded: Arr
     """Return the channel, of (channels, N), in which the knocks at some times are clearest."""
     clear = []
     for values, least in zip(white, rounded, strict=True):
-        heard = [_knock(values, at, rate, _FAR, 1, least) for at in about]
+        heard = [_knock(values, at, rate, _FAR, 1, least, 0.0) for at in about]
         clear.append(sum(math.log(knock.loud / knock.noise) for knock in heard))
     return int(np.argmax(clear))
 
 
 def _knock(
-    values: NDArray[np.float32], time: float, rate: float, reach: float, thin: int, rounded: float
+    values: NDArray[np.float32],
+    time: float,
+    rate: float,
+    reach: float,
+    thin: int,
+    rounded: float,
+    faint: float,
 ) -> _Knock:
     rate /= thin
     at, half, guard = round(time * rate), round(reach * rate), round(_GUARD_SECONDS * rate)
@@ -104,7 +113,7 @@ def _knock(
     )
     quiet = float((before**2).mean())
     loud = float((_part(values, at, at + round(_POWER_SECONDS * rate), thin) ** 2).mean())
-    noise = max(quiet + _rounding(quiet, rounded / thin), 1e-9 * loud, 1e-30)
+    noise = max(quiet + _rounding(quiet, rounded / thin), max(faint, _SILENT) * loud, 1e-30)
     wave = _part(values, at, at + max(2 * half, round(_COLOR_SECONDS * rate)), thin)
     color = np.correlate(wave, wave, "full")[len(wave) - 1 :][: 2 * half]
     around = _part(values, at - half, at + half, thin)
