@@ -13,7 +13,7 @@ from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.clock import on_the_clock
-from stackbounce.measure.reading.roles import ACCELERATIONS, ROLES, Column
+from stackbounce.measure.reading.roles import ACCELERATIONS, FRAME, ROLES, Column
 from stackbounce.measure.reading.series import in_time, step_of
 from stackbounce.measure.reading.video import rows_by_frame
 
@@ -151,10 +151,14 @@ def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
     ]
 
 
-def _attributes(column: Column) -> dict[str, str | int]:
-    """Return the attributes of a column in the Dataset; `column` is its number in the file."""
+def _attributes(column: Column) -> dict[str, str | float]:
+    """Return the attributes of a column in the Dataset.
+
+    `column` is its number in the file; `frame` what a frame lasts, where times are frames.
+    """
     name = column.heading.text or f"column {column.index + 1}"
-    return {"units": column.unit, "long_name": name, "column": column.index + 1}
+    frame = {"frame": column.factor} if column.heading.unit == FRAME else {}
+    return {"units": column.unit, "long_name": name, "column": column.index + 1, **frame}
 
 
 def _named(columns: Sequence[Column], without: Sequence[str] = ()) -> list[str]:
@@ -239,7 +243,8 @@ def _rows(kind: Kind, columns: Sequence[Column], values: Array, run: object) -> 
     whole = np.isfinite(values[:, [_at(columns, role) for role in roles]]).all(axis=1)
     if not whole.any():
         raise FileError(f"it has no row with {' and '.join(roles)}")
-    return xr.Dataset(_data(columns, values[whole], kind.dimension)), []
+    numbers = {kind.dimension: np.flatnonzero(whole) + 1.0}
+    return xr.Dataset(_data(columns, values[whole], kind.dimension), coords=numbers), []
 
 
 def _bounces(columns: Sequence[Column], values: Array) -> _Built:
