@@ -271,10 +271,12 @@ def _table(
     columns = apply_options(named, options)
     doubts += () if options.names else unsure
     columns, runs = of_run(columns, options.run, doubts)
+    places = [column.index for column in columns if column.index >= 0]
+    table = numbers(places)
     if options.holds in (None, "track"):
-        columns, more = on_frames(columns, options.frame_rate, options.scale)
+        by_place = dict(zip(places, table.values.T, strict=True))
+        columns, more = on_frames(columns, options.frame_rate, options.scale, by_place)
         doubts += more
-    table = numbers([column.index for column in columns if column.index >= 0])
     return layout, columns, table, doubts, runs
 
 
