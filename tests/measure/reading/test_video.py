@@ -125,9 +125,7 @@ FRAMED = rows("{k},{x:.3f},{y:.3f}")
     [
         ("Frame No.,px,py\n", {"Frame No.": "time", "py": "y"}),
         ("", {1: "time", 2: "x", 3: "y"}),
-        ("t,x,y\n", None),
         ("a,b,c\n", {1: "x", 2: "z", 3: "y"}),  # its rows are frames
-        ("a,b,c\n", {3: "y"}),
     ],
 )
 def test_a_frame_rate_makes_times_of_frames_whatever_they_are_called(read, head, names):

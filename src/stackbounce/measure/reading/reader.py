@@ -49,9 +49,9 @@ def read(
     r"""Return what a file of measurements holds, recognised by its content, in SI units.
 
     Tables of Tracker, ImageJ, TrackMate, phyphox, Sensor Logger, Vernier, Logger Pro, PASCO
-    Capstone, LabVIEW and oscilloscopes, also in zip archives and spreadsheets; any other table of
-    numbers with names and units in its header; arrays of NumPy; and WAV sound. Options are needed
-    only where a file is not recognised correctly.
+    Capstone, LabVIEW, Audacity and oscilloscopes, also in zip archives and spreadsheets; any other
+    table of numbers with names and units in its header; arrays of NumPy; and WAV sound. Options are
+    needed only where a file is not recognised correctly.
 
     Parameters
     ----------

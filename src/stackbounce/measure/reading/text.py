@@ -65,7 +65,7 @@ def decode(content: bytearray) -> str:
     Raises
     ------
     FileError
-        If they are no text in UTF-8, UTF-16 or Latin-1.
+        If they are no text in UTF-8, UTF-16, Latin-1 or cp1250.
     """
     marks = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
     encoding = next((name for mark, name in marks if content.startswith(mark)), "")
