@@ -201,6 +201,8 @@ def test_labels_of_audacity_are_knocks_and_times_of_kinovea_have_hours(read):
     data = read(labels)
     assert (data.attrs["format"], data.attrs["holds"]) == ("Audacity: labels", "knocks")
     assert data.knock_time.values == pytest.approx(np.arange(1, 7))
+    points = "".join(f"{k / 30:.6f}\t{1 + k * k / 99:.6f}\t{k:.6f}\n" for k in range(9))
+    assert read(points).attrs["holds"] == "track"
     lines = "".join(f"0:00:{k / 25:05.2f} {k} {k * k}\n" for k in range(40))
     data = read(f"#Kinovea Trajectory data export\n#T X Y\n{lines}", holds="track")
     assert data.time.values == pytest.approx(np.arange(40) / 25)
