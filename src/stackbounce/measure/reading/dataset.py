@@ -157,11 +157,13 @@ def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
 def _attributes(column: Column) -> dict[str, str | float]:
     """Return the attributes of a column in the Dataset.
 
-    `column` is its number in the file; `frame` what a frame lasts, where times are frames.
+    `column` is its number in the file, `unit_in_file` its unit there, known or not; `frame` is what
+    a frame lasts, where times are frames.
     """
     name = column.heading.text or f"column {column.index + 1}"
     frame = {"frame": column.factor} if column.heading.unit == FRAME else {}
-    return {"units": column.unit, "long_name": name, "column": column.index + 1, **frame}
+    told = {"units": column.unit, "unit_in_file": column.heading.unit, "long_name": name}
+    return {**told, "column": column.index + 1, **frame}
 
 
 def _named(columns: Sequence[Column], without: Sequence[str] = ()) -> list[str]:

@@ -12,7 +12,6 @@ from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.kinds.heights.analysis import heights
 from stackbounce.measure.kinds.heights.result import Heights
 from stackbounce.measure.messages import Message, OptionHint
-from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.setup import Setup
 
 _MANY = 100  # heights of one drop
@@ -83,7 +82,7 @@ def _unrecognised(data: Any) -> Message:
 
 def _hint(data: Any, columns: Sequence[Any]) -> tuple[str, OptionHint | None]:
     """Return the kind and the call that names and units leave possible, if there is one."""
-    bare = [c for c in columns if not (c.attrs.get("units") or heading(c.attrs["long_name"]).unit)]
+    bare = [c for c in columns if not (c.attrs["units"] or c.attrs["unit_in_file"])]
     unitless = [c.name for c in bare]
     times = [c for c in columns if c.name == "time" or c.attrs.get("units") == "s"]
     times += [c for c in bare if (np.diff(c.values) > 0.0).all()]
@@ -92,7 +91,7 @@ def _hint(data: Any, columns: Sequence[Any]) -> tuple[str, OptionHint | None]:
     clock = times[0]
     others = [c for c in columns if c is not clock]
     lengths = [c for c in others if c.attrs.get("units") in ("m", "px") or c.name in unitless]
-    places = [c for c in lengths if _PLACE.search(heading(c.attrs["long_name"]).name)]
+    places = [c for c in lengths if _PLACE.search(re.split(r"\s*[(\[/]", c.attrs["long_name"])[0])]
     steps = np.diff(clock.values)
     uneven = 1 < len(steps) < _MANY and np.ptp(steps) > np.min(steps) > 0.0
     if uneven and not places and len(others) < 2:
