@@ -28,6 +28,7 @@ OPTIONS = (
     ("--mass", "57g", "--speed", "3m/s", "--diameter", "66mm"), ("--floor", "10cm"),
     ("--mass", "57g", "--law", "viscoelastic", "--restitution", "0.7"),
     ("--gravity", "1.6m/s^2", "--contact-time", "5ms", "--mass", "1g"),
+    ("--from", "10", "--to", "2s"), ("--from", "0.1s"),
 )  # fmt: skip
 
 

@@ -170,7 +170,7 @@ def test_repeated_heights_scatter():
     ("read", "options", "error", "words"),
     [
         ((-1.0, 0.5), {}, InvalidValue, "drop_height must be"),
-        ((1.0, [0.5, -0.1]), {}, InvalidValue, "bounce_heights.1"),
+        ((1.0, [0.5, -0.1]), {}, InvalidValue, "the height of bounce 2"),
         ((1.0, []), {}, InvalidValue, "at least one"),
         ((1.0, "0.5"), {}, InvalidType, "numbers"),
         ((1.0, 0.5), {"measured_to": "top"}, InvalidValue, "diameter must be given"),

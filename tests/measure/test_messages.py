@@ -63,6 +63,31 @@ def test_what_is_not_recognised_is_described_with_a_command_that_is_accepted(ref
     assert not any(words in told for words in ("do not tell a kind", "unexpected", "--"))
 
 
+@pytest.mark.parametrize(
+    ("header", "hint"),
+    [
+        ("Tiempo,posi_x,posi_z", "--holds track --column 1=time --column 3=y;"),
+        ("Zeit (s),B (T),Höhenlage (mm)", "--holds track --column 1=time --column 3=y;"),
+        ("Time (s),Bx (µT),By (µT)", ""),
+        ("a (s),b (s),c (s)", ""),
+        ("Distance (m),Mass (kg),Error (kg)", ""),
+    ],
+)
+def test_a_hint_is_one_that_names_and_units_leave_possible(refusal, header, hint):
+    said = refusal(table(header, np.arange(40) / 25, wave(40), wave(40)))
+    assert "do not tell a kind" in said
+    assert (hint or "--holds, --column tell so") in said
+
+
+def test_a_refusal_says_what_has_words_no_fitting_unit_or_uneven_times(refusal):
+    said = refusal("Time (s);Force (N);y\n0.1;a 2;3\n0.2;3 N;4\n")
+    assert "in line 3 the cell '3 N' is no number" in said
+    said = refusal(table("a (s),b (µT)", np.arange(9), wave(9)), "--holds", "track")
+    assert "by their units none of them is y or x" in said
+    said = refusal(table("Count,Time", np.arange(9), np.round(np.cumsum(0.8 ** np.arange(9)), 3)))
+    assert "--holds knocks --column 2=knock_time" in said
+
+
 def test_doubts_are_said_as_the_interface_in_use_says_them(refusal, read):
     content = TRACK.replace(";", ",")
     python = "taken as s, m; units={'t': 'ms', 'x': 'cm', 'y': 'cm'} tells another"
@@ -75,7 +100,7 @@ def test_doubts_are_said_as_the_interface_in_use_says_them(refusal, read):
     with pytest.raises(InvalidValue, match="“Run” must be one of the 1"):
         measure_record("a.csv", content.encode(), {"run": "7"})
     unknown = table("", wave(40), wave(40)[::-1], wave(40)).encode()
-    with pytest.raises(InvalidValue, match="track in “Kind of measurement” and 1=time, 2="):
+    with pytest.raises(InvalidValue, match="“Kind of measurement” and “Columns” tell so"):
         measure_record("a.csv", unknown, {})
 
 

@@ -139,7 +139,8 @@ def _measured(file: File, options: Mapping[str, Any], wording: Wording) -> Measu
     with warnings.catch_warnings():  # numpy's and scipy's, of numbers that the analysis refuses
         warnings.filterwarnings("ignore", module=_CALCULATING)
         if "alone" in own:
-            own["alone"] = _read(own["alone"], reading)
+            whole = {name: reading[name] for name in reading if name not in ("start", "stop")}
+            own["alone"] = _read(own["alone"], whole)
         data = _read(file, reading)
         try:
             found = analyse(data, **own)

@@ -194,3 +194,25 @@ def test_bare_columns_of_a_video_are_a_track(read):
 def test_a_capital_s_is_a_second(read):
     data = read("Time(S),Force(N)\n0,1\n1,2\n2,3\n")
     assert (data.attrs["holds"], data.attrs["doubt"]) == ("waveform", "")
+
+
+def test_labels_of_audacity_are_knocks_and_times_of_kinovea_have_hours(read):
+    labels = "".join(f"{k + 1:.6f}\t{k + 1.2:.6f}\t{'hit' * (k % 2)}\n" for k in range(6))
+    data = read(labels)
+    assert (data.attrs["format"], data.attrs["holds"]) == ("Audacity: labels", "knocks")
+    assert data.knock_time.values == pytest.approx(np.arange(1, 7))
+    points = "".join(f"{k / 30:.6f}\t{1 + k * k / 99:.6f}\t{k:.6f}\n" for k in range(9))
+    assert read(points).attrs["holds"] == "track"
+    lines = "".join(f"0:00:{k / 25:05.2f} {k} {k * k}\n" for k in range(40))
+    data = read(f"#Kinovea Trajectory data export\n#T X Y\n{lines}", holds="track")
+    assert data.time.values == pytest.approx(np.arange(40) / 25)
+
+
+@pytest.mark.parametrize(
+    "names", ["Čas (s);Położenie (mm);a (m/s^2)", "Tiempo (s);Posición (m);Aceleración (m/s²)"]
+)
+def test_names_in_other_code_pages_and_a_computed_acceleration(read, names):
+    code = "cp1250" if "Č" in names else "latin-1"
+    data = read((names + "\n0;1;1\n1;2;1\n2;5;1\n").encode(code))
+    assert data.attrs["holds"] == "track"
+    assert f"{data.time.long_name};{data.y.long_name}" in names

@@ -75,7 +75,7 @@ def changed(offset, kind, value):
     (changed(16, "<I", 2**32 - 1), "sound is missing"),
     (b"RIFX" + made.wav()[4:], "is missing"),
     (changed(16, "<I", 17), "is missing"),
-    (b"RIFF\0\0\0\0AVI LIST", "no text"),
+    (b"RIFF\0\0\0\0AVI LIST", "a video"),
 ])  # fmt: skip
 def test_broken(read, content, message):
     with pytest.raises(FileError, match=message) as caught:

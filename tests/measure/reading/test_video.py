@@ -117,6 +117,30 @@ def test_wrong_frame_rates_and_scales_are_refused(read):
         read(imagej(), scale="big")
 
 
+FRAMED = rows("{k},{x:.3f},{y:.3f}")
+
+
+@pytest.mark.parametrize(
+    ("head", "names"),
+    [
+        ("Frame No.,px,py\n", {"Frame No.": "time", "py": "y"}),
+        ("", {1: "time", 2: "x", 3: "y"}),
+        ("a,b,c\n", {1: "x", 2: "z", 3: "y"}),  # its rows are frames
+    ],
+)
+def test_a_frame_rate_makes_times_of_frames_whatever_they_are_called(read, head, names):
+    data = read(head + FRAMED, names=names, frame_rate=60.0)
+    assert np.diff(data.time) == pytest.approx(1 / 60)
+    assert "is not used" not in data.attrs["doubt"]
+
+
+@pytest.mark.parametrize("name", ["timestamp_ms", "Timestamp [ms]", "timestamp", "Time (ms)"])
+def test_times_beside_a_count_of_rows_are_no_results_of_imagej(read, name):
+    data = read(f",{name},x,y\n" + rows("{n},{k}0,{x},{y}"), frame_rate=60.0)
+    assert np.diff(data.time) == pytest.approx(0.01)
+    assert "frame_rate is not used" in data.attrs["doubt"]
+
+
 def test_they_are_not_used_where_the_file_has_times_and_units(read):
     table = "t (s),x (cm),y (cm)\n0,1,2\n0.1,2,3\n0.2,3,4\n"
     data = read(table, frame_rate=100, scale=2.0)

@@ -14,6 +14,7 @@ bare       columns without names -> what their numbers look like
 video      frames as times, pixels as lengths, one row for each frame
 dataset    columns -> the Dataset of what they hold
 clock      what a column of times counts: since when, in which unit
+part       what lies between two times, frames or rows
 series     the rows in time: runs, gaps, repeats, and times that were rounded
 tables     the tables of a file with several, or in a packing of its own, as bytes
 zipped     a zip archive

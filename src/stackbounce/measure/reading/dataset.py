@@ -13,7 +13,7 @@ from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.clock import on_the_clock
-from stackbounce.measure.reading.roles import ACCELERATIONS, ROLES, Column
+from stackbounce.measure.reading.roles import ACCELERATIONS, ARBITRARY, FRAME, ROLES, Column
 from stackbounce.measure.reading.series import in_time, step_of
 from stackbounce.measure.reading.video import rows_by_frame
 
@@ -115,21 +115,24 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
     for roles in missing:
         wanted = _UNITS.get(roles[0], "")
         fits = ("", wanted, "V") if roles[0] == "sound" else ("", wanted)
-        free = [k for k, column in enumerate(found) if k not in taken and column.unit in fits]
+        free = [k for k, c in enumerate(found) if k not in taken and _could(c, fits)]
         free.sort(key=lambda k: found[k].unit != wanted)
         if not free:
             needs = " and ".join(" or ".join(roles) for roles in KINDS[holds].columns)
             names = ", ".join(
                 column.heading.text or f"column {column.index + 1}" for column in found[:20]
             )
-            said = f": {a_or_an(holds)} needs columns of {needs}; it has {names}: "
-            hint = OptionHint({"names": {found[-1].index + 1: roles[0]}})
-            raise InvalidValue(
-                Message(about_option("holds", said), hint, " tells which, for instance")
-            )
+            said = f": {a_or_an(holds)} needs columns of {needs}; it has {names}: by their units "
+            wrong = f"{said}none of them is {' or '.join(roles)}"
+            raise InvalidValue(about_option("holds", wrong))
         taken.add(free[0])
         found[free[0]] = replace(found[free[0]], role=roles[0], named="")
     return found
+
+
+def _could(column: Column, units: Sequence[str]) -> bool:
+    """Return whether the unit of a column, if it has one, is one of some SI units."""
+    return column.unit in units and bool(column.unit or column.heading.unit in ("", *ARBITRARY))
 
 
 def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
@@ -151,10 +154,16 @@ def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
     ]
 
 
-def _attributes(column: Column) -> dict[str, str | int]:
-    """Return the attributes of a column in the Dataset; `column` is its number in the file."""
+def _attributes(column: Column) -> dict[str, str | float]:
+    """Return the attributes of a column in the Dataset.
+
+    `column` is its number in the file, `unit_in_file` its unit there, known or not; `frame` is what
+    a frame lasts, where times are frames.
+    """
     name = column.heading.text or f"column {column.index + 1}"
-    return {"units": column.unit, "long_name": name, "column": column.index + 1}
+    frame = {"frame": column.factor} if column.heading.unit == FRAME else {}
+    told = {"units": column.unit, "unit_in_file": column.heading.unit, "long_name": name}
+    return {**told, "column": column.index + 1, **frame}
 
 
 def _named(columns: Sequence[Column], without: Sequence[str] = ()) -> list[str]:
@@ -239,7 +248,8 @@ def _rows(kind: Kind, columns: Sequence[Column], values: Array, run: object) -> 
     whole = np.isfinite(values[:, [_at(columns, role) for role in roles]]).all(axis=1)
     if not whole.any():
         raise FileError(f"it has no row with {' and '.join(roles)}")
-    return xr.Dataset(_data(columns, values[whole], kind.dimension)), []
+    numbers = {kind.dimension: np.flatnonzero(whole) + 1.0}
+    return xr.Dataset(_data(columns, values[whole], kind.dimension), coords=numbers), []
 
 
 def _bounces(columns: Sequence[Column], values: Array) -> _Built:

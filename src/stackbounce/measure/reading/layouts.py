@@ -17,7 +17,7 @@ from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.bare import guess
 from stackbounce.measure.reading.headings import heading, is_unit
 from stackbounce.measure.reading.roles import Column, column
-from stackbounce.measure.reading.text import Text, count_numbers, number
+from stackbounce.measure.reading.text import Text, count_numbers, number, word_in
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,8 @@ def first_row(text: Text, start: int = 0, columns: Sequence[int] | None = None) 
         cells = row if columns is None else [row[k] for k in columns if k < len(row)]
         if count_numbers(cells, text.decimal) >= least:
             return index
-    raise FileError("it has a header and no row of numbers below it")
+    why = "it has a header and no row of numbers below it"
+    raise FileError(why + word_in(text.head[start:], text.decimal, start))
 
 
 def columns_of(

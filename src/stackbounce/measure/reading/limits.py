@@ -31,6 +31,13 @@ _OTHERS = (
     (0, b"\x1f\x8b", "compressed by gzip", "unpack it"),
     (0, b"7z\xbc\xaf", "a 7z archive", "unpack it"),
     (0, b"Rar!", "a RAR archive", "unpack it"),
+    (0, b"TDSm", "a TDMS file of LabVIEW", "export its channels as CSV"),
+    (0, b"\x02P", "a C3D file of motion capture", "export its points as CSV"),
+    (8, b"AVI ", "a video", "track it first"),
+    (0, b"\x1a\x45\xdf\xa3", "a video or sound in Matroska", "track it, or save it as WAV"),
+    (0, b"GIF8", "a picture", "export the numbers"),
+    (0, b"II*\0", "a picture or a video in TIFF", "track it first"),
+    (0, b"SQLite format", "a database of SQLite", "export its table as CSV"),
     (0, b"<", "XML or HTML, such as a program's own project", "export its table as text or CSV"),
 )
 

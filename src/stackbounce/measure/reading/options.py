@@ -8,6 +8,7 @@ from stackbounce.errors import InvalidType, InvalidValue, nearest, positive, sho
 from stackbounce.measure.kinds import KINDS, kind_named
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.reading.headings import slug
+from stackbounce.measure.reading.part import checked
 from stackbounce.measure.reading.roles import Column
 from stackbounce.units import in_si
 
@@ -31,6 +32,8 @@ class ReadOptions:
     decimal: str | None = None
     frame_rate: float | None = None
     scale: float | None = None
+    start: float | str | None = None
+    stop: float | str | None = None
 
     def __post_init__(self) -> None:
         if self.holds is not None:
@@ -47,6 +50,9 @@ class ReadOptions:
         for option, unit in (("frame_rate", "frames per second"), ("scale", "metres per pixel")):
             if getattr(self, option) is not None:
                 positive(option, getattr(self, option), unit)
+        for option in ("start", "stop"):
+            if getattr(self, option) is not None:
+                checked(option, getattr(self, option))
         for name in _checked("names", self.names).values():
             if not name.isidentifier():
                 wrong = f" must give a column its meaning, such as 2=force, got {shown(name)}"

@@ -22,6 +22,7 @@ from stackbounce.measure.reading.layouts import Layout
 from stackbounce.measure.reading.limits import BYTES, refuse_others
 from stackbounce.measure.reading.numbers import Table, rows_of
 from stackbounce.measure.reading.options import ReadOptions, apply_options, of_run
+from stackbounce.measure.reading.part import part_of
 from stackbounce.measure.reading.roles import Column
 from stackbounce.measure.reading.tables import Tables, chosen
 from stackbounce.measure.reading.text import decode, tabulate
@@ -42,13 +43,15 @@ def read(
     decimal: str | None = None,
     frame_rate: float | None = None,
     scale: float | None = None,
+    start: float | str | None = None,
+    stop: float | str | None = None,
 ) -> "xr.Dataset":
     r"""Return what a file of measurements holds, recognised by its content, in SI units.
 
     Tables of Tracker, ImageJ, TrackMate, phyphox, Sensor Logger, Vernier, Logger Pro, PASCO
-    Capstone, LabVIEW and oscilloscopes, also in zip archives and spreadsheets; any other table of
-    numbers with names and units in its header; arrays of NumPy; and WAV sound. Options are needed
-    only where a file is not recognised correctly.
+    Capstone, LabVIEW, Audacity and oscilloscopes, also in zip archives and spreadsheets; any other
+    table of numbers with names and units in its header; arrays of NumPy; and WAV sound. Options are
+    needed only where a file is not recognised correctly.
 
     Parameters
     ----------
@@ -74,6 +77,9 @@ def read(
         Frames per second of a video, where positions are told by frame and not by time.
     scale : float, optional
         Metres per pixel, where positions are in pixels.
+    start, stop : float or str, optional
+        Where the part begins and ends that is wanted: in s, or a text with a unit; frames, where
+        the file counts frames; rows, where it counts neither.
 
     Returns
     -------
@@ -120,7 +126,7 @@ def read(
     >>> data.force.values
     array([   0., 1500.,  100.])
     """
-    options = ReadOptions(holds, table, run, names, units, decimal, frame_rate, scale)
+    options = ReadOptions(holds, table, run, names, units, decimal, frame_rate, scale, start, stop)
     return _named(*content_of(path, BYTES), options)
 
 
@@ -161,7 +167,7 @@ def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
 
 def _named(name: str, content: bytearray, options: ReadOptions) -> "xr.Dataset":
     try:
-        data = _read(name, content, options)
+        data = part_of(_read(name, content, options), options.start, options.stop)
     except StackbounceError as error:
         raise type(error)(Message.of(error).of_file(name)) from error
     except MemoryError as error:
@@ -265,10 +271,12 @@ def _table(
     columns = apply_options(named, options)
     doubts += () if options.names else unsure
     columns, runs = of_run(columns, options.run, doubts)
+    places = [column.index for column in columns if column.index >= 0]
+    table = numbers(places)
     if options.holds in (None, "track"):
-        columns, more = on_frames(columns, options.frame_rate, options.scale)
+        by_place = dict(zip(places, table.values.T, strict=True))
+        columns, more = on_frames(columns, options.frame_rate, options.scale, by_place)
         doubts += more
-    table = numbers([column.index for column in columns if column.index >= 0])
     return layout, columns, table, doubts, runs
 
 

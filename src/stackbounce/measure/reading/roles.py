@@ -25,7 +25,8 @@ _ACCELERATION = re.compile(
 _BY_UNIT = {"s": "time", "N": "force", "V": "voltage", "m/s^2": "acceleration"}
 _PIXELS = re.compile(r"px|pix|pixels?", re.IGNORECASE)
 _BETWEEN = re.compile(r"interval|duration|period|delay|dauer|δt|^dt")  # durations, no moments
-_ARBITRARY = ("a.u.", "a. u.", "arb. units", "arbitrary")
+ARBITRARY = ("a.u.", "a. u.", "arb. units", "arbitrary")
+"""Units of numbers that may be anything."""
 _FAR = 1e3  # m: positions in such a unit are no heights of a ball
 ACCELERATIONS = tuple("acceleration" + axis for axis in ("_x", "_y", "_z", "_absolute", ""))
 ROLES = (*_KNOWN, *ACCELERATIONS)
@@ -76,7 +77,8 @@ class Column:
         said = self.heading if unit is None else replace(self.heading, unit=unit)
         role, factor, symbol, doubt = _role(name or self.heading.name, said.unit, self.role)
         if name:
-            role = name if name in ROLES else ""
+            frames = name == "time" and self.role == "frame"  # which are its times
+            role = "frame" if frames else name if name in ROLES else ""
         named = name or self.named
         return Column(self.index, said, role, factor, symbol, self.track, named, doubt)
 
@@ -103,7 +105,7 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
     doubt = ""
     if _PIXELS.fullmatch(unit):
         symbol = PIXEL
-    if unit and not symbol and re.search(r"\w", unit) and unit not in _ARBITRARY:
+    if unit and not symbol and re.search(r"\w", unit) and unit not in ARBITRARY:
         doubt = f"unit {unit!r} of {name!r} is not known here: its numbers are left as they are"
     bend = _ACCELERATION.fullmatch(word)
     if bend and (symbol in ("m/s^2", "") or unit == "g"):
@@ -121,7 +123,7 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
         symbol = "s"
     if role in ("x", "y") and not told and factor >= _FAR:
         role = ""
-    if role == "sound" and unit in _ARBITRARY:
+    if role == "sound" and unit in ARBITRARY:
         symbol = "1"
     if not role and symbol in _BY_UNIT and not _BETWEEN.search(word):
         role = _BY_UNIT[symbol]

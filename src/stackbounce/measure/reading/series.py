@@ -26,9 +26,7 @@ _ODD = 0.3  # of a step, by which odd steps differ from it
 _FEW_ODD = 3  # odd steps: fewer are gaps or repeats, not the pattern that rounding makes
 _SLACK = 0.1  # of what rounding moves times, by which the fitted even ones may be off more than it
 
-_ANOTHER = Message(
-    OptionHint({"names": {2: "time"}}), " tells that it is another column, such as the second"
-)
+_ANOTHER = Message(OptionHint({"names": None}), " tells which other column holds times")
 
 
 _Rows: TypeAlias = NDArray[np.intp] | slice

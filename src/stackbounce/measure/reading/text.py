@@ -20,6 +20,9 @@ _EXPONENT = r"(?:[eE][+-]?[0-9]{1,4})?"
 _NUMBER = re.compile(rf"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+){_EXPONENT}")
 _SPACES = "\u00a0\u202f\u2009 '\u2019"  # between thousands
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1a\x1c-\x1f]")
+_CENTRAL = re.compile(r"[^\W\d_][¹³¿\x9a\x9c\x9e\x9f][^\W\d_]|\bÈ[a-z]")  # cp1250 as Latin-1
+_BINARY = "it is no text but a program's own bytes, which are not known here: export them as CSV"
+_CLOCK = re.compile(r"(?:([0-9]{1,3}):)?([0-5]?[0-9]):([0-5][0-9][.,][0-9]{1,6})")
 
 
 @dataclass(frozen=True)
@@ -62,24 +65,28 @@ def decode(content: bytearray) -> str:
     Raises
     ------
     FileError
-        If they are no text in UTF-8, UTF-16 or Latin-1.
+        If they are no text in UTF-8, UTF-16, Latin-1 or cp1250.
     """
     marks = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
     encoding = next((name for mark, name in marks if content.startswith(mark)), "")
     start = content[:1000]
     if not encoding and b"\0" in start:
-        low, high = start[::2].count(0), start[1::2].count(0)
-        encoding = "utf-16-le" if high > low else "utf-16-be"
+        low, high = sorted((start[k::2].count(0), 2 - k) for k in (0, 1))
+        if low[0] or 8 * high[0] < len(start):  # numbers as text have zeros in each second byte
+            raise FileError(_BINARY)
+        encoding = "utf-16-le" if high[1] == 1 else "utf-16-be"
     try:
         text = content.decode(encoding or "utf-8")
     except UnicodeDecodeError as error:
         if "16" in encoding:
-            raise FileError("it is no text: it looks like UTF-16 but is not") from error
+            raise FileError(_BINARY) from error
         text = content.decode("latin-1")
+        if _CENTRAL.search(text[:1000]):
+            text = content.decode("cp1250", errors="replace")
     content.clear()
     strange = len(_CONTROL.findall(text[:100_000]))
     if strange > len(text[:100_000]) / 1000:
-        raise FileError("it is no text, nor any kind of file that is known here")
+        raise FileError(_BINARY)
     if "\r" in text:
         text = text.replace("\r\n", "\n").replace("\r", "\n")
     return text
@@ -115,6 +122,9 @@ def number(cell: str, decimal: str) -> float | None:
     """
     cell = cell.strip().replace("−", "-")
     if not _NUMBER.fullmatch(cell):
+        if clock := _CLOCK.fullmatch(cell):  # 0:00:00.01 of Kinovea
+            hours, minutes, seconds = clock.groups("0")
+            return 3600.0 * int(hours) + 60.0 * int(minutes) + float(seconds.replace(",", "."))
         word = cell.casefold()
         if word in MISSING:
             return float("nan")
@@ -170,6 +180,7 @@ def tabulate(content: str, decimal: str | None, name: str) -> Text:
         raise FileError(
             f"it has no row of numbers in its first {len(head)} lines; "
             f"it begins with {shown(next((line for line in lines if line.strip()), ''))}"
+            f"{word_in(head[1:], mark, 1)}"
         )
     return Text(content, delimiter, mark, lines, head, starts, doubts, name)
 
@@ -198,6 +209,16 @@ def count_numbers(row: list[str], decimal: str) -> int:
             return 0
         count += value == value  # NaN is not itself
     return count
+
+
+def word_in(rows: list[list[str]], decimal: str, start: int) -> str:
+    """Return which cell has words, in the row of the most cells that begin as numbers."""
+    begins = [sum(cell[:1].isdigit() for cell in row) for row in rows]
+    if not any(begins):
+        return ""
+    line = begins.index(max(begins))
+    word = next((cell for cell in rows[line] if number(cell, decimal) is None), "")
+    return f": in line {start + line + 1} the cell {shown(word)} is no number" * bool(word)
 
 
 def _labelled(row: list[str], decimal: str) -> bool:

@@ -1,8 +1,9 @@
 """Positions by frame of a video: frames as times, pixels as lengths, one row for each frame."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import islice
+from types import MappingProxyType
 from typing import TypeAlias
 
 import numpy as np
@@ -27,11 +28,15 @@ _STILL = 0.1  # of the range of the track that moves most: tracks that move less
 
 
 def on_frames(
-    columns: Sequence[Column], frame_rate: float | None = None, scale: float | None = None
+    columns: Sequence[Column],
+    frame_rate: float | None = None,
+    scale: float | None = None,
+    values: Mapping[int, Array] = MappingProxyType({}),
 ) -> tuple[list[Column], list[str]]:
     """Return columns in which frames are times, where there is no clock, and what is unsure.
 
-    x and y without any count of frames are taken frame by frame.
+    x and y without any count of frames are taken frame by frame; a single position only with a
+    frame rate.
 
     Parameters
     ----------
@@ -41,22 +46,29 @@ def on_frames(
         In 1/s; without it a frame is the unit of time.
     scale : float or None
         Metres per pixel; without it a pixel is the unit of length.
+    values : mapping, optional
+        The numbers of columns by their places in the file; with a frame rate, times without a unit
+        that count by ones are frames.
     """
     roles = {column.role for column in columns}
     if not roles & {"x", "y"}:
         return list(columns), []
     found, doubts = list(columns), []
-    if "time" not in roles and "frame" not in roles and {"x", "y"} <= roles <= _ROLES:
+    video = frame_rate is not None or {"x", "y"} <= roles <= _ROLES
+    if video and not roles & {"time", "frame"}:
         found.append(column(-1, heading("row"), "frame"))
         doubts.append("it does not count frames either, so that each row is one")
-    timed = _timed(found, frame_rate)
+    timed = _timed(found, frame_rate, values)
     return found, [*timed, *doubts, *_scaled(found, scale)]
 
 
-def _timed(found: list[Column], frame_rate: float | None) -> list[str]:
+def _timed(found: list[Column], frame_rate: float | None, values: Mapping[int, Array]) -> list[str]:
     """Make frames times, where columns hold no others; return what is unsure."""
     at = next((k for k, member in enumerate(found) if member.role == "frame"), None)
-    if at is None or any(column.role == "time" for column in found):
+    clock = next((k for k, member in enumerate(found) if member.role == "time"), None)
+    if clock is not None and frame_rate is not None and _counts(found[clock], values):
+        at, clock = clock, None
+    if at is None or clock is not None:
         unused = Message(_RATE, " is not used, as the file has times")
         return [] if frame_rate is None else [unused]
     said = replace(found[at].heading, unit=FRAME)
@@ -66,6 +78,14 @@ def _timed(found: list[Column], frame_rate: float | None) -> list[str]:
         "it has no times, so that a frame is the unit of time: ", _RATE, " tells frames per second"
     )
     return [doubt] if frame_rate is None else []
+
+
+def _counts(column: Column, values: Mapping[int, Array]) -> bool:
+    """Return whether the numbers of a column without a unit count by ones, perhaps with gaps."""
+    numbers = values.get(column.index, np.empty(0))
+    steps = np.diff(numbers[np.isfinite(numbers)])
+    bare = not (column.unit or column.heading.unit)
+    return bare and bool(steps.size and (steps % 1.0 == 0.0).all() and steps[steps > 0].min() == 1)
 
 
 def _scaled(found: list[Column], scale: float | None) -> list[str]:
@@ -79,7 +99,8 @@ def _scaled(found: list[Column], scale: float | None) -> list[str]:
         found[k] = replace(found[k], factor=factor, unit=unit, doubt="")
     if pixels and scale is None:
         names = " and ".join(dict.fromkeys(found[k].role for k in pixels))
-        return [Message(f"{names} are taken as pixels: ", _SCALE, " tells metres per pixel")]
+        verb = "are" if " and " in names else "is"
+        return [Message(f"{names} {verb} taken as pixels: ", _SCALE, " tells metres per pixel")]
     if scale is not None and not pixels:
         return [Message(_SCALE, " is not used, as the positions have units")]
     return []

@@ -93,7 +93,7 @@ def heights(
 
     start = counted_from_bottom("drop_height", drop_height, points[0])
     counted = [
-        counted_from_bottom(f"bounce_heights.{k}", height, points[1])
+        counted_from_bottom(f"the height of bounce {k + 1}", height, points[1])
         for k, height in enumerate(_listed(bounce_heights))
     ]
     before = [start] * len(counted) if repeated else [start, *counted[:-1]]

@@ -1,6 +1,7 @@
 """Heights of bounces as a kind of measurement: a table's column, or typed."""
 
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -15,11 +16,12 @@ from stackbounce.measure.setup import Setup
 
 _MANY = 100  # heights of one drop
 _LISTED = 6  # columns that are described
+_PLACE = re.compile(r"(?i)(pos|heigh|höhe|altu|altit|haut|alte).*(?<!x)$|^[pc]?[yz]$|[ _][yz]$|^h$")
 
 
 def analyse(data: Any, setup: Setup) -> Heights:
     """Analyse a table with one column of heights, the drop height above those of the bounces."""
-    if "y" not in data:
+    if "y" not in data or {"kg", "N"} & {one.attrs.get("units") for one in data.data_vars.values()}:
         raise InvalidValue(_unrecognised(data))
     column = data["y"].values.tolist()
     if not setup.repeated:
@@ -64,15 +66,43 @@ def _unrecognised(data: Any) -> Message:
     columns = list(data.data_vars.values())
     described = ", ".join(map(_described, columns[:_LISTED]))
     more = f" and {len(columns) - _LISTED} more" if len(columns) > _LISTED else ""
-    file = str(data.attrs.get("source", "FILE"))
-    hint = OptionHint({"holds": "track", "names": {1: "time", 2: "y"}}, file)
-    others = ", ".join(name for name in KINDS if name not in ("track", "bounces", "table"))
+    said = f"its columns do not tell a kind of measurement: {described}{more}. "
+    what, hint = _hint(data, columns)
+    if hint is None:
+        kinds = ", ".join(name for name in KINDS if name not in ("bounces", "table"))
+        hint = OptionHint({"holds": None, "names": None})
+        return Message(f"{said}If it is one of {kinds}: ", hint, " tell so")
+    others = ", ".join(name for name in KINDS if name not in (what, "bounces", "table"))
     return Message(
-        f"its columns do not tell a kind of measurement: {described}{more}. For times and heights "
-        "of a ball: ",
+        f"{said}For times{' and heights' * (what == 'track')} of a ball: ",
         hint,
         f"; other kinds: {others}",
     )
+
+
+def _hint(data: Any, columns: Sequence[Any]) -> tuple[str, OptionHint | None]:
+    """Return the kind and the call that names and units leave possible, if there is one."""
+    bare = [c for c in columns if not (c.attrs["units"] or c.attrs["unit_in_file"])]
+    unitless = [c.name for c in bare]
+    times = [c for c in columns if c.name == "time" or c.attrs.get("units") == "s"]
+    times += [c for c in bare if (np.diff(c.values) > 0.0).all()]
+    if not times:
+        return "", None
+    clock = times[0]
+    others = [c for c in columns if c is not clock]
+    lengths = [c for c in others if c.attrs.get("units") in ("m", "px") or c.name in unitless]
+    places = [c for c in lengths if _PLACE.search(re.split(r"\s*[(\[/]", c.attrs["long_name"])[0])]
+    steps = np.diff(clock.values)
+    uneven = 1 < len(steps) < _MANY and np.ptp(steps) > np.min(steps) > 0.0
+    if uneven and not places and len(others) < 2:
+        what, names = "knocks", {clock.attrs["column"]: "knock_time"}
+    elif places or len(lengths) == len(others) == 1:
+        place = (places or lengths)[0]
+        what, names = "track", {clock.attrs["column"]: "time", place.attrs["column"]: "y"}
+    else:
+        return "", None
+    file = str(data.attrs.get("source", "FILE"))
+    return what, OptionHint({"holds": what, "names": names}, file)
 
 
 def _described(column: Any) -> str:

@@ -193,8 +193,9 @@ def _bouncing(
         notes.extend(f"{name}: no bounce was found, and it is left out." for name in without)
         return kept
     reason = next(iter(reasons.values()), "") or _seen(found, up, gravity)
-    shorter = f" (means of {found.many} of its points were taken: cut it to the bounces)"
-    raise InvalidValue(Message(_WANTED, reason, shorter * (found.many > 1)))
+    part = OptionHint({"start": None, "stop": None})
+    many = (f" (means of {found.many} of its points were taken: ", part, " choose the bounces)")
+    raise InvalidValue(Message(_WANTED, reason, *many[: 3 * (found.many > 1)]))
 
 
 def _seen(found: Columns, up: Upward, gravity: float | None) -> str:

@@ -127,11 +127,12 @@ def waveform(
         record = _undrooped(record, seen, time_constant)
         seen = _see(record, raw, threshold, sign)
     if len(seen.stretches) > _MOST_CONTACTS:
-        raise InvalidValue(
+        got = (
             f"data must hold the contacts of a bounce or of a few, up to {_MOST_CONTACTS}, got "
-            f"{len(seen.stretches)} stretches above the noise: an oscillation, or a record that "
-            "is to be cut to the bounces?"
+            f"{len(seen.stretches)} stretches above the noise: an oscillation, or a record of "
+            "which the bounces are a part? "
         )
+        raise InvalidValue(Message(got, OptionHint({"start": None, "stop": None}), " choose it"))
     around = [None, *seen.stretches, None]
     contacts = tuple(
         measure_contact(seen, around[k], stretch, around[k + 2], ends)

@@ -18,6 +18,7 @@ from stackbounce.measure.reading.text import Text, number
 
 _RUN = re.compile(r"(Run|Set|Lauf|Ensayo|Essai|Ajo|Kørsel|Körning|Serie) #\d+$")
 _AUTO = re.compile(r"\s+Auto$")  # times that Capstone counts itself, the same in all runs
+_LABEL = re.compile(r"[0-9]+[.,][0-9]{6}\t[0-9]+[.,][0-9]{6}\t(?![-+0-9.,]+$)[^\t]*")
 _END = "***End_of_Header***"
 
 
@@ -33,6 +34,19 @@ def capstone(text: Text) -> Layout | None:
             columns = columns_of(row, len(row))
             return Layout("PASCO Capstone", why, columns, first_row(text, k + 1))
     return None
+
+
+@layout
+def audacity(text: Text) -> Layout | None:
+    """Recognise labels of Audacity: start and end in s to six digits, then a text; no header."""
+    for line in filter(None, text.lines):
+        label = _LABEL.fullmatch(line)
+        start, end = map(float, label[0].replace(",", ".").split("\t")[:2]) if label else (1.0, 0.0)
+        if start > end:
+            return None
+    why = "start, end and a text between tabs are how Audacity exports labels"
+    starts = (column(0, Heading("start", "start", "s"), "knock_time"),)
+    return Layout("Audacity: labels", why, starts, 0)
 
 
 @layout

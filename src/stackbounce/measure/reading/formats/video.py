@@ -68,10 +68,12 @@ def results(text: Text) -> Layout | None:
     """Recognise a results table of ImageJ, or of its manual tracking: X and Y, by slice or row."""
     names = [cell.casefold() for cell in text.head[0]]
     pair = next((pair for pair in (("x", "y"), ("xm", "ym")) if set(pair) <= set(names)), None)
-    if pair is None or not _MEASURED & set(names) or {"t", "time"} & set(names):
+    if pair is None or not _MEASURED & set(names):
         return None
     found = [column(names.index(name), heading(name[0].upper()), name[0]) for name in pair]
     others = [column(k, heading(cell)) for k, cell in enumerate(text.head[0]) if cell]
+    if any(other.role == "time" for other in others):  # which ImageJ does not write
+        return None
     others = [other for other in others if other.role in ("frame", "track_id")]
     first = first_row(text, 1, [column.index for column in found])
     why = f"{', '.join(filter(None, text.head[0][:8]))} are columns of ImageJ's results"
