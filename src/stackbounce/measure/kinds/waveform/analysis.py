@@ -136,12 +136,7 @@ def waveform(
         )
     unlike = sum(no_contact(seen.signal[one.first : one.last + 1]) for one in seen.stretches)
     seen, contacts = _contacts(seen, ends)
-    notes = [*record.notes, *_notes(record.unit, seen, contacts, m)]
-    if unlike:
-        notes.append(
-            f"{unlike} of the stretches above the noise are no contacts of balls: they jump "
-            "between two levels, or jump up and fade out; is it the record of a force?"
-        )
+    notes = [*record.notes, *_notes(record.unit, seen, contacts, m, unlike)]
     if time_constant is None:
         notes += _droops(seen, record.step)
     if ends == UNTOLD:
@@ -226,11 +221,18 @@ def _undrooped(record: Record, seen: Seen, time_constant: float) -> Record:
     return replace(record, values=values)
 
 
-def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> list[str]:
+def _notes(
+    unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any, unlike: int
+) -> list[str]:
     """Return the notes on a record."""
     notes = []
     of = f" {unit}" if unit else ""
-    if not contacts:
+    if unlike:
+        notes.append(
+            f"{unlike} of the stretches above the noise are no contacts of balls: they jump "
+            "between two levels, or jump up and fade out; is it the record of a force?"
+        )
+    elif not contacts:
         high = float(np.max(np.abs(seen.signal)))
         notes.append(
             f"no contact stands out of the noise of {seen.zero.noise:.3g}{of} (largest deviation "

@@ -17,7 +17,7 @@ _LEAST_JUDGED = 40  # samples of a stretch whose shape is judged
 _BETWEEN = 0.04  # share of samples from 1/4 to 3/4 of the height; half a sine has 0.38
 _JUMP = 0.05  # of the fall's length, the longest rise of a jump
 _FADED = 0.1  # of its height, to which a fall is followed
-_CONVEX = 0.45  # mean of a fall over its height; an exponential has 0.39, a straight line 0.55
+_CONVEX = 0.42  # mean of a fall over its height; an exponential has 0.39, a straight line 0.55
 _MOST_SAMPLES = 20_001  # of a contact, as far as they set the width of the averages
 
 
