@@ -1,6 +1,7 @@
 """Force records: contacts, times, peaks, impulses, and records as bad as they come."""
 
 import re
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -215,6 +216,27 @@ def test_hum_is_taken_off(mains):
     assert any(f"hum of {mains:.0f} Hz" in note for note in found.notes)
     assert near(contact.time, TIME)
     assert near(contact.impulse, 0.4)
+
+
+def test_no_contact_begins_before_the_one_before_it_ends():
+    times = np.arange(0.0, 0.03, 2e-5)
+    at = np.clip(times - 0.01, 0.0, 8e-3)
+    force = 100.0 * np.sin(np.pi * at / 4e-3) ** 2  # two humps that touch
+    found = waveform((times, force + np.random.default_rng(1).normal(0.0, 0.5, len(times))))
+    ends = [(one.start.n, one.end.n) for one in found.contacts]
+    assert all(before[1] <= after[0] for before, after in pairwise(ends))
+
+
+@pytest.mark.parametrize("shape", ["square", "decay", "negative decay"])
+@pytest.mark.parametrize("noise", [0.1, 0.5])
+def test_a_square_wave_and_a_decay_are_no_contacts(shape, noise):
+    times = np.arange(0.0, 0.1, 2e-5)
+    wave = np.where((times % 0.02) > 0.012, 100.0, 0.0)
+    fade = np.where(times > 0.02, 100.0 * np.exp(-(times - 0.02) / 8e-3), 0.0)
+    values = {"square": wave, "decay": fade, "negative decay": -fade}[shape]
+    found = waveform((times, values + np.random.default_rng(1).normal(0.0, noise, len(times))))
+    assert not found.contacts
+    assert any("no contacts of balls" in note for note in found.notes)
 
 
 def test_hum_in_a_short_record_is_a_drift():

@@ -13,6 +13,7 @@ from stackbounce.measure.kinds.sound.loudness import Rises, find_rises, rounding
 from stackbounce.measure.kinds.sound.onset import clearest, onsets
 from stackbounce.measure.kinds.sound.plausibility import reason_against, tails
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import runs
 
@@ -26,8 +27,13 @@ _SAME_DELAY = 1.5e-3  # s by which the delays of one echo differ at most
 _SECOND_SERIES = 4  # knocks of another series that is worth a note
 _LOUDNESS_SECONDS = 10e-3  # s of a knock that tell how loud it is
 _INTERVAL_SIGMA = 0.1  # of the interval between amplitudes: the error of a time within it
+_AROUND = 0.1  # s before and after a series that is proposed as a part
 _CLIPPED = 4  # samples in a row at the largest value
-_ADVICE = "Record one ball without other sounds, or choose its bounces by start and stop."
+_ADVICE = Message(
+    ". Record one ball without other sounds, or choose its bounces by ",
+    OptionHint({"start": None, "stop": None}),
+    ".",
+)
 
 
 def knocks(
@@ -121,7 +127,7 @@ def knocks(
     against = reason_against(chain, rises, echoes, origin, dead, longest)
     if against:
         chain, dropped = _all_sounds(rises)
-        notes.append(f"This is no bouncing ball: {against}. {_ADVICE}")
+        notes.append(Message(f"This is no bouncing ball: {against}", _ADVICE))
     else:
         if delay:
             notes.append(f"Each knock has an echo {1e3 * delay:.1f} ms later, which is left out.")
@@ -337,10 +343,12 @@ def _note_series(chain: Chain, rises: Rises, dead: float, origin: float, notes: 
         faint = rest.amplitudes[list(other.indices)].max() < 0.2 * rises.amplitudes.max()
         if len(other.indices) >= _SECOND_SERIES and not faint:
             first, last = (origin + rest.times[other.indices[k]] for k in (0, -1))
-            notes.append(
+            found = (
                 f"There is another series of {len(other.indices)} knocks {side} this one, from "
-                f"{first:.4g} s to {last:.4g} s: choose by start and stop."
+                f"{first:.4g} s to {last:.4g} s: choose it by "
             )
+            part = {"start": f"{first - _AROUND:.4g}s", "stop": f"{last + _AROUND:.4g}s"}
+            notes.append(Message(found, OptionHint(part), "."))
 
 
 def _loudness(white: NDArray[np.float32], rate: float, times: Array) -> Array:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,13 +14,14 @@ from stackbounce.measure.kinds.waveform.contact import Seen, measure_contact
 from stackbounce.measure.kinds.waveform.intervals import (
     Stretch,
     find_stretches,
+    no_contact,
     smoothed,
     which_sign,
 )
 from stackbounce.measure.kinds.waveform.record import Record, read_record, undrooped
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.sensor import sensitivity_of
-from stackbounce.measure.kinds.waveform.shapes import UNTOLD, ends_of
+from stackbounce.measure.kinds.waveform.shapes import UNTOLD, Ends, ends_of
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, known_to, measured_if_given
 from stackbounce.model.laws import ContactLaw
@@ -133,12 +135,9 @@ def waveform(
             "which the bounces are a part? "
         )
         raise InvalidValue(Message(got, OptionHint({"start": None, "stop": None}), " choose it"))
-    around = [None, *seen.stretches, None]
-    contacts = tuple(
-        measure_contact(seen, around[k], stretch, around[k + 2], ends)
-        for k, stretch in enumerate(seen.stretches)
-    )
-    notes = [*record.notes, *_notes(record.unit, seen, contacts, m)]
+    unlike = sum(no_contact(seen.signal[one.first : one.last + 1]) for one in seen.stretches)
+    seen, contacts = _contacts(seen, ends)
+    notes = [*record.notes, *_notes(record.unit, seen, contacts, m, unlike)]
     if time_constant is None:
         notes += _droops(seen, record.step)
     if ends == UNTOLD:
@@ -182,6 +181,25 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
     return Seen(times, signal, own * raw, quantum, zero, quiet, stretches, short, own)
 
 
+def _contacts(seen: Seen, ends: Ends) -> tuple[Seen, tuple[Contact, ...]]:
+    """Measure the contacts; those that begin before the one before them ends are one with it."""
+    kept = [one for one in seen.stretches if not no_contact(seen.signal[one.first : one.last + 1])]
+    around = [None, *kept, None]
+    contacts = tuple(
+        measure_contact(seen, around[k], stretch, around[k + 2], ends)
+        for k, stretch in enumerate(kept)
+    )
+    joined: list[Stretch] = kept[:1]
+    for one, (before, after) in zip(kept[1:], pairwise(contacts), strict=True):
+        end, start = before.end, after.start
+        if end is not None and start is not None and end.nominal_value > start.nominal_value:
+            joined[-1] = Stretch(joined[-1].first, one.last)
+        else:
+            joined.append(one)
+    seen = seen._replace(stretches=joined)
+    return (seen, contacts) if len(joined) == len(kept) else _contacts(seen, ends)
+
+
 def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
     """Return which samples are outside all contacts, with a margin."""
     quiet = np.ones(count, dtype=bool)
@@ -204,11 +222,18 @@ def _undrooped(record: Record, seen: Seen, time_constant: float) -> Record:
     return replace(record, values=values)
 
 
-def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> list[str]:
+def _notes(
+    unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any, unlike: int
+) -> list[str]:
     """Return the notes on a record."""
     notes = []
     of = f" {unit}" if unit else ""
-    if not contacts:
+    if unlike:
+        notes.append(
+            f"{unlike} of the stretches above the noise are no contacts of balls: they jump "
+            "between two levels, or jump up and fade out; is it the record of a force?"
+        )
+    elif not contacts:
         high = float(np.max(np.abs(seen.signal)))
         notes.append(
             f"no contact stands out of the noise of {seen.zero.noise:.3g}{of} (largest deviation "

@@ -12,6 +12,12 @@ _FOLLOWED_TO = 3.0  # noise levels to which a contact is followed down
 _RINGING = 0.01  # of the highest peak, below which things are ringing
 _AVERAGES = 25  # moving averages over a contact
 _LEAST_SAMPLES = 3  # of the shortest contact
+# Of contacts, half sines to very lossy ones, and of square waves and exponentials, by hand:
+_LEAST_JUDGED = 40  # samples of a stretch whose shape is judged
+_BETWEEN = 0.04  # share of samples from 1/4 to 3/4 of the height; half a sine has 0.38
+_JUMP = 0.05  # of the fall's length, the longest rise of a jump
+_FADED = 0.1  # of its height, to which a fall is followed
+_CONVEX = 0.42  # mean of a fall over its height; an exponential has 0.39, a straight line 0.55
 _MOST_SAMPLES = 20_001  # of a contact, as far as they set the width of the averages
 
 
@@ -49,6 +55,23 @@ def which_sign(signal: Array, noise: float) -> int:
     out = np.where(np.abs(signal) > _ABOVE_NOISE * noise, signal, 0.0)
     up, down = np.sum(out[out > 0.0] ** 2), np.sum(out[out < 0.0] ** 2)
     return -1 if down > up else 1
+
+
+def no_contact(force: Array) -> bool:
+    """Return whether a stretch is no contact of a ball: a square wave, or a jump that fades out.
+
+    Examples
+    --------
+    >>> phase = np.linspace(0.0, np.pi, 200)
+    >>> no_contact(np.ones(200)), no_contact(np.exp(-phase)), no_contact(np.sin(phase))
+    (True, True, False)
+    """
+    top = int(np.argmax(force))
+    fall = force[top : int(np.flatnonzero(force >= _FADED * force[top])[-1]) + 1]
+    fades = top <= _JUMP * len(fall) and float(fall.mean()) < _CONVEX * force[top]
+    high = float(np.quantile(force, 0.9))
+    between = np.mean((force > 0.25 * high) & (force < 0.75 * high))
+    return len(force) >= _LEAST_JUDGED and bool(fades or between < _BETWEEN)
 
 
 def find_stretches(
