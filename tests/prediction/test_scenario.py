@@ -23,7 +23,7 @@ DROP = sb.Drop(
 @pytest.mark.parametrize("seed", range(40))
 def test_what_is_written_is_read(tmp_path, seed):
     chance = random.Random(seed)
-    drop = sb.Drop.from_mapping(next(drawn(1, seed, 1))[0])
+    drop = sb.Drop.from_mapping(drawn(1, seed, 1)[0])
     numbers = [
         one for one in numbers_of(drop).values() if value_in(drop, one) == value_in(drop, one)
     ]
