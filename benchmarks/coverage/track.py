@@ -10,7 +10,7 @@ from stackbounce.run.driver import simulate
 from synthetic.falls import Falls, falls
 from synthetic.track import track as tracked
 
-__all__ = ["CASES"]
+__all__ = ["CASES", "LIMITS"]
 
 Trial = Callable[[int], list[tuple[str, Any, float]]]
 
@@ -19,6 +19,7 @@ LAW = calibrate(HuntCrossley, mass=0.06, restitution=0.8, contact_time=0.015, im
 SOFT = falls(0.5, LAW, mass=0.06)
 BALLS = ([Ball(0.6, diameter=0.2), Ball(0.1, diameter=0.1)], [Rigid(0.8)] * 2)
 STACK = simulate(Drop(*BALLS, height=0.5, gravity=ONE.gravity), until=0.2)
+OBLIQUE = {"drift": 3.0, "before": -0.02, "until": 1.2}
 RATIOS = simulate(Drop(*BALLS, height=0.5)).rebound_ratios  # right after the impact
 
 
@@ -62,4 +63,12 @@ CASES: dict[str, Trial] = {
     "track, 240 frames per second read as 60": one_ball(frame_rate=240.0, read_as=60.0, until=0.7),
     "track, a soft ball and its floor": one_ball(SOFT, floor=0.0, frame_rate=120.0),
     "track, two balls": two_balls,
+}
+LIMITS: dict[str, Trial] = {
+    "track, slowed across by 0.3 m/s^2": one_ball(**OBLIQUE, slowing=0.3),
+    "track, slowed across by 1 m/s^2": one_ball(**OBLIQUE, slowing=1.0),
+    "track, oblique and axes tilted by 2 degrees": one_ball(**OBLIQUE, tilt=0.035),
+    "track, air or tilt, one bounce": one_ball(**OBLIQUE | {"until": 0.6}, slowing=0.3),
+    "track, hand-held, 6 mm at 0.7 Hz": one_ball(sway=0.006, frame_rate=120.0, until=1.4),
+    "track, lens": one_ball(lens=0.1, drift=0.5, before=-0.02, frame_rate=120.0, until=1.4),
 }

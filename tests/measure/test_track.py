@@ -158,6 +158,59 @@ def test_a_second_ball_that_lies_still_is_left_out():
     assert any("other: no bounce" in note for note in found.notes)
 
 
+@pytest.mark.parametrize("slowing", [0.3, 1.0])
+@pytest.mark.parametrize("tilt", [0.0, 0.03])
+def test_a_ball_that_slows_down_across_turns_no_camera(slowing, tilt):
+    data = tracked(FALL, before=-0.05, drift=3.0, slowing=slowing, tilt=tilt, seed=1)
+    found = track(data)
+    kept = found.balls[0].restitutions[0]
+    assert near(kept, 0.8)
+    assert kept.std_dev < 0.004
+    assert found.tilt == pytest.approx(tilt, abs=0.005)
+    (note,) = [note for note in found.notes if "slow down across" in note]
+    assert "without this turn the first restitution is" in note
+
+
+def test_after_one_bounce_air_and_a_turned_camera_are_the_same():
+    fall = falls(0.5, 0.8)
+    how = {"before": -0.05, "drift": 2.0, "until": 0.6, "seed": 1}
+    for options in ({"slowing": 0.3}, {"tilt": 0.03}):
+        found = track(tracked(fall, **options, **how))
+        kept = found.balls[0].restitutions[0]
+        assert abs(kept.nominal_value - 0.8) < 1.5 * kept.std_dev
+        assert kept.std_dev > 0.02
+        assert any("without this turn" in note for note in found.notes)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_camera_that_sways_widens_the_errors(seed):
+    found = track(tracked(falls(0.5, 0.8), sway=0.006, until=1.4, noise=5e-4, seed=seed))
+    ball = found.balls[0]
+    assert near(ball.restitutions[0], 0.8)
+    assert near(ball.drop_height, 0.5)
+    assert 0.005 < ball.restitutions[0].std_dev < 0.05
+    assert any("levels that differ" in note for note in found.notes)
+    still = track(tracked(falls(0.5, 0.8), until=1.4, noise=5e-4, seed=seed))
+    assert not any("levels that differ" in note for note in still.notes)
+
+
+def test_a_mark_at_rest_is_no_ball():
+    ball = tracked(FALL, frame_rate=60.0, seed=1)
+    mark = 0.01 * tracked(FALL, frame_rate=60.0, noise=0.01, seed=1) - 0.1
+    found = track(xr.concat([ball, mark.assign_coords(track=["mark"])], "track"))
+    assert [one.name for one in found.balls] == ["ball 0"]
+    assert any("mark: no bounce was found" in note for note in found.notes)
+    assert near(found.time_base.gravity, 9.80665)
+
+
+def test_no_second_ball_gains_speed():
+    ball, hit = (tracked(fall, until=1.2, seed=1) for fall in (FALL, falls(0.3, lambda _: 1.3)))
+    hit["y"] = hit.y + 0.1
+    found = track(xr.concat([ball, hit.assign_coords(track=["hit"])], "track"))
+    assert [one.name for one in found.balls] == ["ball 0"]
+    assert any("hit: it is left out, as it shows a restitution of" in one for one in found.notes)
+
+
 @pytest.mark.parametrize(
     ("data", "error", "words"),
     [

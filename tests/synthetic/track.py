@@ -12,6 +12,8 @@ from synthetic import attributes
 from synthetic.disturbances import ar_noise
 from synthetic.falls import Falls
 
+_SWAY_RATE = 0.7  # Hz, of a hand
+
 
 def track(
     source: Falls | Result,
@@ -26,6 +28,9 @@ def track(
     missing: float = 0.0,
     tilt: float = 0.0,
     drift: float = 0.0,
+    slowing: float = 0.0,
+    sway: float = 0.0,
+    lens: float = 0.0,
     down: bool = False,
     names: Sequence[str] | None = None,
     seed: int = 0,
@@ -37,16 +42,28 @@ def track(
     long after it. It ends at `until`, by default after the third bounce or with the run. `read_as`
     is a wrong frame rate; `correlation` that of the `noise` (m) of neighbours; positions are
     rounded to a `pixel` (m); a fraction is `missing`; the y axis has a `tilt` or points `down`; the
-    ball has a horizontal speed, `drift`.
+    ball has a horizontal speed, `drift`, and loses it at `slowing` (m/s², in proportion to it); a
+    hand `sway`s the camera by so much (m) at 0.7 Hz; a `lens` (1/m²) shrinks what is far from the
+    middle of the picture.
     """
     random = np.random.default_rng(seed)
     first, last = _span(source, before, until)
     times = np.arange(first + random.uniform(0.0, 1.0) / frame_rate, last, 1.0 / frame_rate)
     heights = _heights(source, times)
-    side = np.broadcast_to(drift * times, heights.shape)
+    loss = slowing / drift if slowing else 0.0
+    side = np.broadcast_to(
+        drift * (-np.expm1(-loss * times) / loss if loss else times), heights.shape
+    )
+    across = math.cos(tilt) * side + math.sin(tilt) * heights
+    along = math.cos(tilt) * heights - math.sin(tilt) * side
+    if sway:
+        for values in (across, along):
+            values += sway * np.sin(2.0 * math.pi * (_SWAY_RATE * times + random.uniform()))
+    high = along - 0.5 * np.ptp(along)
+    shrunk = 1.0 - lens * (across**2 + high**2)
     columns = {
-        "x": math.cos(tilt) * side + math.sin(tilt) * heights,
-        "y": (math.cos(tilt) * heights - math.sin(tilt) * side) * (-1.0 if down else 1.0),
+        "x": across * shrunk,
+        "y": (along + high * (shrunk - 1.0)) * (-1.0 if down else 1.0),
     }
     blank = random.uniform(size=heights.shape) < missing
     for name, values in columns.items():

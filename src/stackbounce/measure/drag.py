@@ -284,11 +284,11 @@ def with_error_of_drag(found: Found, found_with: Callable[[Drag], Found], drag: 
     least = max(1.0 - error, _LEAST_DRAG)
     low, high = found_with(drag.exact(least)), found_with(drag.exact(1.0 + error))
     off = (rate / rate.nominal_value - 1.0) / (1.0 + error - least)  # 0, with an error
-    moved: Found = _moved(found, low, high, off=off)
+    moved: Found = with_difference(found, low, high, off=off)
     return moved
 
 
-def _moved(value: Any, less: Any, more: Any, *, off: Any) -> Any:
+def with_difference(value: Any, less: Any, more: Any, *, off: Any) -> Any:
     """Return a value with the error that makes it as the other two."""
     if less is None or more is None:
         return value
@@ -296,11 +296,13 @@ def _moved(value: Any, less: Any, more: Any, *, off: Any) -> Any:
         return value + (nominal(more) - nominal(less)) * off
     if type(value) is tuple:
         rows = list(zip(value, less, more, strict=False))
-        return (*(_moved(*row, off=off) for row in rows), *value[len(rows) :])
+        return (*(with_difference(*row, off=off) for row in rows), *value[len(rows) :])
     if is_dataclass(value) and not isinstance(value, type | Drag):
         every = {
             field.name: [getattr(row, field.name) for row in (value, less, more)]
             for field in fields(value)
         }
-        return replace(value, **{name: _moved(*row, off=off) for name, row in every.items()})
+        return replace(
+            value, **{name: with_difference(*row, off=off) for name, row in every.items()}
+        )
     return value

@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from stackbounce.errors import InvalidValue, finite, positive
-from stackbounce.measure.drag import Drag, with_error_of_drag
+from stackbounce.measure.drag import Drag, with_difference, with_error_of_drag
 from stackbounce.measure.kinds.track import motion
 from stackbounce.measure.kinds.track.free_flight import comparable, no_flight, no_gain, what_is_seen
 from stackbounce.measure.kinds.track.notes import notes_of, stays_long
@@ -18,19 +18,30 @@ from stackbounce.measure.kinds.track.paths import (
     Upward,
     flights_of,
     positions_of,
-    tilt_of,
     upward,
 )
 from stackbounce.measure.kinds.track.result import Track, Tracks
 from stackbounce.measure.kinds.track.shape import shape_of
-from stackbounce.measure.kinds.track.time_base import TrackUnits, check_time_base, units_of
+from stackbounce.measure.kinds.track.steadiness import (
+    Turn,
+    acceleration_angle,
+    floor_angle,
+    sway_of,
+    turn_of,
+)
+from stackbounce.measure.kinds.track.time_base import SI, TrackUnits, check_time_base, units_of
 from stackbounce.measure.messages import Message, OptionHint
-from stackbounce.measure.quantities import nominal
+from stackbounce.measure.quantities import Array, nominal
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 _TOGETHER = 0.15  # of the time of fall, within which two balls' impacts are one drop's
-_LEAST_TILT = math.radians(0.5)  # that is corrected
+_LEAST_RANGE = 0.05  # of the widest one, below which a track is that of a mark at rest
+_RESTITUTION_OFF = 0.07  # of the change within a flight: restitutions in simulated distortions
+_HEIGHT_OFF = 0.12  # the same of heights
+_HEIGHT_BY_SCATTER = 0.7  # of the accelerations' scatter, by which heights are off there
+_SPEED_POWER = 0.67  # of the scale of heights, which is that of speeds there
+_ON_THE_WHOLE = 0.25  # of a swaying camera's acceleration, in the mean of simulated flights
 _WANTED = "data must hold a ball that falls and bounces, got "
 
 
@@ -111,6 +122,8 @@ def track(
     >>> print(f"{track((times, seen)).balls[0].restitutions[0]:.1uS}")
     0.751(1)
     """
+    from uncertainties import ufloat
+
     gravity = positive("gravity", gravity, "m/s^2")
     clock = positive("frame_rate_factor", frame_rate_factor)
     ruler = positive("scale", scale)
@@ -121,14 +134,36 @@ def track(
     up = upward(found, axis, gravity)
     if axis is None and up.sign < 0.0:
         notes.append(f"{up.axis} points down; heights are counted upwards.")
-    up, flown = _flown(found, up, gravity, notes)
-    flown = _bouncing(found, up, flown, gravity if comparable(data) else None, notes)
+    compared = gravity if comparable(data) else None
+
+    def seen_along(up: Upward) -> tuple[list[_Flown], list[str]]:
+        return _bouncing(found, up, _flights(found, up, gravity), compared)
+
+    flown, left_out = seen_along(up)
+    turn = _turn(flown, found, up)
+    if turn is not None:
+        up = up._replace(tilt=turn.angle)
+        flown, left_out = seen_along(up)
+    notes.extend(left_out)
     level = None if floor is None else ruler * finite("floor", floor, "metres")
     units = units_of(data)
-    if drag is None:
-        balls = [_track(ball, level, units, alone=len(flown) == 1) for ball in flown]
-    else:
-        balls = [_track_in_air(flown, level, units, drag, notes)]
+
+    def found_at(tilt: float) -> list[Track]:
+        seen = [_seen_at(ball, found, up, tilt) for ball in flown]
+        if drag is not None:
+            return [_track_in_air(seen, level, units, drag)]
+        return [_track(ball, level, units, alone=len(seen) == 1) for ball in seen]
+
+    balls = found_at(up.tilt)
+    if turn is not None:
+        plain, other = found_at(0.0), found_at(turn.other)
+        moved = zip(balls, other, balls, strict=True)
+        off = ufloat(0.0, 1.0)
+        balls = [with_difference(*row, off=off) for row in moved]
+        without = plain[0].restitutions[0]
+        notes.append(f"{turn.words} (without this turn the first restitution is {without:.1uS}).")
+    if drag is not None:
+        notes.append(drag.note(_track(flown[0], level, units, alone=True).restitutions[0]))
     notes.extend(note for ball in balls for note in ball.notes)
     balls.sort(key=lambda ball: float(ball.levels[0].nominal_value))
     if gains := no_gain(balls[0].restitutions, balls[0].impact_times):
@@ -137,40 +172,60 @@ def track(
     base = check_time_base(_common_gravity(balls), gravity, rate, units)
     notes.extend([base.note] * (not base.agrees))
     ratios = _rebound_ratios(balls, notes)
+    gained = (
+        {}
+        if ratios
+        else {ball.name: no_gain(ball.restitutions, ball.impact_times) for ball in balls}
+    )
+    notes.extend(
+        f"{name}: it is left out, as it shows {why}." for name, why in gained.items() if why
+    )
+    balls = [ball for ball in balls if not gained.get(ball.name)]
     upwards = up.axis if up.sign > 0.0 else f"-{up.axis}"
     first = balls[0].impact_times[0]
     return Tracks(tuple(balls), ratios, first, base, upwards, up.tilt, tuple(notes), units, drag)
 
 
-def _flown(
-    found: Columns, up: Upward, gravity: float, notes: list[str]
-) -> tuple[Upward, list[_Flown]]:
-    """Return the vertical, with the tilt that the flights show, and the flights of each ball."""
-    flown = _flights(found, up, gravity)
-    across = "x" if up.axis == "y" else "y"
-    if flown and across in found.positions[0]:
-        seen = [found.positions[found.names.index(ball.name)] for ball in flown]
-        sides = [position[across][np.isfinite(up.heights(position))] for position in seen]
-        angle, error = tilt_of([ball.fit for ball in flown], sides)
-        if abs(angle) > max(_LEAST_TILT, 3.0 * error):
-            tilted = up._replace(tilt=angle)
-            again = _flights(found, tilted, gravity)
-            if again:
-                notes.append(
-                    f"The {up.axis} axis is {math.degrees(abs(angle)):.1f} degrees off the "
-                    "vertical, as the flights show; heights are counted along the vertical."
-                )
-                return tilted, again
-    return up, flown
+def _turn(flown: list[_Flown], found: Columns, up: Upward) -> Turn | None:
+    """Return the turn of the camera that flights and floor show, None where there is none."""
+    side = "x" if up.axis == "y" else "y"
+    if side not in found.positions[0]:
+        return None
+    sides = [_position(ball, found, up)[side] for ball in flown]
+    slow = acceleration_angle([ball.fit for ball in flown], sides)
+    seen = [_track(ball, None, SI, alone=False) for ball in flown]
+    lowest = min(range(len(seen)), key=lambda k: nominal(seen[k].levels[0]))
+    known = np.isfinite(sides[lowest])
+    times, across = seen[lowest].times[known], sides[lowest][known]
+    moments = [nominal(moment) for moment in seen[lowest].impact_times]
+    floor = floor_angle(seen[lowest].levels, np.interp(moments, times, across))
+    speed = float(np.polyfit(times, across, 1)[0])
+    return turn_of(slow, floor, speed / nominal(seen[lowest].impact_speeds[0]), up.axis)
+
+
+def _position(ball: _Flown, found: Columns, up: Upward) -> dict[str, Array]:
+    """Return the positions of a ball, by axis, at the times of its flights."""
+    position = found.positions[found.names.index(ball.name)]
+    good = np.isfinite(up.heights(position))
+    return {axis: values[good] for axis, values in position.items()}
+
+
+def _seen_at(ball: _Flown, found: Columns, up: Upward, tilt: float) -> _Flown:
+    """Return a ball with the same flights, seen with another tilt."""
+    if tilt == up.tilt:
+        return ball
+    heights = up._replace(tilt=tilt).heights(_position(ball, found, up))
+    return ball._replace(fit=Parabolas(ball.fit.times, heights, ball.fit.flights))
 
 
 def _flights(found: Columns, up: Upward, gravity: float) -> list[_Flown]:
     """Return the balls that have flights and bounces."""
     flown = []
+    ranges = {name: _range(up, position) for name, position in zip(*found[1:3], strict=True)}
     for name, position in zip(found.names, found.positions, strict=True):
         heights = up.heights(position)
         good = np.isfinite(heights)
-        if good.sum() < 5 or np.ptp(heights[good]) == 0.0:
+        if good.sum() < 5 or ranges[name] <= _LEAST_RANGE * max(ranges.values()):
             continue
         flights = flights_of(found.times[good], heights[good], gravity)
         if flights is not None:
@@ -178,9 +233,15 @@ def _flights(found: Columns, up: Upward, gravity: float) -> list[_Flown]:
     return flown
 
 
+def _range(up: Upward, position: dict[str, Array]) -> float:
+    heights = up.heights(position)
+    known = heights[np.isfinite(heights)]
+    return float(np.ptp(known)) if known.size else 0.0
+
+
 def _bouncing(
-    found: Columns, up: Upward, flown: list[_Flown], gravity: float | None, notes: list[str]
-) -> list[_Flown]:
+    found: Columns, up: Upward, flown: list[_Flown], gravity: float | None
+) -> tuple[list[_Flown], list[str]]:
     """Return the balls that fly freely and bounce, with notes on the others.
 
     `gravity` is None where the scale or the clock is not known.
@@ -190,8 +251,7 @@ def _bouncing(
     if kept:
         names = [ball.name for ball in kept]
         without = [name for name in found.names if name not in names]
-        notes.extend(f"{name}: no bounce was found, and it is left out." for name in without)
-        return kept
+        return kept, [f"{name}: no bounce was found, and it is left out." for name in without]
     reason = next(iter(reasons.values()), "") or _seen(found, up, gravity)
     part = OptionHint({"start": None, "stop": None})
     many = (f" (means of {found.many} of its points were taken: ", part, " choose the bounces)")
@@ -208,9 +268,7 @@ def _seen(found: Columns, up: Upward, gravity: float | None) -> str:
     return what_is_seen(found.times[np.isfinite(every[most])], known[most] * sign, axis, gravity)
 
 
-def _track_in_air(
-    flown: list[_Flown], level: float | None, units: TrackUnits, drag: Drag, notes: list[str]
-) -> Track:
+def _track_in_air(flown: list[_Flown], level: float | None, units: TrackUnits, drag: Drag) -> Track:
     """Return the bounces of the one ball of a track in air, with the error of the drag."""
     if len(flown) > 1:
         raise InvalidValue(
@@ -221,18 +279,16 @@ def _track_in_air(
         hint = OptionHint({"frame_rate": None, "scale": None})
         raise InvalidValue(Message(wrong, hint, " tell them"))
 
-    def found_with(drag: Drag | None) -> Track:
+    def found_with(drag: Drag) -> Track:
         return _track(flown[0], level, units, alone=True, drag=drag)
 
     try:
-        found = with_error_of_drag(found_with(drag.exact()), found_with, drag)
+        return with_error_of_drag(found_with(drag.exact()), found_with, drag)
     except OverflowError:
         raise InvalidValue(
             "mass, diameter and drag_coefficient must be those of the ball that was tracked, got "
             f"{nominal(drag.rate):.3g} 1/m of drag: it flies faster than it could fall"
         ) from None
-    notes.append(drag.note(found_with(None).restitutions[0]))
-    return found
 
 
 def _track(
@@ -252,18 +308,31 @@ def _track(
     if shape.widening > 1.0:
         wider = widening(max(fit.freedom, 1)) * shape.widening
         gravity = ufloat(fit.values[0], wider * math.sqrt(fit.covariance[0, 0]))
-    scale = ufloat(1.0, shape.scatter) if shape.scatter > 0.0 else 1.0  # after over before
+    size, sway = 0.0, 0.0
+    if alone and floor is None:
+        gaps = [
+            fit.times[fit.flights[j + 1].first] - fit.times[fit.flights[j].last - 1]
+            for j in bounces
+        ]
+        size, sway = sway_of(moments, levels, impacts, max(gaps))
+    if sway > 0.0:
+        off = [ufloat(0.0, sway) for _ in bounces]  # the camera's speed at each
+        impacts = tuple(speed - one for speed, one in zip(impacts, off, strict=True))
+        rebounds = tuple(speed + one for speed, one in zip(rebounds, off, strict=True))
+        gravity += ufloat(0.0, _ON_THE_WHOLE * sway**2 / size)
+    scale = _uncertain(shape.scatter, _RESTITUTION_OFF * shape.bent)  # after over before
+    place = _uncertain(_HEIGHT_BY_SCATTER * shape.scatter, _HEIGHT_OFF * shape.bent)
     height, time = motion.fallen(impacts[0], numbers[bounces[0]][0], drag)
     fall_time = time or impacts[0] / gravity
     found = Track(
         name=name,
         impact_times=moments,
         levels=levels,
-        impact_speeds=impacts,
-        rebound_speeds=rebounds,
-        drop_height=height,
+        impact_speeds=tuple(speed * place**_SPEED_POWER for speed in impacts),
+        rebound_speeds=tuple(speed * place**_SPEED_POWER for speed in rebounds),
+        drop_height=height * place,
         apex_heights=tuple(
-            motion.risen(speed, numbers[flight + 1][0], drag)
+            motion.risen(speed, numbers[flight + 1][0], drag) * place
             for flight, speed in zip(bounces, rebounds, strict=True)
         ),
         restitutions=tuple(out / into * scale for into, out in zip(impacts, rebounds, strict=True)),
@@ -275,9 +344,23 @@ def _track(
         notes=(),
     )
     notes = notes_of(found, shape, fall_time, units.time)
+    if sway > 0.0:
+        notes.append(
+            f"{name}: it bounces at levels that differ by {size:.2g} {units.length}, as where a "
+            "hand sways the camera or the floor is uneven; speeds may be off by "
+            f"{sway:.2g} {units.speed}, which the errors allow for"
+        )
     if floor is None and units.known:
         notes += stays_long(found, alone=alone)
     return replace(found, notes=tuple(notes))
+
+
+def _uncertain(scatter: float, bent: float) -> Any:
+    """Return the scale in a part of the picture: 1, with an error where flights show one."""
+    from uncertainties import ufloat
+
+    error = math.hypot(scatter, bent)
+    return ufloat(1.0, error) if error > 0.0 else 1.0
 
 
 def _bounce(

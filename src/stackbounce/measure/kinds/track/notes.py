@@ -9,8 +9,6 @@ from stackbounce.measure.kinds.track.shape import Shape
 from stackbounce.measure.messages import Message, OptionHint
 
 _CORRELATED = 0.2  # correlation of neighbouring points' errors that is mentioned
-_BENT = 0.05  # of the acceleration within a flight: a smaller change is not mentioned
-_OFF = 0.07  # of that change: by so much a restitution is off, in simulated distortions
 _NOTICED = 1.0  # standard errors of a speed, from which on its bias is mentioned
 
 
@@ -66,12 +64,11 @@ def _uneven(name: str, shape: Shape) -> list[str]:
         notes.append(
             f"{name}: the accelerations of its flights differ by {shape.scatter:.1%}, as where a "
             "lens or the distance to the camera changes the scale; each flight has its own, and "
-            "restitutions are as uncertain"
+            "heights and restitutions are as uncertain"
         )
-    if abs(shape.change) > max(_BENT, 4.0 * shape.change_error):
+    if shape.bent:
         notes.append(
             f"{name}: within its flights the acceleration changes by {shape.change:+.0%}, as where "
-            "a lens or air changes it; restitutions may be off by "
-            f"{_OFF * abs(shape.change):.1g}, beyond their errors"
+            "a lens or air changes it; the errors of heights and restitutions allow for it"
         )
     return notes

@@ -1,7 +1,6 @@
 """A track's columns -> heights against time: which way is up, and the flights in them."""
 
 import math
-from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -292,24 +291,3 @@ def _united(flights: list[Flight], weakest: NDArray[np.intp]) -> list[Flight]:
             taken.add(j)
     rest = [flight for j, flight in enumerate(flights) if j not in taken and j - 1 not in taken]
     return sorted([*rest, *(Flight(flights[j].first, flights[j + 1].last) for j in taken)])
-
-
-def tilt_of(fits: Sequence[Parabolas], sides: Sequence[Array]) -> tuple[float, float]:
-    """Return the angle in radians between an axis and the vertical, and its error.
-
-    Of each ball `fits` has the flights along the axis, and `sides` the positions across it.
-    """
-    angles, weights = [], []
-    for fit, across in zip(fits, sides, strict=True):
-        known = np.isfinite(across)
-        kept = [flight for flight in fit.flights if known[slice(*flight)].all()]
-        if not kept:
-            continue
-        first, second = (Parabolas(fit.times, axis, kept) for axis in (fit.heights, across))
-        fall, drift = first.values[0], second.values[0]
-        angles.append(math.atan2(drift, fall))
-        error = math.sqrt(max(second.covariance[0, 0], 0.0)) / max(abs(fall), 1e-300)
-        weights.append(1.0 / max(error, 1e-9) ** 2)
-    if not angles:
-        return 0.0, math.inf
-    return float(np.average(angles, weights=weights)), 1.0 / math.sqrt(sum(weights))

@@ -112,8 +112,8 @@ class Tracks(Finding):
                 bounce = f" of bounce {k}" if len(ball.impact_times) > 1 else ""
                 rows.append(Row(f"{of}impact speed{bounce}", ball.impact_speeds[k], speed))
                 rows.append(Row(f"{of}rebound speed{bounce}", ball.rebound_speeds[k], speed))
-                # The first bounce of a stack is no bounce on the floor alone: no restitution.
-                if k > 0 or not self.rebound_ratios:
+                # In a stack only the lowest ball's later bounces are on the floor alone.
+                if not self.rebound_ratios or (k > 0 and ball is self.balls[0]):
                     rows.append(Row(f"{of}restitution{bounce}", ball.restitutions[k]))
                 after = bounce.replace(" of", " after")
                 rows.append(Row(f"{of}apex height{after}", ball.apex_heights[k], length))

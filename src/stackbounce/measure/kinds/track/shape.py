@@ -12,6 +12,7 @@ from stackbounce.measure.statistics.ar_noise import correlation_factor
 
 OWN = 5  # points of a flight that tell its own acceleration
 _BENT = 8  # points of a flight that tell how its acceleration changes
+_CLEARLY_BENT = 0.05  # of the acceleration within a flight: a smaller change is not clear
 _DIFFERENT_BELOW = 5e-4  # p-value of accelerations that differ
 
 
@@ -34,6 +35,15 @@ class Shape(NamedTuple):
     widening: float
     change: float
     change_error: float
+
+    @property
+    def bent(self) -> float:
+        """The size of that change where it is clear, else 0."""
+        return (
+            abs(self.change)
+            if abs(self.change) > max(_CLEARLY_BENT, 4.0 * self.change_error)
+            else 0.0
+        )
 
 
 def shape_of(times: Array, heights: Array, flights: Sequence[Flight]) -> Shape:
