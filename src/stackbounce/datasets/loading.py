@@ -143,7 +143,7 @@ def _variables(column: Column) -> dict[str, Any]:
 def _in_si(value: Any, unit: str, si: str) -> Any:
     """Return a number, or all those of tuples, in an SI unit."""
     if isinstance(value, tuple):
-        return [_in_si(one, unit, si) for one in value]
+        return [_in_si(number, unit, si) for number in value]
     if unit in ("1", *_OFFSETS):
         return float(value)
     return quantity(f"{value!r} {unit}", "" if si == "1" else si)

@@ -56,9 +56,9 @@ class Finding:
         They are the fields that are annotated as `Listed` and known, in their order.
         """
         return known_rows(
-            (label.name, getattr(self, one.name), label.unit)
-            for one in fields(self)  # type: ignore[arg-type]
-            for label in getattr(one.type, "__metadata__", ())
+            (label.name, getattr(self, field.name), label.unit)
+            for field in fields(self)  # type: ignore[arg-type]
+            for label in getattr(field.type, "__metadata__", ())
         )
 
     def parts(self) -> dict[str, Any]:

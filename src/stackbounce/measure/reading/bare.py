@@ -26,7 +26,7 @@ def guess(rows: Array) -> tuple[tuple[Column, ...], str]:
     Examples
     --------
     >>> found, _ = guess(np.stack([np.arange(30), np.ones(30), np.arange(30) ** 2], axis=1))
-    >>> [one.role for one in found]
+    >>> [column.role for column in found]
     ['frame', 'x', 'y']
     """
     width = rows.shape[1]

@@ -21,7 +21,9 @@ _PLACE = re.compile(r"(?i)(pos|heigh|höhe|altu|altit|haut|alte).*(?<!x)$|^[pc]?
 
 def analyse(data: Any, setup: Setup) -> Heights:
     """Analyse a table with one column of heights, the drop height above those of the bounces."""
-    if "y" not in data or {"kg", "N"} & {one.attrs.get("units") for one in data.data_vars.values()}:
+    if "y" not in data or {"kg", "N"} & {
+        column.attrs.get("units") for column in data.data_vars.values()
+    }:
         raise InvalidValue(_unrecognised(data))
     column = data["y"].values.tolist()
     if not setup.repeated:

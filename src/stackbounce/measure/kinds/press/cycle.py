@@ -75,7 +75,7 @@ def result_of(record: Record, cycle: Cycle) -> Press:
     # the noise of the slack is that of the whole loading, which shows its autocorrelation better
     spread = _density(law, 3) * law.noise.min() ** 2 * weights @ weights.T
     seen = correlated_values(levels, spread) if len(levels) else ()
-    zero = [one + known_to(0.0, unseen) for one in seen]
+    zero = [value + known_to(0.0, unseen) for value in seen]
     known = list(zip(up.zero.T, zero, strict=True))
     top, log_p, log_c, at_top, worked, steeper = _numbers(law, _sums_in(up, peak, law), 3, known)
     p, c = umath.exp(log_p), umath.exp(log_c)

@@ -72,7 +72,7 @@ def straightened(fit: Parabolas, drag: Drag) -> Parabolas:
     >>> heights = np.array([flown(0.1, 1.0, time, 9.81)[0] for time in times])
     >>> fit = Parabolas(times, heights, [Flight(0, 30)])
     >>> air = Drag(np.pi / 8, 1.0, 0.1, 1.0)  # k = 0.1 / m
-    >>> [round(float(one.values[2]), 6) for one in (fit, straightened(fit, air))]
+    >>> [round(float(part.values[2]), 6) for part in (fit, straightened(fit, air))]
     [1.033092, 1.0]
     """
     times, heights = fit.times, fit.heights

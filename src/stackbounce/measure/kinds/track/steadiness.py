@@ -103,7 +103,9 @@ def floor_angle(levels: Sequence[Any], across: Array) -> tuple[float, float]:
     if len(levels) < 2 or not np.ptp(across) > 0.0:
         return 0.0, math.inf
     design = np.column_stack([np.ones(len(levels)), across - across.mean()])
-    fit = least_squares(design, np.array([nominal(one) for one in levels]), covariance_of(levels))
+    fit = least_squares(
+        design, np.array([nominal(level) for level in levels]), covariance_of(levels)
+    )
     error = math.sqrt(fit.covariance[1, 1])
     if fit.freedom:
         error *= widening(fit.freedom) * math.sqrt(max(fit.chi_squared / fit.freedom, 1.0))
@@ -123,13 +125,13 @@ def sway_of(
     >>> from uncertainties import ufloat
     >>> numbers = [ufloat(level, 3e-4) for level in (0.037, 0.024, 0.031)]
     >>> moments, impacts = [0.3, 0.8, 1.2], [3.0, 2.4, 1.9]
-    >>> [round(one, 3) for one in sway_of(moments, numbers, impacts, 1 / 60)]
+    >>> [round(value, 3) for value in sway_of(moments, numbers, impacts, 1 / 60)]
     [0.005, 0.041]
     """
     from scipy.stats import chi2
 
-    times, speeds = (np.array([nominal(one) for one in some]) for some in (moments, impacts))
-    seen, covariance = np.array([nominal(one) for one in levels]), covariance_of(levels)
+    times, speeds = (np.array([nominal(value) for value in some]) for some in (moments, impacts))
+    seen, covariance = np.array([nominal(level) for level in levels]), covariance_of(levels)
     if len(seen) < 2:
         return 0.0, 0.0
     ones = np.ones((len(seen), 1))

@@ -135,7 +135,7 @@ def waveform(
             "which the bounces are a part? "
         )
         raise InvalidValue(Message(got, OptionHint({"start": None, "stop": None}), " choose it"))
-    unlike = sum(no_contact(seen.signal[one.first : one.last + 1]) for one in seen.stretches)
+    unlike = sum(no_contact(seen.signal[part.first : part.last + 1]) for part in seen.stretches)
     seen, contacts = _contacts(seen, ends)
     notes = [*record.notes, *_notes(record.unit, seen, contacts, m, unlike)]
     if time_constant is None:
@@ -183,7 +183,9 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
 
 def _contacts(seen: Seen, ends: Ends) -> tuple[Seen, tuple[Contact, ...]]:
     """Measure the contacts; those that begin before the one before them ends are one with it."""
-    kept = [one for one in seen.stretches if not no_contact(seen.signal[one.first : one.last + 1])]
+    kept = [
+        part for part in seen.stretches if not no_contact(seen.signal[part.first : part.last + 1])
+    ]
     around = [None, *kept, None]
     contacts = tuple(
         measure_contact(seen, around[k], stretch, around[k + 2], ends)

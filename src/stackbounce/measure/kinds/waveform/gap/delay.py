@@ -151,7 +151,7 @@ def delay(floor: Any, balls: Any) -> Number:
     >>> times = np.arange(-2e-3, 1e-2, 1e-5)  # s
     >>> forces = sb.simulate(drop).sample(np.maximum(times, 0.0)).force.values * (times >= 0.0)
     >>> forces += np.random.default_rng(1).normal(0.0, 0.5, forces.shape)
-    >>> floor, balls = (xr.Dataset({"force": ("time", one)}, {"time": times}) for one in forces)
+    >>> floor, balls = (xr.Dataset({"force": ("time", force)}, {"time": times}) for force in forces)
     >>> later = delay(floor, balls)
     >>> round(later.nominal_value * 1e3, 1), float(sb.simulate(drop).first_touch[1].round(4)) * 1e3
     (1.8, 1.8)
