@@ -16,9 +16,9 @@ _SHRINK = 0.01  # by which intervals shrink at least on average: no ball keeps 9
 _SHRINK_SIGMAS = 3.0  # standard deviations of its steps, by which a series shrinks at least in all
 _FEW = 4  # bounces that other sounds can easily imitate
 _FIRST_FLIGHT, _FIRST_OF_FEW = 0.06, 0.15  # s at least: of a drop from about 1 cm, and of few, 5 cm
-_LOUDER, _LOUDER_OF_FEW, _LOUDER_OF_ALL = 2.0, 1.6, 3.0  # times as loud as the one before is a
-# bounce at most: with others left out, of few bounces, of the only sounds
+_LOUDER, _LOUDER_OF_FEW = 3.0, 1.6  # times as loud as the one before is a bounce at most
 _SHORT = 7  # bounces among which none is louder than that
+_LEAST_RISE = 0.85  # of the last restitution of so few over the first: slow bounces retain more
 _SIGMAS = 6.0  # standard deviations by which a series exceeds those of sounds in random order
 _ORDERS = 19  # random orders
 _LEAST_DEVIATION = 0.3  # of the scores of random orders
@@ -75,10 +75,12 @@ def reason_against(
     heard = ~(echoes | tails(rises))
     heard[at] = True
     others = rises.amplitudes[np.setdiff1d(np.flatnonzero(heard), at)]
-    reason = _against_flights(chain, rises, longest) or _against_loudness(
-        rises.amplitudes[at], others
+    rises_heard = Rises(*(column[heard] for column in rises))
+    return (
+        _against_flights(chain, rises, longest)
+        or _against_loudness(rises.amplitudes[at])
+        or _against_chance(chain, rises_heard, others, dead_time)
     )
-    return reason or _against_chance(chain, Rises(*(column[heard] for column in rises)), dead_time)
 
 
 def _against_flights(chain: Chain, rises: Rises, longest: float) -> str:
@@ -99,6 +101,10 @@ def _against_flights(chain: Chain, rises: Rises, longest: float) -> str:
     kept = single[1:] / single[:-1]
     if (kept > 1.0 + 4.0 * rises.errors[at].max() / flights[1:]).any():
         return f"a restitution would be {kept.max():.3g}, above 1"
+    if len(at) <= _SHORT and kept[-1] < _LEAST_RISE * kept[0]:
+        return (
+            f"restitutions would fall from {kept[0]:.3g} to {kept[-1]:.3g} as the ball slows down"
+        )
     return ""
 
 
@@ -108,22 +114,19 @@ def _shrinking(flights: Array, steps: int) -> bool:
     return bool(-logs.sum() > max(_SHRINK * steps, _SHRINK_SIGMAS * float(np.std(logs))))
 
 
-def _against_loudness(amplitudes: Array, others: Array) -> str:
-    few = len(amplitudes) <= _FEW
-    most = _LOUDER_OF_FEW if few else _LOUDER if len(others) else _LOUDER_OF_ALL
+def _against_loudness(amplitudes: Array) -> str:
+    most = _LOUDER_OF_FEW if len(amplitudes) <= _FEW else _LOUDER
     louder = float((amplitudes[1:] / amplitudes[:-1]).max())
     if not 2 < len(amplitudes) <= _SHORT or louder <= most:
         return ""
     return f"a later sound is {louder:.2g} times as loud as the one before, not fainter"
 
 
-def _against_chance(chain: Chain, heard: Rises, dead_time: float) -> str:
+def _against_chance(chain: Chain, heard: Rises, others: Array, dead_time: float) -> str:
     count = len(chain.indices)
     unsure = count <= _SHORT and any(chain.missed)
-    others = len(heard.times) - count
-    loud = np.sort(heard.amplitudes)[::-1]
-    faint = others and loud[count] < _FAINT * loud[0]
-    if not unsure and (others <= (0 if count <= _FEW else 1) or faint):
+    faint = (others < _FAINT * heard.amplitudes.max()).all()
+    if not unsure and (faint or len(others) <= (0 if count <= _FEW else 1)):
         return ""
     if _sigmas_above_chance(chain, heard, dead_time) > _SIGMAS:
         return ""
