@@ -1,3 +1,4 @@
+import inspect
 import json
 import math
 import os
@@ -14,6 +15,7 @@ import stackbounce as sb
 from stackbounce import cross2007, plots
 from stackbounce.cli import app, descriptions, main
 from stackbounce.cli.drop_options import read_contact
+from stackbounce.cli.options import DROP
 from stackbounce.cli.scenario import read
 from stackbounce.model import LAWS
 from stackbounce.plots import style
@@ -51,6 +53,16 @@ def test_version_and_help(printed, run):
 def test_help_names_every_law(run):
     _, out, _ = run("simulate", "--help")
     assert all(name in out for name in LAWS)
+
+
+def test_functions_of_commands_take_the_options_of_the_table():
+    for command in app.registered_commands:
+        code, takes = command.callback.__code__, set(inspect.signature(command.callback).parameters)
+        named = set(code.co_varnames[: code.co_argcount + code.co_kwonlyargcount])
+        others = code.co_flags & inspect.CO_VARKEYWORDS
+        assert named <= takes if others else named == takes, command.name
+        if command.name == "simulate":  # whose other options are read as numbers of the drop
+            assert takes <= named | set(DROP)
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["fit", "--help"]])
