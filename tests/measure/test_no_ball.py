@@ -160,3 +160,11 @@ def test_where_a_codec_begins_is_no_knock(silent):
     found = knocks(values, rate=48000.0)
     assert len(found.times) == 6
     assert found.dropped == () or found.dropped[0].time > 0.3
+
+
+def test_a_codecs_echo_before_a_knock_shifts_no_time():
+    fall = falls(0.3, 0.85, bounces=9)
+    found = knocks(sound(fall, coarse=0.5, noise=1e-5, room=0.4, uneven=0.2, seed=6))
+    assert any("precedes some knocks" in note for note in found.notes)
+    off = np.array([time.nominal_value for time in found.times]) - fall.touches
+    assert np.abs(off - np.median(off)).max() < 0.25e-3  # 0.42 ms with the echo

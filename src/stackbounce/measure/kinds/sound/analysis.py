@@ -22,6 +22,7 @@ _DEAD_SECONDS = 8e-3  # s: two knocks closer than that are one impact
 _LONGEST_FLIGHT = 2.02  # s: of a bounce of 5 m
 _PRE_ECHO = 0.04  # of a knock's largest power: a codec's echo before it is fainter
 _PRE_ECHO_SECONDS = 0.3e-3  # s by which it shifts a time at least
+_FEW_KNOCKS = 5  # fewer do not tell how much their flights scatter: the shift is an error
 _PRE_ECHO_FACTOR = 1.5  # by which errors of times without it are larger at most
 _SAME_DELAY = 1.5e-3  # s by which the delays of one echo differ at most
 _SECOND_SERIES = 4  # knocks of another series that is worth a note
@@ -193,8 +194,9 @@ def _consistent(
     later, sure = heard.aligned(about, _PRE_ECHO)
     off = np.abs(later - times - np.median(later - times))
     if (off > _PRE_ECHO_SECONDS).any():
-        sure = sure * misjudgement(later, sure, missed)
-        if np.median(sure) < _PRE_ECHO_FACTOR * np.median(errors):
+        few = len(times) < _FEW_KNOCKS
+        sure = np.hypot(sure, off) if few else sure * misjudgement(later, sure, missed)
+        if few or np.median(sure) < _PRE_ECHO_FACTOR * np.median(errors):
             notes.append("A faint sound precedes some knocks, as of a codec: it is not looked at.")
             times, errors = later, sure
     if heard.samples.min() >= 0.0:  # each amplitude is of a whole interval
