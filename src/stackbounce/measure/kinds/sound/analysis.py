@@ -42,7 +42,7 @@ def knocks(
     *,
     threshold: float | None = None,
     dead_time: float | None = None,
-    longest_flight: float | None = None,
+    longest_flight: float = _LONGEST_FLIGHT,
     rate: float | None = None,
     start: float | None = None,
     stop: float | None = None,
@@ -106,6 +106,7 @@ def knocks(
 
     if threshold is not None and positive("threshold", threshold) <= 1.0:
         raise InvalidValue(f"threshold must be a factor above 1, got {shown(threshold)}")
+    positive("longest_flight", longest_flight, "seconds")
     dead = _DEAD_SECONDS if dead_time is None else positive("dead_time", dead_time, "seconds")
     samples, rate, origin = _samples(data, rate)
     samples, origin = _part(samples, rate, origin, start, stop)
@@ -124,8 +125,7 @@ def knocks(
     delay = _echo_delay(chain, rises)
     chain, dropped = _without_echoes(chain, rises, delay)
     echoes = np.isin(rises.times, [sound.time for sound in dropped if sound.why == "echo"])
-    longest = positive("longest_flight", longest_flight or _LONGEST_FLIGHT, "seconds")
-    against = reason_against(chain, rises, echoes, origin, dead, longest)
+    against = reason_against(chain, rises, echoes, origin, dead, longest_flight)
     if against:
         chain, dropped = _all_sounds(rises)
         notes.append(Message(f"This is no bouncing ball: {against}", _ADVICE))

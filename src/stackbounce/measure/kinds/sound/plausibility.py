@@ -67,17 +67,15 @@ def reason_against(
     '4 sounds at equal intervals of 1 s, or nearly so, as of a metronome, of steps or claps'
     """
     at = list(chain.indices)
-    if len(rises.times) < 2:
+    if len(at) < 2:
         return ""
-    one = _one_sound(rises.times[at] + origin, rises.amplitudes[at], rises.ratios[at])
-    if one or len(at) < 2:
-        return one
     heard = ~(echoes | tails(rises))
     heard[at] = True
     others = rises.amplitudes[np.setdiff1d(np.flatnonzero(heard), at)]
     rises_heard = Rises(*(column[heard] for column in rises))
     return (
-        _against_flights(chain, rises, longest)
+        _one_sound(rises.times[at] + origin, rises.amplitudes[at], rises.ratios[at])
+        or _against_flights(chain, rises, longest)
         or _against_loudness(rises.amplitudes[at])
         or _against_chance(chain, rises_heard, others, dead_time)
     )
@@ -142,8 +140,6 @@ def tails(rises: Rises) -> NDArray[np.bool_]:
 
 
 def _one_sound(times: Array, amplitudes: Array, ratios: Array) -> str:
-    if len(times) < 2:
-        return ""
     loudest = int(np.argmax(amplitudes))
     clearest = int(np.argmax(ratios))
     faint = bool((np.delete(amplitudes, loudest) < _FAINT * amplitudes[loudest]).all())
