@@ -182,6 +182,13 @@ def test_after_one_bounce_air_and_a_turned_camera_are_the_same():
         assert any("without this turn" in note for note in found.notes)
 
 
+def test_heights_alone_tell_of_no_turn():
+    data = tracked(FALL, seed=1)
+    found = track(data.assign(x=math.nan * data.x))
+    assert found.tilt == 0.0
+    assert near(found.balls[0].restitutions[0], 0.8)
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_a_camera_that_sways_widens_the_errors(seed):
     found = track(tracked(falls(0.5, 0.8), sway=0.006, until=1.4, noise=5e-4, seed=seed))

@@ -196,6 +196,8 @@ def _turn(flown: list[_Flown], found: Columns, up: Upward) -> Turn | None:
     seen = [_track(ball, None, SI, alone=False) for ball in flown]
     lowest = min(range(len(seen)), key=lambda k: nominal(seen[k].levels[0]))
     known = np.isfinite(sides[lowest])
+    if known.sum() < 2:
+        return None
     times, across = seen[lowest].times[known], sides[lowest][known]
     moments = [nominal(moment) for moment in seen[lowest].impact_times]
     floor = floor_angle(seen[lowest].levels, np.interp(moments, times, across))
