@@ -168,3 +168,11 @@ def test_a_codecs_echo_before_a_knock_shifts_no_time():
     assert any("precedes some knocks" in note for note in found.notes)
     off = np.array([time.nominal_value for time in found.times]) - fall.touches
     assert np.abs(off - np.median(off)).max() < 0.25e-3  # 0.42 ms with the echo
+
+
+def test_a_drop_from_above_five_metres_must_be_told():
+    data = sound(falls(8.0, 0.5, bounces=5), seed=1)
+    (heard,) = analyse(data)
+    assert "the fall before the first sound" in heard.against
+    told, _ = analyse(data, height=8.0)
+    assert told.restitutions[1].nominal_value == pytest.approx(0.5, abs=2e-3)

@@ -136,8 +136,9 @@ def knocks(
     about = rises.times[list(chain.indices)]
     best = clearest(white, rate, about, rounded) if len(white) > 1 else 0
     heard = _Channel(samples[best], white[best], rate, float(rounded[best]))
-    times, errors = heard.onsets(about)
-    if len(times) > 1 and not against:
+    if len(about) < 2 or against:
+        times, errors = heard.onsets(about)
+    else:
         times, errors = _consistent(heard, about, chain.missed, notes)
     loudness = _loudness(white, rate, times)
     left_out = sorted([*doubles, *dropped], key=lambda sound: sound.time)

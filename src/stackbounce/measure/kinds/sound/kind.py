@@ -10,13 +10,14 @@ from stackbounce.measure.kinds.sound.few_bounces import few_bounces
 from stackbounce.measure.quantities import nominal
 from stackbounce.measure.setup import Setup
 
-_HIGHEST = 5.0  # m that a ball rises, if it is not told to be dropped from higher
+_HIGHEST = 5.0  # m from which a ball falls at most, if it is not told to be dropped from higher
+_OVER_TOLD = 1.2  # times the drop height that is told, which is known roughly
 
 
 def analyse(data: Any, setup: Setup) -> tuple[Finding, ...]:
     """Return the restitutions, or else the flights, that a sound tells, and its knocks."""
     height, gravity, drag = setup.drop_height, setup.gravity, setup.drag
-    highest = max(nominal(height or 0.0), _HIGHEST)
+    highest = max(_OVER_TOLD * nominal(height or 0.0), _HIGHEST)
     heard = knocks(data, longest_flight=(8.0 * highest / gravity) ** 0.5)
     if heard.against:
         return (heard,)

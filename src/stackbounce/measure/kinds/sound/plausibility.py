@@ -99,6 +99,8 @@ def _against_flights(chain: Chain, rises: Rises, longest: float) -> str:
     kept = single[1:] / single[:-1]
     if (kept > 1.0 + 4.0 * rises.errors[at].max() / flights[1:]).any():
         return f"a restitution would be {kept.max():.3g}, above 1"
+    if (before := single[0] / kept[0]) > longest:
+        return f"the fall before the first sound would be that of a flight of {before:.3g} s"
     if len(at) <= _SHORT and kept[-1] < _LEAST_RISE * kept[0]:
         return (
             f"restitutions would fall from {kept[0]:.3g} to {kept[-1]:.3g} as the ball slows down"
