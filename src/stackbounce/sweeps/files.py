@@ -89,10 +89,16 @@ class Form:
 
 
 def create(path: Path, form: Form) -> None:
-    """Create a store with all its coordinates and no results."""
-    import zarr
+    """Create a store with all its coordinates and no results.
 
-    group = zarr.create_group(path, zarr_format=2, attributes=form.marked)
+    It is made in memory and then written file by file: Zarr writes several files at once, and goes
+    on with the others after one has failed.
+    """
+    import zarr
+    from zarr.storage import MemoryStore
+
+    made: dict[str, Any] = {}  # content by path
+    group = zarr.create_group(MemoryStore(made), zarr_format=2, attributes=form.marked)
     for name, variable in (form.results | form.coordinates).items():
         own = name in form.coordinates
         array = group.create_array(
@@ -106,6 +112,9 @@ def create(path: Path, form: Form) -> None:
         if own:
             array[...] = form.values[name]
     zarr.consolidate_metadata(group.store)
+    for name, part in made.items():
+        (path / name).parent.mkdir(parents=True, exist_ok=True)
+        (path / name).write_bytes(part.to_bytes())
 
 
 @contextlib.contextmanager

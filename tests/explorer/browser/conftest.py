@@ -129,13 +129,16 @@ class Visit:
         self.page, self.address, self.downloads = page, address, downloads
         self.complaints, self.requests, self.expected = [], [], None
         page.on("console", self._heard)
-        page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        page.on("pageerror", lambda error: self._complained(str(error)))
         page.on("request", lambda request: self.requests.append(request.url))
 
     def _heard(self, message):
-        expected = self.expected and self.expected in message.text
-        if message.type in ("error", "warning") and not expected:
-            self.complaints.append(message.text)
+        if message.type in ("error", "warning"):
+            self._complained(message.text)
+
+    def _complained(self, text):
+        if not (self.expected and self.expected in text):
+            self.complaints.append(text)
 
     def open(self, fragment=""):
         self.page.goto(f"{self.address}{fragment}")
@@ -164,7 +167,7 @@ class Visit:
 
     def script_is_refused(self):
         """Return whether a script that somebody adds does nothing; the browser complains of it."""
-        self.expected = "script-src"  # Firefox tells of it whenever it likes
+        self.expected = "script-src"  # Firefox tells of it late, as a message or as an error
         self.page.evaluate(
             """() => { const script = document.createElement('script');
                  script.textContent = 'window.hit = true'; document.body.append(script); }"""
