@@ -7,8 +7,8 @@ from docutils.statemachine import StringList
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-from stackbounce.fitting.validation import Comparison, validate
-from stackbounce.fitting.validation.comparison import format_p
+from stackbounce.fitting.series import Comparison, fit_series
+from stackbounce.fitting.series.comparison import format_p
 
 
 def row(one: Comparison) -> str:
@@ -35,10 +35,10 @@ class Validation(SphinxDirective):
         """Return the table and the sentences below it."""
         names = ("Series", "Speeds, m/s", "Agree", "Doubtful", "Refuted", "Steady")
         head = [f"| {' | '.join(names)} |", "|" + "---|" * len(names)]
-        done = validate()
+        done = fit_series("dataset:all")
         rows = [row(one) for one in done.comparisons]
         lines = StringList(
-            [*head, *rows, "", done.summary], source="stackbounce.fitting.validation"
+            [*head, *rows, "", done.summary], source="stackbounce.fitting.series"
         )
         holder = Element()
         self.state.nested_parse(lines, self.content_offset, holder)

@@ -3,14 +3,15 @@
 import matplotlib.pyplot as plt
 from shared import WIDE
 
-from stackbounce import datasets
-from stackbounce.fitting.validation.comparison import compare_laws
-from stackbounce.fitting.validation.figures import draw_on
-from stackbounce.fitting.validation.series import make_series
+from stackbounce import datasets, plots
+from stackbounce.fitting.series import SeriesFit
+from stackbounce.fitting.series.comparison import compare_laws
+from stackbounce.fitting.series.series import make_series
 
 
 def _draw(axes, name, *, air=True):
-    draw_on(axes, compare_laws(make_series(datasets.load(name), air=air)))
+    compared = compare_laws(make_series(datasets.load(name), air=air))
+    plots.restitutions(SeriesFit((compared,), {}), axes)
 
 
 def golf():

@@ -7,10 +7,10 @@ import pytest
 
 import stackbounce as sb
 from stackbounce import datasets
-from stackbounce.fitting.validation import comparison
-from stackbounce.fitting.validation.comparison import AGREES, REFUTED, compare_laws
-from stackbounce.fitting.validation.family import Family, families, reason_to_skip
-from stackbounce.fitting.validation.series import Series, make_series
+from stackbounce.fitting.series import comparison
+from stackbounce.fitting.series.comparison import AGREES, REFUTED, compare_laws
+from stackbounce.fitting.series.family import Family, families, reason_to_skip
+from stackbounce.fitting.series.series import Series, make_series
 from stackbounce.model import LAWS
 
 SPEEDS = np.array([4.0, 3.0, 2.0, 1.0, 0.5])
@@ -33,7 +33,7 @@ def outcome(found, law):
 
 def only(*laws):
     """Return a stand-in for `families` that has these laws only."""
-    return lambda series: ((name, one) for name, one in families(series) if name in laws)
+    return lambda series, _: ((name, one) for name, one in families(series) if name in laws)
 
 
 @pytest.mark.parametrize("law", ["Rigid", "Viscoelastic", "HuntCrossley"])
@@ -149,7 +149,7 @@ class Narrow(Family):
 
 def test_a_law_that_cannot_be_fitted_is_skipped(monkeypatch):
     family = Narrow(sb.HuntCrossley, 4.0)
-    monkeypatch.setattr(comparison, "families", lambda _: [("HuntCrossley", family)])
+    monkeypatch.setattr(comparison, "families", lambda *_: [("HuntCrossley", family)])
     found = compare_laws(series_of(sb.Rigid))
     assert found.outcomes == ()
     assert found.skipped == {"HuntCrossley": "it cannot be fitted: too small"}

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 from stackbounce import datasets
-from stackbounce.fitting.validation.series import make_series, why_not
+from stackbounce.fitting.series.series import make_series, why_not
 from stackbounce.model import drag
 from stackbounce.model.drop import STANDARD_GRAVITY
 

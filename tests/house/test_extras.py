@@ -101,7 +101,7 @@ def test_a_plain_install_sweeps():
         (["fit", "drop.toml"], "fit", "stackbounce fit"),
         (["highest", "B1", "B2", "--in-order", "--masses"], "masses", "a search for masses"),
         (["paper", "--out", "paper"], "paper", "stackbounce paper"),
-        (["validate", "--out", "validate"], "paper", "stackbounce validate"),
+        (["fit", "dataset:golf-marble-heights"], "fit", "stackbounce fit"),
         (["app"], "web", "stackbounce app"),
         (["simulate", "B1", "--plot", "b1.png"], "plots", "--plot"),
         (["simulate", "B1", "--height", "63 ± 1 cm"], "measure", "a number with an error"),

@@ -13,7 +13,7 @@ from measure.near import near, nominal, possible
 from stackbounce import plots
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.explorer.answers import records
-from stackbounce.fitting.validation.series import make_series
+from stackbounce.fitting.series.series import make_series
 from stackbounce.measure import Drag, analyse, bounces, heights, knocks, one_ball, one_law
 from stackbounce.measure.kinds.sound.few_bounces import few_bounces
 from synthetic.sound import sound

@@ -15,7 +15,7 @@ from stackbounce.cli import (
     fit,
     highest,
     measure,
-    reports,
+    paper,
     simulate,
     sweep,
 )
@@ -54,8 +54,7 @@ _COMMANDS: dict[str, Callable[..., None]] = {
     "highest": highest.run,
     "balls": balls.run,
     "datasets": datasets.run,
-    "paper": reports.paper,
-    "validate": reports.validate,
+    "paper": paper.run,
     "app": explorer.run,
 }
 for _name, _run in _COMMANDS.items():

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from stackbounce.cli import output
+from stackbounce.cli import output, series
 from stackbounce.cli.options import DROP
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
@@ -21,11 +21,15 @@ def run(
 ) -> None:
     """Fit parameters of a drop to measured values, with errors."""
     need("fit", "stackbounce fit")
+    output.check_picture(plot, overwrite)
+    if series.is_series(what):
+        series.fit_series(what[0], plot, overwrite, as_json, given)
+        return
+    _check_of_drop(given)
     from stackbounce.cli import comparison_tables, fit_files, fit_tables
     from stackbounce.fitting.question import build_problem
 
     save, draws, corner = given["save"], given["draws"], given["corner"]
-    output.check_picture(plot, overwrite)
     output.check_picture(corner, overwrite, "--corner")
     _check_together(given)
     parts = fit_files.read_parts_of(what, {name: given[name] for name in DROP})
@@ -56,6 +60,13 @@ def run(
     if drawn:
         typer.echo(f"Draws: {draws}; now: stackbounce sweep … --draws {drawn[0]}")
     output.print_files(plot, corner)
+
+
+def _check_of_drop(given: Mapping[str, Any]) -> None:
+    """Refuse options that are of a table of bounces."""
+    for name in ("error", "mass", "diameter", "out"):
+        if given[name] is not None:
+            raise InvalidValue(f"--{name} is of a table of bounces, such as heights.csv")
 
 
 def _check_together(given: Mapping[str, Any]) -> None:

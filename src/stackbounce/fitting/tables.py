@@ -7,25 +7,20 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from stackbounce.errors import FileError, InvalidType, InvalidValue, nearest, positive, shown
-from stackbounce.files import content_of
+from stackbounce.errors import InvalidType, InvalidValue, nearest, positive, shown
 from stackbounce.fitting.files import check_name, read_force_record
 from stackbounce.fitting.quantities import find_quantity
+from stackbounce.fitting.rows import Row, decimal_comma, rows_of
 from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.measure.reading.headings import heading
-from stackbounce.measure.reading.limits import BYTES, COLUMNS, LINE, refuse_others
-from stackbounce.measure.reading.text import decode, split
 from stackbounce.model import Drop
 from stackbounce.run.paths import drop_at, numbers_of
 from stackbounce.run.quantities import QUANTITIES
 from stackbounce.units import count_written, quantity
 
-_MOST = 1000  # drops
 _ERROR = "error of "
 _KINDS = ("name", "number", "data", "error", "count", "force")  # of columns
 _FALLS = {"height": "m", "impact_speed": "m/s"}
-_MARKED = re.compile(r"\d+(?:[.,]\d+)+")
-_GROUPED = re.compile(r"[1-9]\d{0,2}(?:,\d{3})+")
 _UNITLESS = re.compile(r"[-+.,\deE±/()\s]*")
 
 
@@ -92,36 +87,15 @@ def read_drops(
         ...
     stackbounce.errors.FileError: no-such-file.csv cannot be read: No such file or directory
     """
-    name, content = content_of(path, BYTES)
-    try:
-        refuse_others(content)
-        rows = _split_rows(decode(content))
-    except FileError as error:
-        raise FileError(f"{name}: {error}") from error
+    name, rows = rows_of(path)
     try:
         return _drops(drop, rows, Path(name).parent)
     except (InvalidValue, InvalidType) as error:
         raise type(error)(f"{name}: {error}") from error
 
 
-def _split_rows(content: str) -> list[tuple[int, list[str]]]:
-    """Return the number from 1 and the cells of each line that is not blank."""
-    rows: list[tuple[int, list[str]]] = []
-    delimiter = ""
-    for line, text in enumerate(content.split("\n"), 1):
-        if len(text) > LINE:
-            raise FileError(f"row {line} has more than {LINE} characters")
-        if not text.strip(" \t;,"):
-            continue
-        delimiter = delimiter or next((mark for mark in "\t;," if mark in text), "\t")
-        if text.count(delimiter) >= COLUMNS or len(rows) > _MOST:
-            raise FileError(f"it has more than {COLUMNS} columns or {_MOST} drops")
-        rows.append((line, split(text, delimiter)))
-    return rows
-
-
 def _drops(
-    drop: Drop, rows: Sequence[tuple[int, list[str]]], folder: Path
+    drop: Drop, rows: Sequence[Row], folder: Path
 ) -> tuple[dict[str, Drop], dict[str, dict[str, Any]]]:
     if not rows:
         raise InvalidValue("it has no heading")
@@ -131,7 +105,14 @@ def _drops(
     if not rows:
         raise InvalidValue("it has a heading but no drop below it")
     units = {column.name: column.unit for column in columns if column.kind == "data"}
-    comma = _has_commas(columns, rows)
+    comma = decimal_comma(
+        [
+            (cell, f"row {line}, {column.text}")
+            for line, cells in rows
+            for column, cell in zip(columns, cells, strict=False)
+            if column.numeric
+        ]
+    )
     drops: dict[str, Drop] = {}
     data: dict[str, dict[str, Any]] = {}
     for k, (line, cells) in enumerate(rows, 1):
@@ -194,25 +175,6 @@ def _check_columns(columns: Sequence[_Column]) -> None:
             raise InvalidValue(f"column {shown(column.text)} has no column {column.name} beside it")
     if not any(column.kind in ("data", "force", "count") for column in columns):
         raise InvalidValue(f"it has no column of what was measured; {_known('', [])}")
-
-
-def _has_commas(columns: Sequence[_Column], rows: Sequence[tuple[int, list[str]]]) -> bool:
-    """Return whether commas are decimal marks; refuse numbers that could be read in two ways."""
-    numbers = [
-        (mark[0], f"row {line}, {column.text}")
-        for line, cells in rows
-        for column, cell in zip(columns, cells, strict=False)
-        if column.numeric
-        for mark in _MARKED.finditer(cell)
-    ]
-    commas = [(text, where) for text, where in numbers if "," in text]
-    point = next((text for text, _ in numbers if "." in text), "")
-    for text, where in commas[:1]:
-        if point:
-            raise InvalidValue(f"{where}: {text} has a comma, but {point} a decimal point")
-        if all(_GROUPED.fullmatch(number) for number, _ in commas):
-            raise InvalidValue(f"{where}: {text} can be read in two ways: write it without a comma")
-    return bool(commas)
 
 
 def _drop(drop: Drop, row: Mapping[str, _Cell], line: int) -> Drop:

@@ -1,6 +1,7 @@
 """Plots of impacts, sweeps, stacks, measurements, fits and model comparisons."""
 
 from stackbounce.extras import need
+from stackbounce.plots.by_speed import restitutions
 from stackbounce.plots.fit_result import fitted
 from stackbounce.plots.impact import bounce
 from stackbounce.plots.measurement import measured
@@ -9,6 +10,16 @@ from stackbounce.plots.posterior import corner
 from stackbounce.plots.stacks import highest
 from stackbounce.plots.sweep_curves import heatmap, lines
 
-__all__ = ["bounce", "compared", "corner", "fitted", "heatmap", "highest", "lines", "measured"]
+__all__ = [
+    "bounce",
+    "compared",
+    "corner",
+    "fitted",
+    "heatmap",
+    "highest",
+    "lines",
+    "measured",
+    "restitutions",
+]
 
 need("plots", "a picture")

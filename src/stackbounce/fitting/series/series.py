@@ -46,6 +46,8 @@ class Series:
     scatters : tuple of (array, float), optional
         The parts of `published` that are estimated from the scatter of readings, (n, n), each with
         its degrees of freedom.
+    from_heights : bool, optional
+        Whether the speeds follow from heights of falls.
     """
 
     name: str
@@ -57,6 +59,16 @@ class Series:
     assumed: Array
     drag: float
     scatters: tuple[Scatter, ...] = ()
+    from_heights: bool = False
+
+    @property
+    def heights(self) -> Array:
+        """The heights of the falls in m that have the impact speeds, (n,)."""
+        return self.heights_of(self.speeds)
+
+    def heights_of(self, speeds: Array) -> Array:
+        """Return the heights of falls in m that end with some speeds in m/s."""
+        return _each(in_air.fall_height, self.drag, speeds)
 
     def covariance(self, scale: float = 1.0) -> Array:
         """Return the covariance of the values.
@@ -94,7 +106,7 @@ class Series:
 
 def why_not(data: "xr.Dataset") -> str:
     """Return why a dataset is no series; empty if it is one."""
-    if data.attrs["kind"] == "rule":
+    if data.attrs.get("kind") == "rule":
         return "it has the limits of rules, no measurement"
     if data.sizes["row"] < 2:
         return "it has one value only"
@@ -124,9 +136,9 @@ def make_series(data: "xr.Dataset", *, air: bool = True) -> Series:
         more = 1.0 + _DRAG_ERROR / _DRAG_COEFFICIENT
         shift = _points(more * drag, data).values - found.values
         found = found._replace(assumed=found.assumed + np.outer(shift, shift))
-    return Series(
-        **{key: data.attrs[key] for key in ("name", "title", "ball")}, **found._asdict(), drag=drag
-    )
+    about = {key: data.attrs[key] for key in ("name", "title", "ball")}
+    heights = not {"drop_height", "apex_height"}.isdisjoint(data)
+    return Series(**about, **found._asdict(), drag=drag, from_heights=heights)
 
 
 class _Measured(NamedTuple):
@@ -173,6 +185,13 @@ def _ratios(drag: float, given: dict[str, Array]) -> _Points:
     return _rebounds(drag, given | {"rebound_height": rebound})
 
 
+def _drops(drag: float, given: dict[str, Array]) -> _Points:
+    """Take the heights after several bounces of each drop: a ball falls from where it rose to."""
+    begins = np.append(True, np.diff(np.rint(1e6 * given["drop"])) != 0.0)
+    before = np.where(begins, given["drop_height"], np.roll(given["rebound_height"], 1))
+    return _rebounds(drag, {"drop_height": before, "rebound_height": given["rebound_height"]})
+
+
 def _apexes(drag: float, given: dict[str, Array]) -> _Points:
     heights = given["apex_height"]
     return _rebounds(drag, {"drop_height": heights[:-1], "rebound_height": heights[1:]})
@@ -180,6 +199,10 @@ def _apexes(drag: float, given: dict[str, Array]) -> _Points:
 
 def _at_speeds(_: float, given: dict[str, Array]) -> _Points:
     return given["impact_speed"], given["restitution"]
+
+
+def _speed_ratios(_: float, given: dict[str, Array]) -> _Points:
+    return given["impact_speed"], given["rebound_speed"] / given["impact_speed"]
 
 
 def _knocks(drag: float, given: dict[str, Array]) -> _Points:
@@ -197,10 +220,12 @@ def _blocks(_: float, given: dict[str, Array]) -> _Points:
 
 
 _FORMULAS: dict[tuple[str, ...], _Transform] = {
+    ("drop", "drop_height", "rebound_height"): _drops,
     ("drop_height", "rebound_height"): _rebounds,
     ("drop_height", "knock_time"): _knocks,
     ("drop_height", "restitution"): _ratios,
     ("impact_speed", "restitution"): _at_speeds,
+    ("impact_speed", "rebound_speed"): _speed_ratios,
     ("apex_height",): _apexes,
     ("start", "end", "flights"): _blocks,
 }
@@ -222,8 +247,8 @@ def _propagated(names: tuple[str, ...], drag: float, data: "xr.Dataset") -> _Mea
         slopes = _slopes(transform, drag, given, name)
         published += (slopes * column.variances) @ slopes.T
         assumed += column.assumed**2 * slopes @ slopes.T
-        if column.scatter:
-            scatters.append((column.scatter * slopes @ slopes.T, column.freedom))
+        if column.freedom:
+            scatters.append(((slopes * column.scatter) @ slopes.T, column.freedom))
     published += sum(part for part, _ in scatters)
     return _Measured(speeds, values, published, assumed, tuple(scatters))
 
@@ -241,13 +266,13 @@ def _slopes(transform: _Transform, drag: float, given: dict[str, Array], name: s
 class _Column(NamedTuple):
     """The means of a column, and their variances: as given, of the scatter, and assumed.
 
-    The scatter of the readings is the same in all rows: few readings tell it badly. `freedom` are
+    The scatter of one reading is the same in all rows: few readings tell it badly. `freedom` are
     its degrees of freedom.
     """
 
     means: Array
     variances: Array
-    scatter: float
+    scatter: Array
     freedom: float
     assumed: float
 
@@ -255,12 +280,13 @@ class _Column(NamedTuple):
 def _read(data: "xr.Dataset", name: str) -> _Column:
     variable = data[name]
     values = np.asarray(variable.values, dtype=np.float64)
-    scatter, freedom = 0.0, 0.0
-    if values.ndim == 2:
-        rows, readings = values.shape
-        scatter = float(np.mean(np.var(values, axis=1, ddof=1))) / readings
-        freedom = rows * (readings - 1.0)
-        values = np.mean(values, axis=1)
+    scatter, freedom = np.zeros(len(values)), 0.0
+    if values.ndim == 2:  # rows with fewer readings than others end with NaN
+        counts = np.isfinite(values).sum(axis=1)
+        means = np.nanmean(values, axis=1)
+        freedom = float(counts.sum() - len(values))
+        scatter = float(np.nansum((values - means[:, None]) ** 2)) / freedom / counts
+        values = means
     errors = data[f"{name}_error"].values if f"{name}_error" in data else np.zeros(values.size)
     return _Column(
         values, np.asarray(errors) ** 2, scatter, freedom, variable.attrs.get("assumed_error", 0.0)

@@ -1,12 +1,12 @@
 """The laws of one class that a calibration gives: one for each value at one speed."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from stackbounce.errors import StackbounceError
-from stackbounce.fitting.validation.series import Series
+from stackbounce.fitting.series.series import Series
 from stackbounce.model.laws import LAWS, ContactLaw
 from stackbounce.run.calibration import calibrate
 from stackbounce.run.collision import restitution
@@ -59,11 +59,12 @@ def restitutions(law: ContactLaw, speeds: Array) -> Array:
     return np.array([restitution(law, _MASS, float(speed)) for speed in speeds])
 
 
-def families(series: Series) -> Iterator[tuple[str, Family]]:
-    """Yield the name and the family of each law, calibrated at the series' highest speed."""
+def families(series: Series, laws: Collection[str] = tuple(LAWS)) -> Iterator[tuple[str, Family]]:
+    """Yield the name and the family of some laws, calibrated at the series' highest speed."""
     speed = float(series.speeds.max())
     for name, law_class in LAWS.items():
-        yield name, Family(law_class, speed)
+        if name in laws:
+            yield name, Family(law_class, speed)
 
 
 def reason_to_skip(family: Family, series: Series) -> str:

@@ -1,4 +1,4 @@
-"""`stackbounce validate`: all datasets, all laws, and the files of it."""
+"""`fit_series`: all datasets, all laws, and the page of it."""
 
 import csv
 import json
@@ -8,10 +8,11 @@ import pytest
 from stackbounce import datasets
 from stackbounce.cli import main
 from stackbounce.errors import FileError
-from stackbounce.fitting import validation
-from stackbounce.fitting.validation.comparison import AGREES, REFUTED, verdict
+from stackbounce.fitting.series import fit_series, write
+from stackbounce.fitting.series.comparison import AGREES, REFUTED, verdict
 from stackbounce.model import LAWS
 
+ALL = ("fit", "dataset:all", "--compare")
 FEW = ("granite-spheres", "superball-knocks")
 
 
@@ -23,20 +24,20 @@ def few(monkeypatch):
 
 @pytest.mark.usefixtures("few")
 def test_the_files_hold_what_was_found(tmp_path, capsys):
-    out = tmp_path / "validate"
-    assert main(["validate", "--out", str(out), "--json"]) == 0
+    out = tmp_path / "laws"
+    assert main([*ALL, "--out", str(out), "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
-    written = json.loads((out / "validation.json").read_text("utf-8"))
-    assert [one["name"] for one in told["datasets"]] == list(FEW[1:])
-    assert [one["name"] for one in written["datasets"]] == list(FEW[1:])
+    written = json.loads((out / "laws.json").read_text("utf-8"))
+    assert [one["name"] for one in told["series"]] == list(FEW[1:])
+    assert [one["name"] for one in written["series"]] == list(FEW[1:])
     assert written["left_out"] == {"granite-spheres": "it has one value only"}
-    with (out / "validation.csv").open(encoding="utf-8", newline="") as file:
+    with (out / "laws.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    asked = [(one["name"], law["law"]) for one in written["datasets"] for law in one["laws"]]
+    asked = [(one["name"], law["law"]) for one in written["series"] for law in one["laws"]]
     assert [(row["dataset"], row["law"]) for row in rows] == asked
     page = (out / "index.html").read_text("utf-8")
     assert written["summary"] in page
-    for one in written["datasets"]:
+    for one in written["series"]:
         assert one["summary"] in page
         assert datasets.describe(one["name"]).address in page
         assert (out / "figures" / f"{one['name']}.svg").read_bytes().startswith(b"<?xml")
@@ -46,7 +47,7 @@ def test_the_files_hold_what_was_found(tmp_path, capsys):
 @pytest.mark.usefixtures("few")
 def test_the_same_version_writes_the_same_bytes(tmp_path):
     for name in ("one", "two"):
-        validation.write(tmp_path / name)
+        write(fit_series("dataset:all"), tmp_path / name)
     files = [path.relative_to(tmp_path / "one") for path in (tmp_path / "one").rglob("*.*")]
     assert len(files) == 5
     for name in files:
@@ -57,18 +58,18 @@ def test_the_same_version_writes_the_same_bytes(tmp_path):
 def test_a_file_of_somebody_else_stays(tmp_path):
     (tmp_path / "index.html").write_text("mine")
     with pytest.raises(FileError, match=r"index\.html"):
-        validation.write(tmp_path)
+        write(fit_series("dataset:all"), tmp_path)
     assert (tmp_path / "index.html").read_text() == "mine"
 
 
 def test_the_folder_must_have_a_name(capsys):
-    assert main(["validate", "--out", ""]) == 2
+    assert main([*ALL, "--out", ""]) == 2
     assert "--out must name a folder" in capsys.readouterr().err
 
 
 @pytest.fixture(scope="module")
 def everything():
-    return validation.validate()
+    return fit_series("dataset:all")
 
 
 @pytest.mark.slow

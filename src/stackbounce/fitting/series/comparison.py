@@ -1,19 +1,23 @@
 """How well each law follows a series: calibrated at one speed, and fitted to all."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from stackbounce.errors import StackbounceError
-from stackbounce.fitting.validation.family import Family, families, reason_to_skip
-from stackbounce.fitting.validation.series import Series
+from stackbounce.fitting.series.family import Family, families, reason_to_skip
+from stackbounce.fitting.series.series import Series
+from stackbounce.model.laws import LAWS
 from stackbounce.run.quantities import Array
 
 AGREES, DOUBTFUL, REFUTED = "agrees", "doubtful", "refuted"
 REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05
 """The p values of the verdicts."""
+
+SIGMA = 0.6827
+"""The probability of one standard deviation of a normal distribution."""
 
 _NODES = 9  # at which a family is computed, for the fit
 _WIDER = 1.5  # logarithm by which the fit may leave the measured values
@@ -44,6 +48,8 @@ class Outcome:
         p with half and with twice the assumed errors; None if none is assumed.
     p_without_air : float or None
         p if the drag of the air is left out; None if it was not corrected.
+    freedom_of_error : float
+        Degrees of freedom of the errors of the series, from which `error` follows.
     """
 
     laws: tuple[str, ...]
@@ -56,6 +62,20 @@ class Outcome:
     p_half: float | None = None
     p_twice: float | None = None
     p_without_air: float | None = None
+    freedom_of_error: float = math.inf
+
+    def interval(self, level: float = SIGMA) -> tuple[float, float]:
+        """Return the limits of the value with some probability, by Student's t.
+
+        Parameters
+        ----------
+        level : float, optional
+            The probability; by default that of one standard deviation, 0.683.
+        """
+        from scipy.stats import t
+
+        reach = float(t.ppf(0.5 + 0.5 * level, self.freedom_of_error)) * self.error
+        return self.value - reach, self.value + reach
 
     @property
     def short_name(self) -> str:
@@ -162,8 +182,10 @@ def format_p(value: float) -> str:
     return f"{value:.2g}" if value >= 1e-4 else "<\N{NO-BREAK SPACE}0.0001"
 
 
-def compare_laws(series: Series, without_air: Series | None = None) -> Comparison:
-    """Return how well all laws follow a series.
+def compare_laws(
+    series: Series, without_air: Series | None = None, laws: Collection[str] = tuple(LAWS)
+) -> Comparison:
+    """Return how well laws follow a series.
 
     Parameters
     ----------
@@ -171,11 +193,13 @@ def compare_laws(series: Series, without_air: Series | None = None) -> Compariso
         The measurements.
     without_air : Series, optional
         The same without a correction for the drag, to see what that changes.
+    laws : collection of str, optional
+        The names of the laws; by default all.
     """
     skipped: dict[str, str] = {}
     found: list[tuple[Array, Outcome]] = []
     curves: dict[str, Family] = {}
-    for name, family in families(series):
+    for name, family in families(series, laws):
         reason = reason_to_skip(family, series)
         if reason:
             skipped[name] = reason
@@ -223,6 +247,7 @@ def _outcome(
         freedom=freedom,
         p=_probability(squares, freedom, series),
         p_calibrated=_probability(_of_the_rest(curve, series), freedom, series),
+        freedom_of_error=series.freedom(),
         **supposed,
     )
 

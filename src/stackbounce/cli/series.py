@@ -1,0 +1,129 @@
+"""``stackbounce fit`` of a table of bounces or of a published data set."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from stackbounce.cli import output
+from stackbounce.cli.tables import new_table
+from stackbounce.errors import InvalidValue
+from stackbounce.model.laws import LAWS
+from stackbounce.units import quantity
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from stackbounce.fitting.series import Comparison, SeriesFit
+
+PREFIX = "dataset:"
+_TABLES = (".csv", ".tsv", ".txt", ".dat", ".xlsx")
+_OF_DROPS = (
+    "data", "measured", "vary", "tie", "height", "speed", "gap", "gravity", "interval", "sample",
+    "starts", "draws", "save", "corner",
+)  # fmt: skip
+_ALONE = "Rigid"  # the law without --compare and --contact: one restitution
+
+
+def is_series(what: Sequence[str]) -> bool:
+    """Return whether what is to be fitted is a table of bounces or a data set, and no drop.
+
+    Examples
+    --------
+    >>> is_series(["heights.csv"]), is_series(["dataset:all"]), is_series(["basketball", "tennis"])
+    (True, True, False)
+    """
+    name = what[0].lower()
+    return len(what) == 1 and (name.startswith(PREFIX) or Path(name).suffix in _TABLES)
+
+
+def fit_series(
+    what: str, plot: Path | None, overwrite: bool, as_json: bool, given: Mapping[str, Any]
+) -> None:
+    """Fit laws to a table of bounces, print what they say, and draw and write it."""
+    from stackbounce.fitting import series
+
+    for name in _OF_DROPS:
+        if given[name]:
+            raise InvalidValue(f"--{name} is of a drop; {what} is a table of bounces")
+    if given["out"] == "":
+        raise InvalidValue("--out must name a folder, got ''")
+    mass, diameter = (
+        None if given[name] is None else quantity(given[name], unit, f"--{name}")
+        for name, unit in (("mass", "kg"), ("diameter", "m"))
+    )
+    done = series.fit_series(
+        what,
+        laws=tuple(LAWS) if given["compare"] else given["contact"] or [_ALONE],
+        errors=given["error"] or (),
+        mass=mass,
+        diameter=diameter,
+        progress=_progress if what == f"{PREFIX}all" else lambda _: None,
+    )
+    output.draw_picture(plot, overwrite, "restitutions", done)
+    if given["out"]:
+        series.write(done, Path(given["out"]))
+    if as_json:
+        output.print_json(done.as_dict())
+        return
+    _print(output.console(), done, compared=given["compare"])
+    output.print_files(plot)
+    if given["out"]:
+        typer.echo(f"Open {Path(given['out']) / 'index.html'}")
+
+
+def _progress(line: str) -> None:
+    typer.echo(line, err=True)
+
+
+def _print(console: "Console", done: "SeriesFit", *, compared: bool) -> None:
+    """Print the laws of each ball, what follows, and what was assumed."""
+    for found in done.comparisons:
+        console.print(_table(found))
+        console.print()
+        if compared:
+            console.print(found.summary)
+        elif found.outcomes and found.outcomes[0].p < _DOUBTFUL:
+            law = found.outcomes[0].short_name
+            console.print(f"{law} does not follow it: --compare fits every contact law.")
+    for name, reason in done.left_out.items():
+        console.print(f"Left out: {name}: {reason}.")
+    if compared and done.comparisons:
+        console.print(done.summary)
+    for note in done.notes:
+        console.print(f"Note: {note}")
+
+
+_DOUBTFUL = 0.05  # p below which --compare is proposed
+
+
+def _table(found: "Comparison") -> Any:
+    """Return the table of one ball: each law with its restitution, χ² and p."""
+    from stackbounce.fitting.series.comparison import format_p
+
+    series = found.series
+    low, high = float(series.speeds.min()), float(series.speeds.max())
+    title = f"{series.title}: {series.values.size} restitutions from {low:.3g} to {high:.3g} m/s"
+    headings = (
+        f"restitution\nat {high:.3g} m/s",
+        "68.3 %\ninterval",
+        "\nχ²",
+        "for\ndegrees",
+        "\np",
+    )
+    table = new_table(title, ["\nLaw"], headings)
+    for law in found.outcomes:
+        limits = law.interval()
+        digits = max(2, _decimals(limits[1] - limits[0]))
+        interval = " to ".join(f"{limit:.{digits}f}" for limit in limits)
+        numbers = (f"{law.value:.{digits}f}", interval, f"{law.chi_squared:.3g}", str(law.freedom))
+        table.add_row(", ".join(law.laws), *numbers, format_p(law.p))
+    return table
+
+
+def _decimals(width: float) -> int:
+    """Return the decimals with which an interval's width has two digits."""
+    from math import floor, log10
+
+    return 1 - floor(log10(width)) if width > 0.0 else 4

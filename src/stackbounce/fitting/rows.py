@@ -1,0 +1,95 @@
+"""The rows of a table with words in it, as people type them: one way for all tables of a fit."""
+
+import os
+import re
+
+from stackbounce.errors import FileError, InvalidValue
+from stackbounce.files import content_of
+from stackbounce.measure.reading import sheets, zipped
+from stackbounce.measure.reading.limits import BYTES, COLUMNS, LINE, refuse_others
+from stackbounce.measure.reading.text import decode, split
+
+Row = tuple[int, list[str]]
+"""The number of a line, counted from 1, and its cells."""
+
+MARKED = re.compile(r"\d+(?:[.,]\d+)+")
+"""A number with a decimal mark, or marks between thousands."""
+
+_MOST = 1000  # rows of a table
+_GROUPED = re.compile(r"[1-9]\d{0,2}(?:,\d{3})+")
+
+
+def rows_of(path: str | os.PathLike[str]) -> tuple[str, list[Row]]:
+    r"""Return the name of a table and those of its rows that are not blank.
+
+    Parameters
+    ----------
+    path : str or path-like
+        Text with tabs, semicolons or commas between its cells, or an Excel file, of which the first
+        sheet is read.
+
+    Raises
+    ------
+    FileError
+        If it cannot be read, is no table, or is too large.
+
+    Examples
+    --------
+    >>> path = getfixture("tmp_path") / "heights.csv"
+    >>> _ = path.write_text("drop;rebound\n\n63,5;41\n")
+    >>> rows_of(path)[1]
+    [(1, ['drop', 'rebound']), (3, ['63,5', '41'])]
+    """
+    name, content = content_of(path, BYTES)
+    try:
+        if content.startswith(b"PK\x03\x04") and zipped.is_xlsx(content):
+            content = bytearray(next(iter(sheets.from_xlsx(content).members.values())))
+        refuse_others(content)
+        return name, _split(decode(content))
+    except FileError as error:
+        raise FileError(f"{name}: {error}") from error
+
+
+def decimal_comma(cells: list[tuple[str, str]]) -> bool:
+    """Return whether commas are decimal marks; raise if a number could be read in two ways.
+
+    Parameters
+    ----------
+    cells : list of (str, str)
+        The text of each cell that holds a number, and where it stands.
+
+    Examples
+    --------
+    >>> decimal_comma([("63,5", "row 2")]), decimal_comma([("63.5", "row 2")])
+    (True, False)
+    """
+    numbers = [(mark[0], where) for text, where in cells for mark in MARKED.finditer(text)]
+    commas = [(text, where) for text, where in numbers if "," in text]
+    point = next((text for text, _ in numbers if "." in text), "")
+    for text, where in commas[:1]:
+        if point:
+            raise InvalidValue(f"{where}: {text} has a comma, but {point} a decimal point")
+        if all(_GROUPED.fullmatch(number) for number, _ in commas):
+            raise InvalidValue(f"{where}: {text} can be read in two ways: write it without a comma")
+    return bool(commas)
+
+
+def _split(content: str) -> list[Row]:
+    rows: list[Row] = []
+    lines = content.split("\n")
+    filled = [line for line in lines if line.strip(" \t;,")]
+    delimiter = next((mark for mark in "\t;," if 2 * _with(mark, filled) >= len(filled) > 0), "\t")
+    for number, text in enumerate(lines, 1):
+        if len(text) > LINE:
+            raise FileError(f"row {number} has more than {LINE} characters")
+        if not text.strip(" \t;,"):
+            continue
+        if text.count(delimiter) >= COLUMNS or len(rows) > _MOST:
+            raise FileError(f"it has more than {COLUMNS} columns or {_MOST} drops")
+        rows.append((number, split(text, delimiter)))
+    return rows
+
+
+def _with(mark: str, lines: list[str]) -> int:
+    """Return how many lines have a mark between cells."""
+    return sum(mark in line for line in lines)

@@ -1,0 +1,26 @@
+"""Restitutions at several speeds beside what each contact law gives for them.
+
+- `columns.py`: what a column of a table of bounces holds
+- `table.py`: a table of bounces as data sets, one for each ball
+- `series.py`: a data set as restitutions at several speeds, with their covariance
+- `family.py`: the laws of a class that a calibration at one speed gives
+- `comparison.py`: χ² and p of each law for a series, also with half and twice the assumed errors
+- `results.py`: `fit_series`, tables and data sets beside the laws; `write`, the page of that
+"""
+
+from stackbounce.fitting.series.comparison import Comparison, Outcome
+from stackbounce.fitting.series.results import PREFIX, SeriesFit, fit_series, write
+from stackbounce.fitting.series.series import Series
+from stackbounce.fitting.series.table import Table, read_table
+
+__all__ = [
+    "PREFIX",
+    "Comparison",
+    "Outcome",
+    "Series",
+    "SeriesFit",
+    "Table",
+    "fit_series",
+    "read_table",
+    "write",
+]

@@ -1,0 +1,138 @@
+"""Which column of a table of bounces holds what, by its heading."""
+
+import re
+import tomllib
+from dataclasses import dataclass
+from importlib.resources import files
+
+from stackbounce.measure.reading.headings import heading
+from stackbounce.units import in_si
+
+_KNOWN = tomllib.loads((files(__package__) / "columns.toml").read_text("utf-8"))
+_ROLES = {role: re.compile(known["words"]) for role, known in _KNOWN.items()}
+
+UNITS: dict[str, str] = {role: known["unit"] for role, known in _KNOWN.items()}
+"""The SI unit of each role."""
+
+_NUMBERED = re.compile(
+    r"(.*?[^\d\s_.#])[\s_.#]*\(?(\d{1,2})\)?|(\d{1,2})(?:st|nd|rd|th|e|er|\.|º|ª) (.*)"
+)
+_BOUNCE = re.compile(
+    r"(height |höhe |hauteur |altura |altezza )?((of|after|nach|après|de|del|di|do) )?(the )?"
+    r"(bounces?|rebounds?|hop|bounce height|rebound height|height|h|aufprall|sprung|prall"
+    r"|rücksprung|rücksprunghöhe|sprunghöhe|rebonds?|hauteur|bote|rebote|altura|rimbalzo|altezza)"
+)
+_ERRORS = re.compile(
+    r"±|\+/-|σ|δ|(?:^|\b)(?:error|err|uncertainty|unc|sigma|std|sd|s\.d|stdev|stddev|standard"
+    r" (?:error|deviation)|fehler|unsicherheit|messunsicherheit|incertitude|erreur|incertidumbre"
+    r"|incerteza|error|errore|incertezza|delta|d(?=h\b|v\b|e\b))(?:\b|$)|Δ"
+)
+_READING = re.compile(rf"(.* )?({_KNOWN['reading']['words']})")
+_MEAN = re.compile(
+    r"^(average|mean|avg\.?|mittelwert|mittlere|durchschnitt\w*|moyenne|media|promedio|média)\b ?"
+)
+_FILLER = re.compile(r"\b(of|in|on|the|der|des|von|de|du|sur|la|le|del|di|su)\b|[()\[\]:._-]")
+_TOLD = re.compile(r"\s*\(?\s*(?:±|\+/-)\s*([\d.,]*\d)\s*([^\W\d_]*)\s*\)?")
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table of bounces.
+
+    Parameters
+    ----------
+    index : int
+        Where it stands, from 0.
+    text : str
+        Its heading.
+    role : str
+        A key of `UNITS`, ``"bounces"`` for the height after bounce `number`, ``"readings"`` for the
+        reading `number` of the same height, ``"error"``, or empty if it is not known.
+    unit : str
+        As it is written in the heading; empty where there is none.
+    number : int
+        Of a bounce or of a reading; of an error: the index of the column that has it.
+    error : str
+        The error of all its numbers, as ``± 0.5 cm`` in the heading tells it; empty for none.
+    """
+
+    index: int
+    text: str
+    role: str = ""
+    unit: str = ""
+    number: int = 0
+    error: str = ""
+
+
+def columns_of(headings: list[str]) -> list[Column]:
+    """Return what the columns of a table hold.
+
+    Parameters
+    ----------
+    headings : list of str
+        The cells of its first row.
+
+    Examples
+    --------
+    >>> [column.role for column in columns_of(["ball", "Fallhöhe (cm)", "Sprunghöhe (cm)", "± cm"])]
+    ['group', 'drop_height', 'rebound_height', 'error']
+    """
+    found: list[Column] = []
+    for index, text in enumerate(" ".join(text.replace("_", " ").split()) for text in headings):
+        error = _TOLD.search(text)
+        told = f"{error[1]} {error[2]}".strip() if error else ""
+        rest = f"{text[: error.start()]} {text[error.end() :]}".strip() if error else text
+        if (not error and _ERRORS.search(text.casefold())) or (error and not rest):
+            found.append(_error(index, text, found))
+            continue
+        said = heading(f"{rest})" if rest.count("(") > rest.count(")") else rest)
+        name, unit = said.name.casefold(), said.unit or (error[2] if error else "")
+        bare = _MEAN.sub("", name)
+        role, number = _role(bare, unit) if bare else ("reading", 0)
+        found.append(Column(index, text, role, unit, number, told))
+    return found
+
+
+def role_of(name: str) -> str:
+    """Return what a name of a column means; empty if it means nothing known here.
+
+    Examples
+    --------
+    >>> role_of("drop height"), role_of("temperature")
+    ('drop_height', '')
+    """
+    return _role(" ".join(name.casefold().replace("_", " ").split()), "")[0]
+
+
+def _role(name: str, unit: str) -> tuple[str, int]:
+    """Return what a name means, and the number of a bounce or a reading in it."""
+    known = in_si(unit) if unit else None
+    for role, words in _ROLES.items():
+        fits = not known or known[1] in (UNITS[role], "1" if not UNITS[role] else UNITS[role])
+        if words.fullmatch(name) and fits:
+            return role, 0
+    if numbered := _NUMBERED.fullmatch(name):
+        word, number = (numbered[1], numbered[2]) if numbered[1] else (numbered[4], numbered[3])
+        if _BOUNCE.fullmatch(word.strip()):
+            return "bounces", int(number)
+        if _READING.fullmatch(word.strip()):
+            return "readings", int(number)
+    return "", 0
+
+
+def _error(index: int, text: str, before: list[Column]) -> Column:
+    """Return a column of errors: of the one that its name tells, or of the one to its left."""
+    said = heading(text)
+    bare = " ".join(_FILLER.sub(" ", _ERRORS.sub(" ", said.name.casefold())).split())
+    whose = next((c.index for c in reversed(before) if bare and _same(bare, c)), None)
+    if whose is None:
+        whose = next((c.index for c in reversed(before) if c.role not in ("", "error")), -1)
+    return Column(index, text, "error", said.unit, whose)
+
+
+def _same(bare: str, column: Column) -> bool:
+    """Return whether what is left of the name of an error is the name of a column, or means it."""
+    name = heading(column.text).name.casefold()
+    return bare in (name, name.split()[0]) or (
+        _role(bare, "") == (column.role, column.number) and column.role != ""
+    )

@@ -1,0 +1,312 @@
+"""The rows of a table of bounces -> the readings in it, a row each."""
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import zip_longest
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from stackbounce.errors import InvalidValue
+from stackbounce.fitting.rows import Row, decimal_comma
+from stackbounce.fitting.series.columns import UNITS, Column, columns_of
+from stackbounce.measure.quantities import quantity_with_error
+from stackbounce.measure.reading.headings import is_unit
+from stackbounce.measure.reading.text import MISSING
+from stackbounce.run.quantities import Array
+from stackbounce.units import handy, quantity
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+STARTS = ("drop_height", "impact_speed")
+"""Roles of what was before a bounce."""
+
+MEASURED = ("rebound_height", "rebound_speed", "restitution")
+"""Roles of what was measured after a bounce."""
+
+_RIGHT = "'drop height (cm)' and 'rebound height (cm)', or 'v (m/s)' and 'e'"
+_NUMBER = re.compile(r"[-+]?[\d.,]*\d\s*([^\W\d_]{1,3}|%|±.*|\+/-.*|\(.*)?")
+_DECIMALS = re.compile(r"\d+\.(\d+)")
+_SIZES = ((500.0, "mm"), (5.0, "cm"), (0.0, "m"))  # of the largest height, where no unit is told
+_ENOUGH = 5  # numbers that all end in 0, or in 0 and 5, were not read more finely
+_SUCCESSIVE = 0.5  # of the logarithm of the first ratio of heights: bounces in turn fall by more
+
+
+def readings_of(rows: Sequence[Row]) -> "tuple[pd.DataFrame, str, list[str]]":
+    """Return all readings, a row each, what was read (one of `MEASURED`), and notes.
+
+    The columns are `line`, `group` and `drop`; the role of what was before the first bounce with
+    its value `start`; `number`, that of the bounce; `value`, and the errors `start_error` and
+    `error`, NaN where none is known; `digit`, the step in which it was read.
+    """
+    import pandas as pd
+
+    notes: list[str] = []
+    head, body = _headed(rows)
+    columns, words = _resolved(columns_of(head), body, notes)
+    numbers = {column.index: _numbers(column, columns, body) for column in columns}
+    for column in columns:
+        if column.role == "error" and column.number in numbers:
+            told = numbers[column.number]
+            errors = np.where(np.isnan(told.errors), numbers[column.index].values, told.errors)
+            numbers[column.number] = told._replace(errors=errors)
+    groups = [", ".join(filter(None, (_cell(cells, k) for k in words))) for _, cells in body]
+    lines = [line for line, _ in body]
+    counted = next((column for column in columns if column.role == "bounce_number"), None)
+    make = _by_drop if counted is None else _by_bounce
+    found, measured = make(columns, numbers, lines, groups, notes)
+    if not found:
+        raise InvalidValue("it has no row with all that is needed: " + _listed(columns))
+    readings = pd.DataFrame(found)
+    _check(readings, measured)
+    return readings, measured, notes
+
+
+def _headed(rows: Sequence[Row]) -> tuple[list[str], Sequence[Row]]:
+    """Return the headings and the rows below them; what stands above is a title."""
+    counts = [sum(bool(_NUMBER.fullmatch(cell)) for cell in cells) for _, cells in rows]
+    first = next((k for k, count in enumerate(counts) if count > 1), None)
+    if not first:
+        what = "no row with two numbers" if first is None else "no heading above its numbers"
+        raise InvalidValue(f"it has {what}: columns must have names, such as {_RIGHT}")
+    head = rows[first - 1][1]
+    if first > 1 and all(is_unit(cell) for cell in head if cell):
+        pairs = zip_longest(rows[first - 2][1], head, fillvalue="")
+        head = [f"{name} ({unit.strip('()[] ')})" if unit else name for name, unit in pairs]
+    return head, rows[first:]
+
+
+def _cell(cells: Sequence[str], index: int) -> str:
+    """Return the text of a cell; empty where nothing is known."""
+    text = cells[index] if index < len(cells) else ""
+    return "" if text.casefold() in MISSING else text
+
+
+def _resolved(
+    columns: Sequence[Column], body: Sequence[Row], notes: list[str]
+) -> tuple[list[Column], list[int]]:
+    """Return the columns that are used, and the places of those whose words are groups."""
+    used: list[Column] = []
+    words: list[int] = []
+    for column in columns:
+        cells = list(filter(None, (_cell(row, column.index) for _, row in body)))
+        numeric = 2 * sum(bool(_NUMBER.fullmatch(cell)) for cell in cells) > len(cells)
+        if column.role == "group" or (cells and not numeric and column.role != "error"):
+            if len(set(cells)) == len(cells) > 2 and column.role != "group":
+                notes.append(f"The words of column {column.text!r} differ in each row: not used.")
+            else:
+                words.append(column.index)
+        elif column.role not in ("", "reading"):
+            used.append(column)
+        elif cells and not column.role:
+            notes.append(f"Column {column.text!r} is not used: its name tells nothing known here.")
+    started = any(column.role in (*STARTS, "bounce_number") for column in used)
+    for k, column in enumerate(used):
+        generic = column.role == "height" and not started
+        if generic or (column.role == "bounces" and not column.number):
+            used[k] = replace(column, role="drop_height")
+        elif column.role in ("height", "bounces"):
+            used[k] = replace(column, role="rebound_height")
+        elif column.role == "readings":
+            of_heights = any(other.role == "drop_height" for other in used)
+            role = "rebound_height" if of_heights else "restitution"
+            used[k] = replace(column, role=role, number=0)
+        started = started or used[k].role == "drop_height"
+    return used, words
+
+
+class _Numbers(NamedTuple):
+    """The numbers of a column in SI, their errors, NaN if unknown, and the step of reading."""
+
+    values: Array
+    errors: Array
+    digit: float
+
+
+def _numbers(column: Column, columns: Sequence[Column], body: Sequence[Row]) -> _Numbers:
+    """Read the cells of a column."""
+    whose = next((c for c in columns if c.index == column.number), column)
+    of = whose if column.role == "error" else column
+    unit = UNITS[of.role]
+    cells = [_cell(row, column.index) for _, row in body]
+    texts = [
+        (cell, f"row {line}, {column.text}") for cell, (line, _) in zip(cells, body, strict=True)
+    ]
+    if decimal_comma(texts):
+        cells = [cell.replace(",", ".") for cell in cells]
+    written = column.unit or (of.unit if of is not column else "")
+    if not written and unit == "m":
+        written = _usual(columns, cells)
+    values, errors = np.full((2, len(cells)), math.nan)
+    for k, (cell, (_, where)) in enumerate(zip(cells, texts, strict=True)):
+        if cell:
+            number: Any = quantity_with_error(cell, unit, where, written)
+            values[k] = getattr(number, "nominal_value", number)
+            errors[k] = getattr(number, "std_dev", math.nan)
+    if column.error:
+        told = quantity_with_error(column.error, unit, column.text, written)
+        errors = np.where(np.isnan(errors), told, errors)
+    decimals = max(
+        (len(found[1]) for cell in cells if (found := _DECIMALS.search(cell))), default=0
+    )
+    one = quantity(f"1 {written}".strip(), unit, column.text)
+    return _Numbers(values, errors, _step(values, one * 10.0**-decimals))
+
+
+def _step(values: Array, digit: float) -> float:
+    """Return the step in which numbers were read: a unit of the last digit, or 5 or 10 of them."""
+    there = values[np.isfinite(values)] / digit
+    for count in (10.0, 5.0):
+        if len(there) >= _ENOUGH and np.all(np.abs(there - count * np.rint(there / count)) < 0.01):
+            return count * digit
+    return digit
+
+
+def _usual(columns: Sequence[Column], cells: Sequence[str]) -> str:
+    """Return the unit of heights without one: that of other heights, or by their size."""
+    others = [c.unit for c in columns if c.unit and UNITS.get(c.role) == "m"]
+    if others:
+        return others[0]
+    sizes = [float(found[0]) for cell in cells if (found := re.match(r"[\d.]+", cell))]
+    largest = max(sizes, default=0.0)
+    return next(unit for least, unit in _SIZES if largest >= least)
+
+
+_Found = tuple[list[dict[str, Any]], str]  # readings, and what was read
+
+
+def _by_drop(
+    columns: Sequence[Column],
+    numbers: dict[int, _Numbers],
+    lines: Sequence[int],
+    groups: Sequence[str],
+    notes: list[str],
+) -> _Found:
+    """Return the readings of a table with a drop in each row."""
+    starts = [column for column in columns if column.role in STARTS]
+    if not starts:
+        raise InvalidValue(f"no column is a drop height or an impact speed: {_listed(columns)}")
+    start = starts[0]
+    measured = next((column.role for column in columns if column.role in MEASURED), "")
+    if not measured:
+        raise InvalidValue(f"no column is what was measured after a bounce: {_listed(columns)}")
+    read = sorted((c for c in columns if c.role == measured), key=lambda column: column.number)
+    in_turn = _in_turn(read, numbers, start)
+    if len(read) > 1:
+        what = "those of bounces in turn" if in_turn else "repeated readings of one bounce"
+        notes.append(f"Columns {_names(read)} are taken as {what}, by their numbers.")
+    found: list[dict[str, Any]] = []
+    for k, line in enumerate(lines):
+        before = numbers[start.index]
+        there = [column for column in read if math.isfinite(numbers[column.index].values[k])]
+        if not there or not math.isfinite(before.values[k]):
+            lacks = start if there else read[0]
+            notes.append(f"Row {line} has no {lacks.text!r}: left out.")
+            continue
+        for number, column in enumerate(read if in_turn else there, 1):
+            if column not in there:
+                break  # the bounces after one that is missing have no fall that is known
+            own = numbers[column.index]
+            found.append(
+                {
+                    "line": line, "group": groups[k], "drop": k, "start_role": start.role,
+                    "start": before.values[k], "start_error": before.errors[k],
+                    "number": number if in_turn else 1,
+                    "value": own.values[k], "error": own.errors[k], "digit": own.digit,
+                }
+            )  # fmt: skip
+    return found, measured
+
+
+def _in_turn(read: Sequence[Column], numbers: dict[int, _Numbers], start: Column) -> bool:
+    """Return whether several columns of heights are those of bounces in turn, not readings of one.
+
+    Bounces in turn fall by about the same ratio each; readings are about equal.
+    """
+    if len(read) < 2 or read[0].role != "rebound_height":
+        return False
+    with np.errstate(all="ignore"):
+        heights = [np.log(numbers[column.index].values) for column in (start, *read[:2])]
+    first, second = (np.nanmedian(heights[k + 1] - heights[k]) for k in (0, 1))
+    return bool(second < _SUCCESSIVE * first)
+
+
+def _by_bounce(
+    columns: Sequence[Column],
+    numbers: dict[int, _Numbers],
+    lines: Sequence[int],
+    groups: Sequence[str],
+    notes: list[str],
+) -> _Found:
+    """Return the readings of a table with a bounce in each row, those of a drop in turn."""
+    counted = next(column for column in columns if column.role == "bounce_number")
+    heights = [column for column in columns if UNITS.get(column.role) == "m"]
+    heights = [column for column in heights if column.role != "diameter"]
+    if not heights:
+        raise InvalidValue(f"no column is a height: {_listed(columns)}")
+    own = numbers[heights[0].index]
+    found: list[dict[str, Any]] = []
+    drop, last, begin = -1, math.inf, 0
+    for k, number in enumerate(numbers[counted.index].values):
+        if not math.isfinite(number) or not math.isfinite(own.values[k]):
+            notes.append(f"Row {lines[k]} has no {heights[0].text!r}: left out.")
+            continue
+        if number != last + 1.0 or groups[k] != groups[begin]:
+            drop, begin = drop + 1, k
+        else:
+            found.append(
+                {
+                    "line": lines[k], "group": groups[k], "drop": drop, "start_role": "drop_height",
+                    "start": own.values[begin], "start_error": own.errors[begin],
+                    "number": round(number - numbers[counted.index].values[begin]),
+                    "value": own.values[k], "error": own.errors[k], "digit": own.digit,
+                }
+            )  # fmt: skip
+        last = number
+    return found, "rebound_height"
+
+
+def _names(columns: Sequence[Column]) -> str:
+    return ", ".join(repr(column.text) for column in columns)
+
+
+def _listed(columns: Sequence[Column]) -> str:
+    """Return the end of a message: what the columns are, and what is right."""
+    known = f"known are {_names(columns)}" if columns else "no name is known here"
+    return f"name them, such as {_RIGHT}; {known}"
+
+
+def _check(readings: "pd.DataFrame", measured: str) -> None:
+    """Refuse numbers that are not above 0, and a bounce that gains speed."""
+    for _, drop in readings.groupby("drop"):
+        before = float(drop.start.iloc[0])
+        for line, value in zip(drop.line, drop.value, strict=True):
+            if not (before > 0.0 and value > 0.0):
+                raise InvalidValue(
+                    f"row {line}: numbers must be above 0, got {before:.4g} and {value:.4g}"
+                )
+            most = 1.0 if measured == "restitution" else before
+            if value > most:
+                unit = UNITS[measured]
+                raise InvalidValue(
+                    f"row {line}: the {measured.replace('_', ' ')} is {with_unit(value, unit)} "
+                    f"after {with_unit(most, unit)}: one ball does not gain speed in a bounce; the "
+                    "columns may be exchanged, or it is the upper ball of a stack"
+                )
+            in_turn = measured == "rebound_height" and drop.number.max() > 1
+            before = value if in_turn else before
+
+
+def with_unit(value: float, unit: str) -> str:
+    """Return a number in a handy unit, with three digits.
+
+    Examples
+    --------
+    >>> with_unit(0.0053, "m")
+    '5.3 mm'
+    """
+    name, factor = handy(value, unit)
+    return f"{factor * value:.3g} {name}".strip()

@@ -1,0 +1,223 @@
+"""A table of bounces, as people type it -> data sets such as `series.make_series` takes."""
+
+import math
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from stackbounce.errors import InvalidValue, nearest, positive, shown
+from stackbounce.fitting.rows import rows_of
+from stackbounce.fitting.series.columns import UNITS, role_of
+from stackbounce.fitting.series.readings import MEASURED, STARTS, readings_of, with_unit
+from stackbounce.run.quantities import Array
+from stackbounce.units import quantity, unit_written
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+_SAME = 6  # digits in which the heights of repeated drops are equal
+_FAR = 6.0  # robust standard deviations: a reading that differs so much is named
+_ROBUST = 1.4826  # the standard deviation over the median deviation, of a normal distribution
+
+
+class Table(NamedTuple):
+    """What a table of bounces holds.
+
+    Parameters
+    ----------
+    name : str
+        Of the file.
+    groups : dict of str to xarray.Dataset
+        By what its columns of words say, or ``""``; as `stackbounce.datasets.load` returns them.
+    notes : tuple of str
+        What was assumed or left out, a sentence each.
+    """
+
+    name: str
+    groups: "dict[str, xr.Dataset]"
+    notes: tuple[str, ...]
+
+
+def read_table(
+    path: str | os.PathLike[str],
+    errors: Sequence[str] = (),
+    *,
+    mass: float | None = None,
+    diameter: float | None = None,
+) -> Table:
+    r"""Return what a table of bounces of one or several balls holds.
+
+    Parameters
+    ----------
+    path : str or path-like
+        A table with a heading, as `rows_of` reads it. One column has the height of the drop or the
+        impact speed; others have the height after the bounce, or after several bounces in turn, the
+        speed after it, or the restitution, with or without columns of their errors. Columns of
+        words are groups. Rows that are repeated are readings of the same thing.
+    errors : sequence of str, optional
+        The error of each number that was measured, such as ``"5 mm"``, or of a column by its name,
+        ``"drop height = 2 mm"``.
+    mass, diameter : float, optional
+        Of the ball, in kg and m: with both the drag of the air is corrected.
+
+    Returns
+    -------
+    Table
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read.
+    InvalidValue
+        If the columns do not tell what they hold, or a cell cannot be read; the message has row and
+        column.
+
+    Examples
+    --------
+    >>> path = getfixture("tmp_path") / "heights.csv"
+    >>> _ = path.write_text("drop height (cm),rebound height (cm)\n100,64\n100,66\n50,33\n")
+    >>> read_table(path).groups[""].rebound_height.values
+    array([[0.33,  nan],
+           [0.64, 0.66]])
+    """
+    name, rows = rows_of(path)
+    try:
+        told = _told(errors)
+        known = {
+            key: positive(key, value, unit)
+            for key, value, unit in (("mass", mass, "kg"), ("diameter", diameter, "m"))
+            if value is not None
+        }
+        readings, measured, notes = readings_of(rows)
+        groups: dict[str, xr.Dataset] = {}
+        for group, own in readings.groupby("group", sort=False):
+            data = _dataset(own, measured, told, notes)
+            title = str(group) or Path(name).name
+            groups[str(group)] = data.assign_attrs(name=title, title=title, ball=title, **known)
+    except InvalidValue as error:
+        raise type(error)(f"{name}: {error}") from error
+    return Table(Path(name).name, groups, tuple(dict.fromkeys(notes)))
+
+
+def _told(errors: Sequence[str]) -> dict[str, float]:
+    """Return the errors that are told beside the table, by role; ``""`` is what was measured."""
+    found: dict[str, float] = {}
+    for text in errors:
+        name, _, value = (part.strip() for part in text.rpartition("="))
+        role = role_of(name) if name else ""
+        if name and not role:
+            known = [key.replace("_", " ") for key in (*STARTS, *MEASURED)]
+            hint = nearest(name, known)
+            raise InvalidValue(f"--error must name a column, got {shown(name)}; {hint}")
+        written = unit_written(value)
+        unit = UNITS[role] if role else "" if not written else "m/s" if "/" in written else "m"
+        found[role] = positive("--error", quantity(value, unit, "--error"), unit)
+    return found
+
+
+def _dataset(
+    readings: "pd.DataFrame", measured: str, told: dict[str, float], notes: list[str]
+) -> "xr.Dataset":
+    """Return the readings of a group as a data set, those of the same thing in one row."""
+    import xarray as xr
+
+    start = str(readings.start_role.iloc[0])
+    readings = readings.assign(
+        error=readings.error.fillna(told.get(measured, told.get("", math.nan))),
+        start_error=readings.start_error.fillna(told.get(start, math.nan)),
+    )
+    some = readings.error.notna()
+    if some.any() and not some.all():
+        line = readings.line[~some].iloc[0]
+        raise InvalidValue(
+            f"row {line} has no error of the {measured.replace('_', ' ')}; others do"
+        )
+    digit = float(readings.digit.max())
+    merged = _repeated(readings) if not some.any() else None
+    scatter = 0.0 if merged is None else _pooled(merged)
+    if merged is None or scatter < digit / math.sqrt(12.0):  # equal as far as the digits tell
+        rows = readings.sort_values(["start", "drop", "number"])
+        values, dims = rows.value.to_numpy(), ["row"]
+    else:
+        rows, values, dims = merged, np.array(merged.values_read.tolist()), ["row", "reading"]
+    unit = UNITS[measured]
+    data: dict[str, Any] = {
+        start: ("row", rows.start.to_numpy()),
+        measured: (dims, values, {"units": unit or "1"}),
+    }
+    if rows.number.max() > 1:
+        data["drop"] = "row", rows["drop"].to_numpy(float)
+    if rows.start_error.notna().all():
+        data[f"{start}_error"] = "row", rows.start_error.to_numpy()
+    else:
+        what = start.replace("_", " ")
+        notes.append(f"The {what}s are taken as exact: --error '{what}=…' tells their error.")
+    if some.any():
+        data[f"{measured}_error"] = "row", rows.error.to_numpy()
+    elif values.ndim == 2:
+        notes.append(_said_of_scatter(readings, values, scatter, measured))
+    else:
+        half = 0.5 * digit
+        data[measured][2]["assumed_error"] = half
+        notes.append(
+            "No error is told and no reading repeated: the error of a "
+            f"{measured.replace('_', ' ')} is half of the step in which it was written, "
+            f"{with_unit(half, unit)}; --error tells another."
+        )
+    return xr.Dataset(data)
+
+
+def _repeated(readings: "pd.DataFrame") -> "pd.DataFrame | None":
+    """Return a row for each height and bounce with all readings, padded; None if none repeats."""
+    import pandas as pd
+
+    alike = readings.start.map(lambda start: float(f"{start:.{_SAME}g}"))
+    found = readings.groupby([alike, "number"], sort=True)
+    most = int(found.size().max())
+    if most < 2:
+        return None
+    rows = []
+    for (same, number), own in found:
+        read = [*own.value, *[math.nan] * (most - len(own))]
+        rows.append(
+            {"start": own.start.mean(), "drop": same, "number": number, "values_read": read}
+            | {"start_error": own.start_error.mean()}
+        )
+    return pd.DataFrame(rows)
+
+
+def _pooled(merged: "pd.DataFrame") -> float:
+    """Return the standard deviation of repeated readings about their means, all rows together."""
+    values = np.array(merged.values_read.tolist())
+    apart = values - np.nanmean(values, axis=1, keepdims=True)
+    freedom = np.isfinite(values).sum() - len(values)
+    return math.sqrt(float(np.nansum(apart**2)) / freedom)
+
+
+def _said_of_scatter(readings: "pd.DataFrame", values: Array, scatter: float, measured: str) -> str:
+    """Return where errors come from, and which readings are far from the others."""
+    freedom = int(np.isfinite(values).sum() - len(values))
+    what, unit = measured.replace("_", " "), UNITS[measured]
+    of = f" of {readings.group.iloc[0]}" if readings.group.iloc[0] else ""
+    said = (
+        f"The error of one {what}{of} is the scatter of repeated readings, "
+        f"{with_unit(scatter, unit)}, with {freedom} degrees of freedom."
+    )
+    apart = np.abs(values - np.nanmedian(values, axis=1, keepdims=True))
+    counts = np.isfinite(values).sum(axis=1, keepdims=True)
+    usual = (
+        _ROBUST * float(np.nanmedian(np.where(counts > 2, apart, math.nan)))
+        if (counts > 2).any()
+        else 0.0
+    )
+    for row, column in zip(*np.nonzero((apart > _FAR * usual) & (counts > 2)), strict=True):
+        if usual > 0.0:
+            line = readings.line[np.isclose(readings.value, values[row, column], rtol=1e-12)].iloc[
+                0
+            ]
+            said += f" Row {line} is far from the other readings of its height: it is kept."
+    return said

@@ -1,0 +1,245 @@
+"""Tables of bounces as people type them: columns, errors, groups, and what is refused."""
+
+import json
+
+import numpy as np
+import pytest
+
+from stackbounce.cli import main
+from stackbounce.errors import FileError, InvalidValue
+from stackbounce.fitting.series import fit_series, read_table
+from stackbounce.fitting.series.family import Family
+from stackbounce.fitting.series.series import make_series
+from stackbounce.model import LAWS
+from stackbounce.model.drop import STANDARD_GRAVITY
+
+
+@pytest.fixture
+def table(tmp_path):
+    """Return a function that writes a table and reads it again."""
+
+    def read(text, *errors, name="heights.csv"):
+        (tmp_path / name).write_text(text, "utf-8")
+        return read_table(tmp_path / name, errors)
+
+    return read
+
+
+def speeds(*heights):
+    return pytest.approx(np.sqrt(2.0 * STANDARD_GRAVITY * np.array(heights)), rel=1e-12)
+
+
+PAIRS = (  # heights of 1 m and 0.5 m, rebounds of 0.64 m and 0.33 m, in the ways of strangers
+    "drop height (cm),rebound height (cm)\n100,64\n50,33\n",
+    "Fallhöhe (cm);Rücksprunghöhe (cm)\n100,0;64,0\n50,0;33,0\n",
+    "Versuch vom 3. Mai\n\nFallhöhe;Sprunghöhe\n(m);(m)\n1,00;0,64\n0,50;0,33\n",
+    "hauteur de chute (m)\thauteur de rebond (m)\n1,00\t0,64\n0,50\t0,33\n",
+    "altura de caída;altura de rebote\n1 m;64 cm\n50 cm;330 mm\n",
+    "rebound_height_cm,drop_height_cm,trial\n64,100,1\n33,50,2\n",
+    "h0,h1\n1.00,0.64\n0.50,0.33\n",
+    "Height [mm],Height of bounce [mm],temperature\n1000,640,21\n500,330,21\n",
+    "drop height (cm),Average rebound height (cm)\n100,64\n,20\n50,33\n50,-\n",
+)
+
+
+@pytest.mark.parametrize("text", PAIRS)
+def test_two_columns_of_heights_in_many_forms(table, text):
+    series = make_series(table(text).groups[""])
+    order = np.argsort(-series.speeds)
+    assert series.speeds[order] == speeds(1.0, 0.5)
+    assert series.values[order] == pytest.approx([0.8, 0.66**0.5], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "v (m/s),e\n2,0.80\n3,0.75\n",
+        "impact speed (m/s);COR\n2;0,80\n3;0,75\n",
+        "v_in,v_out\n2,1.60\n3,2.25\n",
+    ],
+)
+def test_speeds_and_restitutions(table, text):
+    series = make_series(table(text).groups[""])
+    assert series.speeds == pytest.approx([2.0, 3.0])
+    assert series.values == pytest.approx([0.8, 0.75])
+    assert not series.from_heights
+
+
+IN_TURN = (
+    "drop height (cm),bounce 1,bounce 2\n100,64,41\n50,33,22\n",
+    "bounce,height (cm)\n0,100\n1,64\n2,41\n0,50\n1,33\n2,22\n",
+)
+
+
+@pytest.mark.parametrize("text", IN_TURN)
+def test_bounces_in_turn_fall_from_where_the_one_before_rose_to(table, text):
+    read = table(text)
+    series = make_series(read.groups[""])
+    order = np.argsort(-series.speeds)
+    assert series.speeds[order] == speeds(1.0, 0.64, 0.5, 0.33)
+    assert (series.values[order] ** 2) == pytest.approx([0.64, 41 / 64, 0.66, 22 / 33], rel=1e-12)
+    covariance = series.covariance()[np.ix_(order, order)]
+    assert covariance[0, 1] < 0.0 == covariance[0, 2]  # neighbours share a height
+
+
+def test_numbered_columns_of_equal_heights_are_readings(table):
+    read = table("drop height (cm),rebound 1 (cm),rebound 2 (cm)\n100,64,66\n50,33,32\n25,17,\n")
+    series = make_series(read.groups[""])
+    assert series.values**2 == pytest.approx([17 / 25, 0.65, 0.65], rel=1e-9)
+    scatter = (((64 - 66) ** 2 + (33 - 32) ** 2) / 2 / 2) ** 0.5 / 100  # m, pooled by hand
+    slope = 0.5 / (series.values * [0.25, 0.5, 1.0])
+    errors = np.sqrt(series.covariance().diagonal())
+    assert errors == pytest.approx(slope * scatter / np.sqrt([1, 2, 2]), rel=1e-6)
+    assert series.freedom() < 3.0
+    assert "'rebound 1 (cm)', 'rebound 2 (cm)' are taken as repeated readings" in read.notes[0]
+
+
+def test_words_are_groups_and_remarks_are_not(table):
+    text = (
+        "ball,drop height (cm),rebound (cm),remark\ngolf,100,70,a\ngolf,50,36,b\ntennis,100,53,c\n"
+    )
+    read = table(text)
+    assert list(read.groups) == ["golf", "tennis"]
+    assert "The words of column 'remark' differ in each row: not used." in read.notes
+
+
+ERRORS = (  # one error of 1 cm at heights of 100 and 50 cm, told in many ways
+    "drop height (cm),rebound (cm),error\n100,64,1\n50,33,1\n",
+    "drop height (cm),rebound (cm),± (mm)\n100,64,10\n50,33,10\n",
+    "drop height (cm),rebound height (cm),rebound_height_error_cm\n100,64,1\n50,33,1\n",
+    "drop height (cm),rebound (± 1 cm)\n100,64\n50,33 cm\n",
+    "drop height (cm),rebound (cm ± 1)\n100,64\n50,33\n",
+    "drop height (cm),rebound (cm)\n100,64 ± 1\n50,33(1)\n",
+)
+
+
+@pytest.mark.parametrize("text", ERRORS)
+def test_errors_stand_in_columns_cells_or_headings(table, text):
+    series = make_series(table(text).groups[""])
+    expected = 0.01 * 0.5 / (series.values * [0.5, 1.0])
+    order = np.argsort(series.speeds)
+    assert np.sqrt(series.covariance().diagonal())[order] == pytest.approx(
+        np.sort(expected)[::-1], rel=1e-6
+    )
+    assert series.freedom() == np.inf
+    assert not series.has_assumed_errors
+
+
+def test_an_error_told_beside_the_table_and_half_a_digit_without(table):
+    text = "drop height (cm),rebound (cm)\n100,64.5\n50,33\n"
+    told = make_series(table(text, "5 mm", "drop height = 2 mm").groups[""])
+    fall, rise = np.array([0.5, 1.0]), np.array([0.33, 0.645])
+    variance = 0.25 * told.values**2 * ((0.005 / rise) ** 2 + (0.002 / fall) ** 2)
+    assert told.covariance().diagonal() == pytest.approx(variance, rel=1e-6)
+    read = table(text)
+    series = make_series(read.groups[""])
+    assert np.sqrt(series.assumed.diagonal()) == pytest.approx(
+        0.0005 * 0.5 / series.values / [0.5, 1.0], rel=1e-6
+    )
+    assert "half of the step in which it was written, 0.5 mm" in read.notes[-1]
+
+
+def test_a_reading_far_from_the_others_is_named_and_kept(table):
+    rows = [(100, 64.0), (100, 64.4), (100, 46.1), (100, 64.2), (50, 33.0), (50, 33.3), (50, 33.1)]
+    read = table("drop height (cm),rebound (cm)\n" + "".join(f"{h},{r}\n" for h, r in rows))
+    assert "Row 4 is far from the other readings of its height" in read.notes[-1]
+    assert np.nanmean(read.groups[""].rebound_height.values[1]) == pytest.approx(0.59675)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("temperature,pressure\n20,1.1\n30,1.2\n", "no column is a drop height or an impact speed"),
+        ("100,64\n50,33\n", "it has no heading above its numbers"),
+        ("drop height (cm)\nhigh\n", "it has no row with two numbers"),
+        ("drop height (cm),mass (g)\n100,57\n", "no column is what was measured after a bounce"),
+        (
+            "drop height (cm),rebound (cm)\n64,100\n",
+            "row 2: the rebound height is 1 m after 0.64",
+        ),
+        ("v (m/s),e\n1,1.2\n", "row 2: the restitution is 1.2 after 1"),
+        ("drop height (cm),rebound (cm)\n-5,3\n", "row 2: numbers must be above 0, got -0.05"),
+        ("drop height (cm),rebound (cm)\n50,33\n100,64 kg\n", "row 3, rebound (cm) must be"),
+        ("drop height (kg),rebound (cm)\n100,64\n50,33\n", "no column is a drop height"),
+        ("h0 (cm),h1 (cm),error\n100,64,1\n50,33,\n", "row 3 has no error of the rebound height"),
+    ],
+)
+def test_what_is_wrong_is_said_with_row_and_column(table, text, message):
+    with pytest.raises(InvalidValue) as refused:
+        table(text)
+    assert message in str(refused.value)
+    assert str(refused.value).count("\n") == 0
+
+
+def test_a_missing_file_and_a_wrong_error(tmp_path, table):
+    with pytest.raises(FileError, match="cannot be read"):
+        read_table(tmp_path / "no.csv")
+    with pytest.raises(InvalidValue, match="--error must name a column, got 'width'"):
+        table(PAIRS[0], "width = 2 mm")
+
+
+def made(generator, law, path):
+    """Write a table of rounded heights, some of them repeated; return the true restitution."""
+    value, count = generator.uniform(0.5, 0.9), int(generator.integers(2, 6))
+    heights = np.sort(generator.choice(np.arange(20, 210, 10), count, replace=False))
+    falls = np.sqrt(2.0 * STANDARD_GRAVITY * heights / 100.0)
+    ratios = Family(LAWS[law], float(falls.max())).at(value, falls)
+    scatter, step = generator.uniform(0.2, 1.5), generator.choice([0.1, 0.5, 1.0])
+    rows = generator.integers(count, size=int(generator.integers(max(5, count + 1), 13)) - count)
+    lines = ["Fallhöhe (cm);Sprunghöhe (cm)"]
+    for k in generator.permutation([*range(count), *rows]):
+        rise = ratios[k] ** 2 * heights[k] + scatter * generator.standard_normal()
+        lines.append(f"{heights[k]};{step * round(rise / step):.1f}".replace(".", ","))
+    path.write_text("\n".join(lines), "utf-8")
+    return value
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("law", ["Rigid", "Viscoelastic"])
+def test_intervals_of_300_made_tables_hold_the_truth_and_p_refutes_as_often_as_it_says(
+    law, tmp_path
+):
+    """5 to 12 rows, some heights repeated, read to 1 mm, 5 mm or 1 cm."""
+    generator, path = np.random.default_rng(1), tmp_path / "made.csv"
+    inside, chances = [], []
+    for _ in range(300):
+        truth = made(generator, law, path)
+        (found,) = fit_series(path, laws=[law]).comparisons
+        limits = [found.outcomes[0].interval(level) for level in (0.6827, 0.9545)]
+        inside.append([low <= truth <= high for low, high in limits])
+        chances.append(found.outcomes[0].p)
+    one, two = np.mean(inside, axis=0)
+    assert 0.63 <= one <= 0.73
+    assert 0.93 <= two <= 0.97
+    assert 0.02 <= np.mean(np.array(chances) < 0.05) <= 0.08
+
+
+def test_the_command_prints_draws_and_writes_a_page(tmp_path, capsys):
+    path, plot, page = tmp_path / "heights.csv", tmp_path / "laws.svg", tmp_path / "page"
+    rows = [(150, 79.1), (150, 78.3), (100, 54.0), (100, 53.2), (50, 27.6), (50, 27.4)]
+    path.write_text("drop height (cm),rebound (cm)\n" + "".join(f"{h},{r}\n" for h, r in rows))
+    command = ["fit", str(path), "--compare", "--plot", str(plot), "--out", str(page)]
+    assert main(command) == 0
+    told = capsys.readouterr().out
+    assert "3 restitutions from 3.13 to 5.42 m/s" in told
+    assert "The error of one rebound height is the scatter of repeated readings, 470 µm" not in told
+    assert "with 3 degrees of freedom" in " ".join(told.split())
+    assert plot.read_bytes().startswith(b"<?xml")
+    assert "Viscoelastic" in (page / "index.html").read_text("utf-8")
+    assert main(["fit", str(path), "--contact", "viscoelastic", "--json"]) == 0
+    (series,) = json.loads(capsys.readouterr().out)["series"]
+    assert [law["law"] for law in series["laws"]] == ["Viscoelastic"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["heights.csv", "--vary", "gaps.0"], "--vary is of a drop; heights.csv is a table"),
+        (["basketball", "--error", "5mm"], "--error is of a table of bounces"),
+        (["dataset:golf", "--compare"], "name must be that of a dataset, got 'golf'"),
+        (["dataset:golf-marble-heights", "--error", "1mm"], "has errors, mass and diameter of its"),
+    ],
+)
+def test_options_that_do_not_belong_are_refused(arguments, message, capsys):
+    assert main(["fit", *arguments]) == 2
+    assert message in " ".join(capsys.readouterr().err.split())
