@@ -37,9 +37,7 @@ class Validation(SphinxDirective):
         head = [f"| {' | '.join(names)} |", "|" + "---|" * len(names)]
         done = fit_series("dataset:all")
         rows = [row(one) for one in done.comparisons]
-        lines = StringList(
-            [*head, *rows, "", done.summary], source="stackbounce.fitting.series"
-        )
+        lines = StringList([*head, *rows, "", done.summary], source="stackbounce.fitting.series")
         holder = Element()
         self.state.nested_parse(lines, self.content_offset, holder)
         return holder.children

@@ -7,6 +7,7 @@ from stackbounce import plots
 from stackbounce.cross2007.datasets import load_dataset
 from stackbounce.fitting import read_drops
 from stackbounce.fitting.files import read_force_record
+from stackbounce.fitting.series import fit_series
 
 BASKETBALL, TENNIS = sb.Ball(0.150, name="basketball"), sb.Ball(0.057, name="tennis")
 
@@ -16,6 +17,12 @@ def _two():
     drop = sb.Drop([BASKETBALL, TENNIS], contacts, height=1.0, gravity=9.81)
     vary = {"contacts.1.stiffness": (500.0, 2000.0), "gaps.0": (0.0, 0.01)}
     return sb.fit(*read_drops(drop, DOCS / "fit" / "drops.csv"), vary)
+
+
+def heights():
+    """A table of two balls."""
+    found = fit_series(DOCS / "fit" / "heights.csv", errors=["drop height = 5 mm"])
+    show(plots.restitutions, found)
 
 
 def force():

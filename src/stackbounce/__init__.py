@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from stackbounce.fitting import compare as compare
     from stackbounce.fitting import fit as fit
     from stackbounce.fitting import standard_models as standard_models
+    from stackbounce.fitting.series import fit_series as fit_series
     from stackbounce.measure import read as read
     from stackbounce.model import Air as Air
     from stackbounce.model import Ball as Ball
@@ -52,6 +53,7 @@ if TYPE_CHECKING:
 _ROOMS = {
     "errors": "StackbounceError",
     "fitting": "Fit Model Range compare fit standard_models",
+    "fitting.series": "fit_series",
     "measure": "read",
     "model": "Air Ball Bond Dashpot Drop Hertz HollowBall HuntCrossley Hysteretic PowerLaw Rigid "
     "RigidBySpeed RigidLossBySpeed Spring StandardLinearSolid Tabulated Viscoelastic series",

@@ -214,6 +214,17 @@ def test_intervals_of_300_made_tables_hold_the_truth_and_p_refutes_as_often_as_i
     assert 0.02 <= np.mean(np.array(chances) < 0.05) <= 0.08
 
 
+def test_a_fit_shows_itself_as_text_and_as_html(tmp_path):
+    (tmp_path / "heights.csv").write_text(PAIRS[0])
+    found = fit_series(tmp_path / "heights.csv", laws=["Rigid"], errors=["5 mm"])
+    assert "heights.csv Rigid" in " ".join(repr(found).split())
+    assert "The drop heights are taken as exact" in repr(found)
+    assert "<th>Rigid</th>" in found._repr_html_()
+    row = found.table.loc[("heights.csv", "Rigid")]
+    assert row["from"] < row["restitution"] < row["to"] < 0.82
+    assert row["degrees"] == 1
+
+
 def test_the_command_prints_draws_and_writes_a_page(tmp_path, capsys):
     path, plot, page = tmp_path / "heights.csv", tmp_path / "laws.svg", tmp_path / "page"
     rows = [(150, 79.1), (150, 78.3), (100, 54.0), (100, 53.2), (50, 27.6), (50, 27.4)]

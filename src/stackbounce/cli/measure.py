@@ -8,7 +8,7 @@ from typing import Any
 import typer
 
 from stackbounce.cli import output
-from stackbounce.errors import InvalidValue
+from stackbounce.errors import InvalidValue, StackbounceError
 from stackbounce.extras import need
 from stackbounce.measure.messages import OptionHint
 from stackbounce.measure.options import OPTIONS
@@ -39,7 +39,16 @@ def run(
     known = read_options(given, lambda option: option.on_command_line)
     if save is not None and "mass" not in known:
         raise InvalidValue("--save needs the mass of the ball, such as --mass 57g")
-    done = [measure_file(path, known, _wording) for path in files] + measure_numbers(known)
+    try:
+        done = [measure_file(path, known, _wording) for path in files] + measure_numbers(known)
+    except StackbounceError as error:
+        table = next(filter(_has_bounces, files), None)
+        if table is None:
+            raise
+        raise InvalidValue(
+            f"{table} is a table of bounces from several heights or at several speeds: "
+            f"stackbounce fit {shlex.quote(str(table))} fits it"
+        ) from error
     if not done:
         raise InvalidValue("measure needs a file, --heights, --contact-time or --restitution")
     law = law_of(known, done) if "law" in known else None
@@ -53,6 +62,17 @@ def run(
     if save is not None:
         typer.echo(f"Ball: {save}; now: stackbounce simulate {save}")
     output.print_files(plot)
+
+
+def _has_bounces(path: Path) -> bool:
+    """Return whether a file is a table for `stackbounce fit`."""
+    try:
+        from stackbounce.fitting.series import read_table
+
+        read_table(path)
+    except StackbounceError:
+        return False
+    return True
 
 
 def _wording(hint: OptionHint) -> str:

@@ -1,5 +1,6 @@
 """``stackbounce fit`` of a table of bounces or of a published data set."""
 
+import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -8,7 +9,7 @@ import typer
 
 from stackbounce.cli import output
 from stackbounce.cli.tables import new_table
-from stackbounce.errors import InvalidValue
+from stackbounce.errors import FileError, InvalidValue, StackbounceError, a_or_an
 from stackbounce.model.laws import LAWS
 from stackbounce.units import quantity
 
@@ -34,8 +35,10 @@ def is_series(what: Sequence[str]) -> bool:
     >>> is_series(["heights.csv"]), is_series(["dataset:all"]), is_series(["basketball", "tennis"])
     (True, True, False)
     """
-    name = what[0].lower()
-    return len(what) == 1 and (name.startswith(PREFIX) or Path(name).suffix in _TABLES)
+    path = Path(what[0])
+    suffix = path.suffix.lower()
+    named = what[0].startswith(PREFIX) or suffix in _TABLES
+    return len(what) == 1 and (named or (suffix != ".toml" and path.is_file()))
 
 
 def fit_series(
@@ -53,14 +56,23 @@ def fit_series(
         None if given[name] is None else quantity(given[name], unit, f"--{name}")
         for name, unit in (("mass", "kg"), ("diameter", "m"))
     )
-    done = series.fit_series(
-        what,
-        laws=tuple(LAWS) if given["compare"] else given["contact"] or [_ALONE],
-        errors=given["error"] or (),
-        mass=mass,
-        diameter=diameter,
-        progress=_progress if what == f"{PREFIX}all" else lambda _: None,
-    )
+    try:
+        done = series.fit_series(
+            what,
+            laws=tuple(LAWS) if given["compare"] else given["contact"] or [_ALONE],
+            errors=given["error"] or (),
+            mass=mass,
+            diameter=diameter,
+            progress=_progress if what == f"{PREFIX}all" else lambda _: None,
+        )
+    except (FileError, InvalidValue) as error:
+        held = _held(what)
+        if not held:
+            raise
+        raise InvalidValue(
+            f"{what} holds {a_or_an(held)}, no table of bounces: stackbounce measure "
+            f"{shlex.quote(what)} analyses it"
+        ) from error
     output.draw_picture(plot, overwrite, "restitutions", done)
     if given["out"]:
         series.write(done, Path(given["out"]))
@@ -71,6 +83,17 @@ def fit_series(
     output.print_files(plot)
     if given["out"]:
         typer.echo(f"Open {Path(given['out']) / 'index.html'}")
+
+
+def _held(file: str) -> str:
+    """Return which kind of measurement a file holds, if `measure` knows it by itself."""
+    from stackbounce.measure import read
+
+    try:
+        held = str(read(file).attrs["holds"])
+    except StackbounceError:
+        return ""
+    return "" if held == "table" else held
 
 
 def _progress(line: str) -> None:

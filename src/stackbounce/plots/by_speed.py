@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from stackbounce.errors import InvalidValue
 from stackbounce.plots.style import COLORS, two_panels, written
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ def restitutions(fit: Any, axes: "Axes | Sequence[Axes] | None" = None) -> "Figu
 
     Raises
     ------
-    ValueError
+    InvalidValue
         If no ball has restitutions at several speeds.
 
     Examples
@@ -52,7 +53,7 @@ def restitutions(fit: Any, axes: "Axes | Sequence[Axes] | None" = None) -> "Figu
     ['restitution', 'less the best law']
     """
     if not fit.comparisons:
-        raise ValueError("nothing is to be drawn: no ball has restitutions at several speeds")
+        raise InvalidValue("nothing is to be drawn: no ball has restitutions at several speeds")
     if axes is not None:
         above, *others = np.atleast_1d(np.asarray(axes, dtype=object)).tolist()
         _draw(above, others[0] if others else None, fit.comparisons)

@@ -99,7 +99,7 @@ def _resolved(
                 notes.append(f"The words of column {column.text!r} differ in each row: not used.")
             else:
                 words.append(column.index)
-        elif column.role not in ("", "reading"):
+        elif column.role not in ("", "reading") and column.number >= 0:
             used.append(column)
         elif cells and not column.role:
             notes.append(f"Column {column.text!r} is not used: its name tells nothing known here.")
@@ -195,7 +195,7 @@ def _by_drop(
         raise InvalidValue(f"no column is what was measured after a bounce: {_listed(columns)}")
     read = sorted((c for c in columns if c.role == measured), key=lambda column: column.number)
     in_turn = _in_turn(read, numbers, start)
-    if len(read) > 1:
+    if len(read) > 1 and read[0].number:  # no heading says which
         what = "those of bounces in turn" if in_turn else "repeated readings of one bounce"
         notes.append(f"Columns {_names(read)} are taken as {what}, by their numbers.")
     found: list[dict[str, Any]] = []

@@ -30,6 +30,7 @@ from stackbounce.model.laws import LAWS, law_named
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray as xr
 
 PREFIX = "dataset:"
@@ -45,7 +46,7 @@ _OF_SERIES = ("name", "title", "ball", "drag", "speeds", "values")
 _OF_COMPARISON = ("skipped", "tells_apart", "steady", "summary")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SeriesFit:
     """What restitutions at several speeds say of the contact laws; made by `fit_series`.
 
@@ -74,6 +75,31 @@ class SeriesFit:
             f"were true, chance alone would refute {REFUTED_BELOW * verdicts:.1f} of them. {shaky} "
             "of the series are not steady: half or twice the assumed errors change a verdict."
         )
+
+    @property
+    def table(self) -> "pd.DataFrame":
+        """The laws of each ball, the best first: restitution at the highest speed, χ², p."""
+        import pandas as pd
+
+        rows = [
+            {
+                "ball": found.series.title, "speed (m/s)": found.series.speeds.max(),
+                "law": ", ".join(law.laws), "restitution": law.value,
+                "from": law.interval()[0], "to": law.interval()[1],
+                "χ²": law.chi_squared, "degrees": law.freedom, "p": law.p, "verdict": law.verdict,
+            }
+            for found in self.comparisons
+            for law in found.outcomes
+        ]  # fmt: skip
+        return pd.DataFrame(rows).set_index(["ball", "law"]) if rows else pd.DataFrame()
+
+    def __repr__(self) -> str:
+        """The table and the notes, as text."""
+        return "\n".join([self.table.to_string(float_format="{:.4g}".format), *self.notes])
+
+    def _repr_html_(self) -> str:
+        """The table, for a notebook."""
+        return str(self.table.to_html(float_format="{:.4g}".format))
 
     def as_dict(self) -> dict[str, Any]:
         """Return everything as plain values, for JSON."""
