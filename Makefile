@@ -59,7 +59,7 @@ lowest: kernels  ## the fast tests with the lowest versions of all dependencies 
 	  --requirement build/lowest/requirements.txt
 	@PYTHONPATH=$(CURDIR)/src build/lowest/$(OF_LOWEST)
 
-coverage: $(DEV) kernels  ## hold all error bars to their claim (make check: some of them); half an hour
+coverage: $(DEV) kernels  ## hold all error bars and comparisons to their claim (make check: some of them); an hour
 	@STACKBOUNCE_COVERAGE=all $(PYTEST) tests/*/test_coverage_*.py
 
 browsers: $(DEV) kernels  ## before a release: all tests of the page in Chromium and in Firefox, served and as one file; ten minutes

@@ -24,12 +24,15 @@ def test_the_usual_models_side_by_side(printed, tmp_path):
     assert 0 < lines.index("Rigid, one for each contact") < lines.index("Spring")
     # three numbers were measured: the lossy ones, which have four, cannot be fitted
     assert "Not fitted: HuntCrossley: vary has 4 numbers for 3 measured numbers" in out
+    assert "as long as yours at 1.981 m/s, the geometric mean" in " ".join(out.split())
     assert picture.read_text(encoding="utf-8").startswith("<?xml")
 
 
 def test_a_comparison_for_machines(told):
     found = told("fit", "cross2007/B1", "--compare")
+    assert found["calibration_speed"] == pytest.approx((2.0 * 9.80665 * 0.2) ** 0.5, rel=1e-9)
     best = found["scores"][0]
     assert best["chi_squared"] < 1e-9
+    assert (best["model"], best["same_as"][:1]) == ("Hysteretic", ["Hysteretic, Hertz loading"])
     left_out = {row["name"] for row in found["left_out"][best["model"]]}
     assert left_out == {"durations.0", "rebound_ratios.0"}

@@ -7,6 +7,7 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.fitting.standard import calibration_speed
 
 BALLS = [sb.Ball(0.150), sb.Ball(0.057)]
 SPRINGS = [sb.Spring(2500.0), sb.Spring(1000.0)]
@@ -84,15 +85,75 @@ def test_a_model_with_more_numbers_than_data_is_refused_by_name():
         sb.compare(usual, {"rebound_ratios.0": "0.2 ± 0.02"})
 
 
-def test_usual_models_last_as_long_as_the_given_contacts():
-    drop = sb.Drop(BALLS, SPRINGS, impact_speed=3.0)
+def at_speeds(balls, contacts, speeds):
+    return {f"at_{speed}": sb.Drop(balls, contacts, impact_speed=float(speed)) for speed in speeds}
+
+
+def test_usual_models_last_as_long_as_the_given_contacts_at_the_mean_speed():
+    drops = at_speeds(BALLS, SPRINGS, (1, 3, 9))
+    assert calibration_speed(drops) == pytest.approx(3.0)
     masses = [0.150, (0.150, 0.057)]  # in each contact
-    for model in sb.standard_models(drop).values():
-        if model.drop.rigid:
-            continue
-        for law, spring, mass in zip(model.drop.contacts, SPRINGS, masses, strict=True):
+    for model in sb.standard_models(drops).values():
+        (contacts,) = {drop.contacts for drop in model.drops.values()}  # the same in all drops
+        for law, spring, mass in zip(contacts, SPRINGS, masses, strict=True):
+            if law.rigid:
+                continue
             wanted = sb.contact_time(spring, mass)
             assert sb.contact_time(law, mass, 3.0) == pytest.approx(wanted, rel=1e-6)
+
+
+def test_drops_of_other_stacks_have_no_usual_models_together():
+    both, alone = (sb.Drop(BALLS[:n], SPRINGS[:n], impact_speed=3.0) for n in (2, 1))
+    models = sb.standard_models({"alone": alone, "both": both})
+    contacts = {key: drop.contacts for key, drop in models["Spring"].drops.items()}
+    assert contacts["alone"] == contacts["both"][:1]
+    assert list(models["Spring"].vary) == ["contacts.1.stiffness", "gaps.0"]
+    for changed in ({"balls": BALLS[::-1]}, {"contacts": SPRINGS[::-1]}):
+        other = replace(both, **changed)
+        with pytest.raises(InvalidValue, match="other has another mass or contact at place 0"):
+            sb.standard_models({"both": both, "other": other})
+
+
+def test_a_model_with_nothing_to_vary_is_left_out():
+    drops = at_speeds(BALLS[:1], SPRINGS[:1], (1, 3))
+    assert {"Spring", "Hertz", "Viscoelastic"} <= set(sb.standard_models(drops, times=True))
+    models = sb.standard_models(drops)
+    assert {"Spring", "Hertz"}.isdisjoint(models)
+    assert all(model.vary for model in models.values())
+
+
+def test_models_that_are_not_told_apart_share_a_row_and_a_weight():
+    drops = at_speeds(BALLS[:1], SPRINGS[:1], (1, 2, 3, 4))
+    data = {key: {"rebound_ratios.0": (0.8, 0.01)} for key in drops}
+    usual = sb.standard_models(drops)
+    some = ("Hysteretic", "HuntCrossley", "Rigid, one restitution")
+    compared = sb.compare({name: usual[name] for name in some}, data, starts=4)
+    first, second = compared.scores
+    assert (first.model, first.same_as) == ("Hysteretic", ("Rigid, one restitution",))
+    assert first.title == "Hysteretic\n= Rigid, one restitution"
+    assert (second.model, second.same_as) == ("HuntCrossley", ())
+    assert sum(score.weight for score in compared.scores) == pytest.approx(1.0)
+    ratio = math.exp(0.5 * (first.aicc - second.aicc))
+    assert second.weight == pytest.approx(ratio * first.weight)
+
+
+def test_the_power_of_the_speed_is_fitted():
+    law = sb.RigidBySpeed(0.7, 2.0, speed_exponent=0.3)
+    drops = at_speeds(BALLS, SPRINGS, (1, 2, 4))
+    data = {
+        key: {
+            "rebound_ratios": [
+                (ratio, 0.01)
+                for ratio in sb.simulate(replace(drop, contacts=[law, law])).rebound_ratios
+            ]
+        }
+        for key, drop in drops.items()
+    }
+    model = sb.standard_models(drops)["RigidBySpeed, one restitution"]
+    found = replace(model, data=data).fit(starts=16)
+    assert found.chi_squared < 1e-6
+    assert found["speed_exponent"].nominal_value == pytest.approx(0.3, abs=1e-4)
+    assert found["restitution"].nominal_value == pytest.approx(0.7, abs=1e-4)
 
 
 def test_an_error_names_its_model():

@@ -28,6 +28,7 @@ def run(
     _check_of_drop(given)
     from stackbounce.cli import comparison_tables, fit_files, fit_tables
     from stackbounce.fitting.question import build_problem
+    from stackbounce.fitting.standard import calibration_speed
 
     save, draws, corner = given["save"], given["draws"], given["corner"]
     output.check_picture(corner, overwrite, "--corner")
@@ -36,12 +37,12 @@ def run(
     question = {name: given[name] for name in ("data", "measured", "vary", "tie")}
     problem = build_problem(parts, **question, compared=given["compare"])
     if given["compare"]:
-        compared = _compare(problem, given)
+        compared, speed = _compare(problem, given), calibration_speed(problem.drops)
         output.draw_picture(plot, overwrite, "compared", compared)
         if as_json:
-            output.print_json(comparison_tables.comparison_as_dict(compared))
+            output.print_json(comparison_tables.comparison_as_dict(compared, speed))
         else:
-            comparison_tables.print_comparison(output.console(), compared)
+            comparison_tables.print_comparison(output.console(), compared, speed)
             output.print_files(plot)
         return
     fit_files.check_save(save, overwrite, problem, what)

@@ -21,10 +21,16 @@ if TYPE_CHECKING:
 
 _DRAWS = 256  # of the parameters, for the spread of a prediction
 _FOLLOWED = 3  # descents of a fit to part of the data, besides that from the best with all
+_ALIKE = 0.01  # errors: models whose best fits differ by less in all data are one
+_DIGITS = 6  # of a criterion, after the point: smaller differences are round-off of the search
 
 
 class Score(NamedTuple):
-    """The scores of one model; `weight` is its Akaike (or BIC) weight among those compared."""
+    """The scores of one model, and of those that the data do not tell apart from it.
+
+    `weight` is its Akaike (or BIC) weight among those compared. `same_as` are the models whose best
+    fits differ from its own by less than 0.01 errors in all data.
+    """
 
     model: str
     parameters: int
@@ -34,6 +40,12 @@ class Score(NamedTuple):
     aicc: float
     bic: float
     weight: float
+    same_as: tuple[str, ...]
+
+    @property
+    def title(self) -> str:
+        """The names of all its models, a line each."""
+        return "\n= ".join([self.model, *self.same_as])
 
 
 class Prediction(NamedTuple):
@@ -95,13 +107,28 @@ class Comparison:
 
     @functools.cached_property
     def scores(self) -> list[Score]:
-        """A row per model, the best by `criterion` first."""
+        """A row per model that the data tell apart from better ones, the best by `criterion` first.
+
+        The weights are those of the rows, so that no prediction counts twice.
+        """
         known = {name: getattr(found, self.criterion) for name, found in self.fits.items()}
-        rows = sorted(self.fits.items(), key=lambda item: known[item[0]])
-        raw = [math.exp(-0.5 * (known[name] - known[rows[0][0]])) for name, _ in rows]
+        missed = {
+            name: found.objective.residuals(found.x[None])[0] for name, found in self.fits.items()
+        }
+        same: dict[str, list[str]] = {}
+        for name in sorted(known, key=lambda name: round(known[name], _DIGITS)):
+            alike = (best for best in same if _agree(missed[name], missed[best]))
+            same.setdefault(next(alike, name), []).append(name)
+        raw = {best: math.exp(0.5 * (min(known.values()) - known[best])) for best in same}
         return [
-            Score(name, found.free, weight=weight / sum(raw), **found.goodness())
-            for (name, found), weight in zip(rows, raw, strict=True)
+            Score(
+                best,
+                self.fits[best].free,
+                **self.fits[best].goodness(),
+                weight=raw[best] / sum(raw.values()),
+                same_as=tuple(names[1:]),
+            )
+            for best, names in same.items()
         ]
 
     @functools.cached_property
@@ -171,8 +198,9 @@ def compare(models: Mapping[str, FitProblem], data: Any, **options: Any) -> Comp
     Returns
     -------
     Comparison
-        `scores` (chi squared, AICc, BIC), `pulls` per datum, `left_out` predictions, and each
-        model's `Fit`. A model with more numbers than data is listed in `refused`.
+        `scores` (chi squared, AICc, BIC; models that the data do not tell apart share a row),
+        `pulls` per datum, `left_out` predictions, and each model's `Fit`. A model with more numbers
+        than data is listed in `refused`.
 
     Raises
     ------
@@ -207,6 +235,11 @@ def compare(models: Mapping[str, FitProblem], data: Any, **options: Any) -> Comp
         name, reason = next(iter(refused.items()))
         raise InvalidValue(f"no model can be fitted: {name}: {reason}")
     return Comparison(fits, refused)
+
+
+def _agree(residuals: Array, others: Array) -> bool:
+    """Return whether two models differ by a small part of the errors only."""
+    return residuals.shape == others.shape and bool(np.max(np.abs(residuals - others)) < _ALIKE)
 
 
 def _predictions(found: Fit) -> list[Prediction]:

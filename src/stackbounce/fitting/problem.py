@@ -335,10 +335,14 @@ def _touch(key: str, measured: Measured) -> Parameter:
 
 
 def _first_trial(objective: Objective) -> Any:
-    """Return the trial (parameters,) of the drops' own numbers, or mid-range outside the bounds."""
+    """Return the trial (parameters,) of the drops' own numbers, or mid-range outside the bounds.
+
+    A parameter that is no number of a drop has the value of one that is tied to it alone.
+    """
     found = []
     for parameter in objective.parameters:
         at = find_numbers(objective.drops, parameter.name)
+        at += [(tie.drop, tie.number) for tie in objective.ties if tie.text == parameter.name]
         value = value_in(objective.drops[at[0][0]], at[0][1]) if at else np.nan
         inside = parameter.low <= value <= parameter.high
         found.append(parameter.coordinate(value) if inside else 0.5 * sum(parameter.span))

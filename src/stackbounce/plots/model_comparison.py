@@ -41,11 +41,12 @@ def compared(comparison: Any) -> "Figure":
     names = [score.model for score in comparison.scores]
     pulls = comparison.pulls.sel(model=names)
     wide = 5.0 + 0.55 * min(pulls.sizes["datum"], _WIDEST)
-    with styled_figure(max(8.0, wide), 1.9 + 0.42 * len(names)) as figure:
+    lines = sum(1 + len(score.same_as) for score in comparison.scores)
+    with styled_figure(max(8.0, wide), 1.9 + 0.42 * lines) as figure:
         left, right = figure.subplots(1, 2, sharey=True, width_ratios=(2.2, wide - 3.0))
         _draw_scores(left, comparison)
         _draw_pulls(figure, right, pulls)
-        left.set_yticks(np.arange(len(names)), names)
+        left.set_yticks(np.arange(len(names)), [score.title for score in comparison.scores])
     return figure
 
 

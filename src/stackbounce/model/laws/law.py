@@ -132,7 +132,10 @@ class ContactLaw:
     usual_exponent: ClassVar[float | None] = None
     """The default exponent in `calibrate`, for a law with a free exponent."""
     usual_models: ClassVar[Mapping[str, Mapping[str, float]]] = {}
-    """The models with this law in `standard_models`: name -> extra arguments of `calibrate`."""
+    """The models with this law in `standard_models`: name -> extra arguments of `calibrate`.
+
+    Rigid laws are there in any case.
+    """
 
     page_code: ClassVar[Mapping[str, str]] = {}
     """What the page cannot do by default, in JavaScript: ``numbers``, those of the engine after the

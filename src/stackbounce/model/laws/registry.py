@@ -17,7 +17,7 @@ UNLISTED: dict[str, type[ContactLaw]] = {}
 
 def usual_laws() -> list[str]:
     """Return the names of the laws that `standard_models` compares."""
-    return ["Rigid", *(name for name, law in LAWS.items() if law.usual_models)]
+    return [name for name, law in LAWS.items() if law.rigid or law.usual_models]
 
 
 _JOINED = str.maketrans("", "", "-_")
