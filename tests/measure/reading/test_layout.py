@@ -1,8 +1,7 @@
 """A layout is one place: a function that is registered makes its files readable."""
 
-from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.layouts import LAYOUTS, Layout, first_row, layout
-from stackbounce.measure.reading.roles import column
+from stackbounce.measure.reading.roles import column, heading
 from stackbounce.measure.reading.text import Text
 
 FILE = "TOYLOGGER 3\nms kN\n0 0\n1 0.5\n2 0.25\n"

@@ -12,7 +12,7 @@ from fuzz.mutate import minimal_cases, mutated
 from measure import make_files as made
 from measure.make_files import archive
 from stackbounce.errors import FileError, InvalidType, InvalidValue, StackbounceError
-from stackbounce.measure.reading import limits, zipped
+from stackbounce.measure.reading import limits, tables
 
 
 def refused(read, content, message, error=FileError, **options):
@@ -103,7 +103,7 @@ def test_a_bomb_does_not_go_off(read):
 
 
 def test_bombs_that_lie_of_their_size_or_are_many(read, monkeypatch):
-    monkeypatch.setattr(zipped, "BYTES", 2**20)
+    monkeypatch.setattr(tables, "BYTES", 2**20)
     content = bytearray(archive({"a.csv": b"0,0\n" * 300_000}))
     at = content.rindex(b"PK\x01\x02") + 24
     content[at : at + 4] = (2**21).to_bytes(4, "little")

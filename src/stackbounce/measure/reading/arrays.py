@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import FileError
-from stackbounce.measure.reading.bare import guess
-from stackbounce.measure.reading.layouts import Layout, columns_of
+from stackbounce.measure.reading.layouts import Layout, columns_of, guess
 from stackbounce.measure.reading.limits import CELLS, COLUMNS
 from stackbounce.measure.reading.numbers import Table
 
