@@ -9,12 +9,10 @@ from stackbounce.cross2007 import (
     checks_basketball,
     checks_fits,
     checks_models,
-    checks_records,
     checks_superballs,
     checks_tables,
-    figures_basketball,
     figures_models,
-    figures_superballs,
+    figures_records,
 )
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import AGREES, DIFFERS, WITHIN_ERROR, Row, run_check
@@ -29,7 +27,6 @@ _MODULES = (
     checks_basketball,
     checks_tables,
     checks_superballs,
-    checks_records,
     checks_fits,
 )
 COMPUTED = {name: compute for module in _MODULES for name, compute in module.COMPUTED.items()}
@@ -45,16 +42,16 @@ FIGURES: dict[str, Callable[[Bench], Picture]] = {
     "4b": figures_models.draw_figure_4b,
     "5": figures_models.draw_figure_5,
     "6": figures_models.draw_figure_6,
-    "7": figures_basketball.draw_figure_7,
-    "8": figures_basketball.draw_figure_8,
-    "8-hollow": figures_basketball.draw_figure_8_hollow,
-    "9": figures_basketball.draw_figure_9,
-    "10a": figures_superballs.draw_figure_10a,
-    "10b": figures_superballs.draw_figure_10b,
-    "11a": figures_superballs.draw_figure_11a,
-    "11b": figures_superballs.draw_figure_11b,
-    "12": figures_superballs.draw_figure_12,
-    "13": figures_superballs.draw_figure_13,
+    "7": figures_records.draw_figure_7,
+    "8": figures_records.draw_figure_8,
+    "8-hollow": figures_records.draw_figure_8_hollow,
+    "9": figures_records.draw_figure_9,
+    "10a": figures_records.draw_figure_10a,
+    "10b": figures_records.draw_figure_10b,
+    "11a": figures_records.draw_figure_11a,
+    "11b": figures_records.draw_figure_11b,
+    "12": figures_records.draw_figure_12,
+    "13": figures_records.draw_figure_13,
 }
 """The functions that draw the figures, by the paper's number; 1 and 3 are sketches.
 
