@@ -14,9 +14,8 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any, TypeAlias
 
-from stackbounce.cross2007.bench import Bench, propagate_error, write_call
+from stackbounce.cross2007.bench import Bench, Data, propagate_error, write_call
 from stackbounce.cross2007.claims import Claim, Reading
-from stackbounce.cross2007.data import Data
 
 AGREES = "agrees"
 WITHIN_ERROR = "agrees within error"

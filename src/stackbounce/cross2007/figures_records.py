@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.curves import sample_forces
 from stackbounce.cross2007.drops import Array, force_above, peak_times
+from stackbounce.cross2007.figures_models import sample_forces
 from stackbounce.cross2007.stacks import (
     better_fit,
     early_pair,

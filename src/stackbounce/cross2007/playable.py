@@ -5,10 +5,8 @@ from dataclasses import asdict, replace
 from typing import Any, NamedTuple
 from urllib.parse import urlencode
 
-from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.cases import list_cases
-from stackbounce.cross2007.data import PAPER
-from stackbounce.cross2007.lines import list_lines
+from stackbounce.cross2007.bench import PAPER, Bench
+from stackbounce.cross2007.cases import list_cases, list_lines
 from stackbounce.cross2007.style import read_words
 from stackbounce.model import Drop
 

@@ -1,6 +1,6 @@
 """The measurements of Cross (2007) as datasets: what `stackbounce.cross2007.PAPER` holds."""
 
-from stackbounce.cross2007.data import PAPER
+from stackbounce.cross2007.bench import PAPER
 from stackbounce.datasets.description import TEXT, Column, Description
 
 _PLACES = {  # those that have measurements; the other sections have what is computed or chosen

@@ -5,7 +5,7 @@ import functools
 import itertools
 from typing import Any
 
-from stackbounce.cross2007.lines import list_lines
+from stackbounce.cross2007.cases import list_lines
 from stackbounce.explorer.answers import play
 from stackbounce.explorer.page.catalogue import WORDS, list_choices
 from stackbounce.explorer.page.lessons import list_lessons
