@@ -10,7 +10,7 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.cli import main, simulation_tables
-from stackbounce.explorer.page.catalogue import list_choices
+from stackbounce.explorer.page.data import list_choices
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.model import LAWS
 from stackbounce.model.laws import law_named

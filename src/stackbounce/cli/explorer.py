@@ -100,7 +100,7 @@ def _write(path: str, framed_by: list[str], overwrite: bool, as_json: bool) -> N
 
 def _write_file(path: Path, overwrite: bool) -> list[int]:
     """Write the explorer as one file; return its size."""
-    from stackbounce.explorer.page.one_file import one_file
+    from stackbounce.explorer.page.folder import one_file
     from stackbounce.files import check_own, check_place, write_file
 
     check_place(path)

@@ -8,8 +8,7 @@ finding       the shape that all results share
 options       the table of options, for all user interfaces
 option_values texts from a user interface -> values that the analyses take
 setup         what is known of ball and drop besides the file, from the options
-analysis      the right analysis for what a file holds
-measurement   a file or typed numbers, with the results, for all user interfaces
+measurement   the right analysis for what a file holds; a file or typed numbers with the results
 drag          the drag of the air in measured flights
 constants     contact time, restitution or results -> stiffness, law, a ball to drop
 messages      texts with options that they recommend, worded for each user interface
@@ -25,7 +24,6 @@ from typing import TYPE_CHECKING, Any
 from stackbounce.extras import need
 
 if TYPE_CHECKING:
-    from stackbounce.measure.analysis import analyse as analyse
     from stackbounce.measure.constants import dynamic_stiffness as dynamic_stiffness
     from stackbounce.measure.constants import law_constants as law_constants
     from stackbounce.measure.constants import one_ball as one_ball
@@ -43,11 +41,12 @@ if TYPE_CHECKING:
     from stackbounce.measure.kinds.waveform.gap.delay import gap_from_delay as gap_from_delay
     from stackbounce.measure.kinds.waveform.gap.delay import sensor_gap as sensor_gap
     from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap as floor_gap
+    from stackbounce.measure.measurement import analyse as analyse
     from stackbounce.measure.reading import read as read
 
 # Each name is imported when it is first used: the command line's help needs only the options.
 _MODULES = {
-    "analysis": "analyse",
+    "measurement": "analyse",
     "constants": "dynamic_stiffness law_constants one_ball one_law",
     "drag": "Drag",
     "kinds.acceleration.analysis": "accelerometer",
