@@ -8,7 +8,7 @@ import pytest
 from stackbounce import cross2007
 from stackbounce.cross2007 import report
 from stackbounce.cross2007.bench import PAPER, Bench
-from stackbounce.cross2007.playable import link_figures
+from stackbounce.cross2007.cases import link_figures
 from stackbounce.cross2007.stacks import better_fit
 from stackbounce.model import Drop
 

@@ -10,7 +10,7 @@ import pytest
 import stackbounce as sb
 from stackbounce.errors import FileError
 from stackbounce.sweeps import grid, write
-from stackbounce.sweeps.progress import only_writer
+from stackbounce.sweeps.store import only_writer
 from stopped_sweep import DROP, OVER, VALUES, content, write_some
 
 

@@ -4,8 +4,7 @@ If the values are dask arrays, the Dataset is lazy and computed in chunks.
 
 ======== ==========================================================================
 dataset  in memory: parameters that vary, also texts of ``--over``, become dimensions
-store    a sweep larger than memory, written block by block to a file; resumable
-progress which process writes it
+store    a sweep larger than memory, written block by block to a file by one process; resumable
 files    the Zarr store
 draws    tables of draws, each row a drop
 ======== ==========================================================================

@@ -11,7 +11,7 @@ from stackbounce.errors import StackbounceError
 from stackbounce.explorer.limits import LIMITS
 from stackbounce.json_values import as_json
 from stackbounce.model import STANDARD_GRAVITY, Drop
-from stackbounce.plots.impact_window import choose_window, sample_with_approach
+from stackbounce.plots.impact import choose_window, sample_with_approach
 from stackbounce.run.collision import separate
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result

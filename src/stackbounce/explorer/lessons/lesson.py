@@ -13,8 +13,7 @@ from dataclasses import dataclass, field
 from importlib.resources import files
 from typing import Any, NamedTuple
 
-from stackbounce.cross2007.cases import list_cases
-from stackbounce.cross2007.playable import explorer_address
+from stackbounce.cross2007.cases import explorer_address, list_cases
 from stackbounce.explorer.examples import list_examples
 from stackbounce.json_values import plain
 from stackbounce.model import Drop

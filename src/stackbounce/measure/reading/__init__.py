@@ -5,7 +5,7 @@ reader     `read`: a path -> a Dataset
 options    the options of `read`, their effect on columns, the part that is read
 limits     limits on what is read: size, folders, other kinds of file
 text       bytes -> text -> delimiter, decimal mark, the cells of the first lines
-numbers    the rows below -> an array, by pandas where they are plain
+numbers    the rows below -> an array, by pandas where they are plain; arrays of NumPy
 roles      "Run 1: Time (ms)" -> name, unit and run of a column, and what it is
 layouts    where a table's columns are; without names, what their numbers look like
 formats    which program wrote a table: a function for each
@@ -14,7 +14,6 @@ dataset    columns -> the Dataset of what they hold
 series     times: since when, in which unit; runs, gaps, repeats, and rounded ones
 tables     the tables in a zip archive or a spreadsheet of Excel, as bytes
 projects   own files of Tracker and Logger Pro
-arrays     arrays of NumPy
 wav        sound, decoded by scipy
 ========== ====================================================================
 """

@@ -13,12 +13,19 @@ from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
 from stackbounce.files import content_of
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading import arrays, projects, wav
+from stackbounce.measure.reading import projects, wav
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
 from stackbounce.measure.reading.layouts import NOT_NAMED, Layout
 from stackbounce.measure.reading.limits import BYTES, refuse_others
-from stackbounce.measure.reading.numbers import Table, rows_of
+from stackbounce.measure.reading.numbers import (
+    Table,
+    array_in,
+    is_array,
+    layout_of_array,
+    rows_of,
+    rows_of_array,
+)
 from stackbounce.measure.reading.options import ReadOptions, apply_options, of_run, part_of
 from stackbounce.measure.reading.roles import Column
 from stackbounce.measure.reading.series import without_counts
@@ -254,10 +261,10 @@ def _table(
     The text is freed on return, as it may be larger than all of these.
     """
     numbers: Callable[[Sequence[int]], Table]
-    if arrays.is_array(content):
-        array = arrays.array_in(content)
-        layout, doubts = arrays.layout_of_array(array), []
-        numbers = partial(arrays.rows_of_array, array)
+    if is_array(content):
+        array = array_in(content)
+        layout, doubts = layout_of_array(array), []
+        numbers = partial(rows_of_array, array)
     else:
         refuse_others(content)
         text = tabulate(decode(content), options.decimal, Path(name).name)

@@ -16,8 +16,8 @@ import numpy as np
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
 from stackbounce.extras import need
 from stackbounce.measure.messages import about_option
-from stackbounce.measure.reading import arrays
 from stackbounce.measure.reading.limits import BYTES
+from stackbounce.measure.reading.numbers import joined
 
 _MEMBERS = 1000  # of an archive, at most
 _RATIO = 400  # of bytes to packed bytes; numbers as text come to about 10
@@ -154,7 +154,7 @@ def _tables(archive: zipfile.ZipFile) -> Tables:
         found[entry.filename] = _unzip(archive, entry, left)
         left -= len(found[entry.filename])
     if all(name.endswith(".npy") for name in names):
-        return Tables(arrays.joined(found), "NumPy", "its arrays are those of an .npz file")
+        return Tables(joined(found), "NumPy", "its arrays are those of an .npz file")
     if "meta/device.csv" in names:
         return Tables(found, "phyphox", "its meta/device.csv is phyphox's")
     return Tables(found)
