@@ -18,10 +18,9 @@ from stackbounce.cross2007 import (
     figures_records,
     tables,
 )
-from stackbounce.cross2007.bench import PAPER, Bench, Data
+from stackbounce.cross2007.bench import CLAIMS, PAPER, Bench, Data
 from stackbounce.cross2007.cases import link_figures
 from stackbounce.cross2007.checks import AGREES, DIFFERS, WITHIN_ERROR, Row, last_place, run_check
-from stackbounce.cross2007.claims import CLAIMS
 from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.cross2007.style import Picture, render, use_style
 from stackbounce.cross2007.tables import Table, make_table_one, make_table_two

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from math import pi, sqrt
 from typing import TYPE_CHECKING
 
-from stackbounce.cross2007.bench import Bench
+from stackbounce.cross2007.bench import CLAIMS, Bench
 from stackbounce.cross2007.checks import Compute
-from stackbounce.cross2007.claims import CLAIMS
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.cross2007.stacks import heavier_b1, hollow_pair
 from stackbounce.measure.constants import dynamic_stiffness

@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidType, InvalidValue, shown, unmasked
 from stackbounce.model import Drop
 from stackbounce.run.batch import solve
-from stackbounce.run.columns import check
 from stackbounce.run.options import Options, run_options
-from stackbounce.run.paths import Number, number_at
+from stackbounce.run.paths import Number, check, number_at
 from stackbounce.run.result import Status
 from stackbounce.units import count_written, factor, quantity
 from stackbounce.version import __version__
