@@ -7,7 +7,7 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.cross2007 import PAPER, audit, changed
-from stackbounce.cross2007.bench import Bench, propagate_error, write_call
+from stackbounce.cross2007.bench import CLAIMS, Bench, Claim, Input, propagate_error, write_call
 from stackbounce.cross2007.checks import (
     AGREES,
     DIFFERS,
@@ -17,10 +17,8 @@ from stackbounce.cross2007.checks import (
     run_check,
     source_of,
 )
-from stackbounce.cross2007.claims import CLAIMS, Claim
-from stackbounce.cross2007.data import Input
 from stackbounce.cross2007.drops import fallen_speed
-from stackbounce.cross2007.paper import COMPUTED, FIGURES, READINGS
+from stackbounce.cross2007.report import COMPUTED, FIGURES, READINGS
 from stackbounce.cross2007.stacks import heavier_b1, small_fit, smallest_fit
 from stackbounce.cross2007.style import use_style
 from stackbounce.cross2007.tables import make_table_one, make_table_two

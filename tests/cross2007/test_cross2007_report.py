@@ -10,7 +10,7 @@ from html.parser import HTMLParser
 import pytest
 
 from stackbounce import __version__, cross2007
-from stackbounce.cross2007 import paper
+from stackbounce.cross2007 import report
 from stackbounce.cross2007.pages import typeset
 from stackbounce.errors import FileError
 
@@ -78,14 +78,14 @@ def test_it_says_what_it_is_doing(folder, told):
 
 def test_another_process_writes_the_same_bytes(tmp_path, monkeypatch):
     less = (
-        "paper.FIGURES = {name: paper.FIGURES[name] for name in ('6', '12')};"
-        "paper.CLAIMS = {name: c for name, c in paper.CLAIMS.items() if name[:2] in ('T1', 'T2')}"
+        "report.FIGURES = {name: report.FIGURES[name] for name in ('6', '12')};"
+        "report.CLAIMS = {name: c for name, c in report.CLAIMS.items() if name[:2] in ('T1', 'T2')}"
     )
-    monkeypatch.setattr(paper, "FIGURES", paper.FIGURES)  # put back at the end
-    monkeypatch.setattr(paper, "CLAIMS", paper.CLAIMS)
-    exec(less, {"paper": paper})
+    monkeypatch.setattr(report, "FIGURES", report.FIGURES)  # put back at the end
+    monkeypatch.setattr(report, "CLAIMS", report.CLAIMS)
+    exec(less, {"report": report})
     cross2007.write(tmp_path / "here")
-    code = f"import sys, pathlib; from stackbounce.cross2007 import paper, write; {less};"
+    code = f"import sys, pathlib; from stackbounce.cross2007 import report, write; {less};"
     code += "write(pathlib.Path(sys.argv[1]))"
     other = os.environ | {"PYTHONHASHSEED": "7", "TZ": "Asia/Tokyo"}
     subprocess.run([sys.executable, "-c", code, tmp_path / "there"], check=True, env=other)

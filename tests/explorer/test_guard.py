@@ -1,11 +1,19 @@
 """Other sites and large requests are kept out, and every answer tells browsers what it may do."""
 
+import asyncio
 import socket
+from types import SimpleNamespace
 
+import httpx
+import psutil
 import pytest
 
-from stackbounce.explorer import LIMITS, guard
+from stackbounce.cli import explorer, main
+from stackbounce.errors import InvalidValue
+from stackbounce.explorer import LIMITS, addresses, guard
 from stackbounce.explorer.addresses import Place
+from stackbounce.explorer.app import create_app
+from stackbounce.explorer.framing import read_origin
 
 HOSTS = [
     "evil.example",
@@ -75,3 +83,127 @@ def test_large_requests_are_refused(server, path, most):
     assert whole.status_code == 413
     assert "larger than" in whole.json()["detail"]
     assert server.post(path, content=iter([b"x"])).status_code == 411  # with no length told before
+
+
+# --- other sites may frame the page only where the user names them
+SITE = "https://moodle.school.example"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "moodle.school.example",
+        "https://",
+        f"{SITE}/",
+        f"{SITE}/course?id=1",
+        f"{SITE}:655360",
+        f"{SITE}; script-src *",
+        f"{SITE} https://other.example",
+        f"{SITE}\n",
+        "https://*.school.example",
+        "https://user@school.example",
+        "https://-school.example",
+        "https://schüle.example",
+        "file://school",
+        "'self'",
+        "**",
+    ],
+)
+def test_what_is_no_origin_is_refused(capsys, text):
+    with pytest.raises(InvalidValue, match="--embed must be the origin of a site"):
+        read_origin(text)
+    assert main(["app", "--no-browser", "--embed", text]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.mark.parametrize("text", [SITE, "http://localhost:8888", "http://192.168.1.5:80", "*"])
+def test_an_origin_is_taken(text):
+    assert read_origin(text.upper()) == text
+
+
+def policy_of(path, framed_by):
+    transport = httpx.ASGITransport(create_app(LIMITS, framed_by=framed_by))
+
+    async def ask():
+        async with httpx.AsyncClient(transport=transport, base_url="http://localhost") as client:
+            return await client.get(path)
+
+    return asyncio.run(ask()).headers["content-security-policy"]
+
+
+def test_the_page_names_the_sites_that_may_frame_it():
+    policy = policy_of("/", [SITE, "http://localhost:8888", SITE])
+    assert policy.endswith(f"; frame-ancestors {SITE} http://localhost:8888")
+    assert policy_of("/", []).endswith("; frame-ancestors 'none'")
+
+
+@pytest.mark.parametrize("name", ["explorer.html", "explorer"])
+def test_an_export_says_which_header_its_server_must_send(capsys, tmp_path, name):
+    assert main(["app", "--export", str(tmp_path / name), "--embed", SITE]) == 0
+    told = capsys.readouterr().out.splitlines()
+    assert told[0].startswith(f"{tmp_path / name}: the explorer")
+    assert told[-1] == f"Content-Security-Policy: frame-ancestors {SITE}"
+
+
+# --- the addresses that a class can type, of machines with several networks, and with none
+OWN = {
+    "lo": [(socket.AF_INET, "127.0.0.1"), (socket.AF_INET6, "::1")],
+    "eth0": [(socket.AF_INET, "10.1.2.3"), (socket.AF_INET6, "fd00::2")],
+    "wlan0": [(socket.AF_INET, "192.168.1.5"), (socket.AF_INET6, "fe80::1%wlan0")],
+    "down0": [(socket.AF_INET, "10.9.9.9")],
+}
+
+
+@pytest.fixture
+def machine(monkeypatch):
+    """Give the machine the networks of OWN, of which wlan0 leads to others."""
+    own = {
+        name: [SimpleNamespace(family=family, address=address) for family, address in pairs]
+        for name, pairs in OWN.items()
+    }
+    up = {name: SimpleNamespace(isup=not name.startswith("down")) for name in OWN}
+    monkeypatch.setattr(psutil, "net_if_addrs", lambda: own)
+    monkeypatch.setattr(psutil, "net_if_stats", lambda: up)
+    ways = {socket.AF_INET: "192.168.1.5", socket.AF_INET6: None}
+    monkeypatch.setattr(addresses, "_way_out", ways.get)
+    return own
+
+
+@pytest.mark.parametrize(
+    ("host", "expected"),
+    [
+        ("127.0.0.1", []),
+        ("::1", []),
+        ("localhost", []),
+        ("10.1.2.3", ["http://10.1.2.3:80/"]),
+        ("fd00::2", ["http://[fd00::2]:80/"]),
+        ("0.0.0.0", ["http://192.168.1.5:80/", "http://10.1.2.3:80/"]),
+        ("::", ["http://192.168.1.5:80/", "http://10.1.2.3:80/", "http://[fd00::2]:80/"]),
+    ],
+)
+@pytest.mark.usefixtures("machine")
+def test_addresses_that_others_can_type(host, expected):
+    assert [one.address for one in addresses.list_places(host, 80)] == expected
+
+
+def test_a_machine_without_a_network_says_so(machine, capsys):
+    for name in ("eth0", "wlan0"):
+        del machine[name]
+    places = addresses.list_places("0.0.0.0", 80)
+    assert places == []
+    explorer._tell_others(places)
+    assert capsys.readouterr().out == (
+        "This machine is in no network: others cannot open the page.\n"
+    )
+
+
+def test_a_code_has_its_three_corners():
+    [place] = addresses.list_places("203.0.113.7", 8050)
+    corner = ["1111111", "1000001", "1011101", "1011101", "1011101", "1000001", "1111111"]
+    rows = place.code
+    assert [row[:7] for row in rows[:7]] == corner
+    assert [row[-7:] for row in rows[:7]] == corner
+    assert [row[:7] for row in rows[-7:]] == corner
+    lines = addresses.code_text(place.address).splitlines()
+    assert len(lines) == (len(rows) + 5) // 2

@@ -13,7 +13,11 @@ from pages.consoles import DOCS, FENCE, read_page, write_files
 from stackbounce.cli import main
 from stackbounce.cross2007 import PAPER
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.curves import after_collision, rebound_by_mass, rebound_by_stiffness
+from stackbounce.cross2007.figures_models import (
+    after_collision,
+    rebound_by_mass,
+    rebound_by_stiffness,
+)
 
 TEXT = read_page("sweeps")
 WORDS = [

@@ -3,8 +3,8 @@
 `tables/` has one file for each; a file that is put there is a dataset.
 
 - `description.py`: what a dataset says of itself
-- `paper.py`: the tables of Cross (2007), from `stackbounce.cross2007`, as descriptions
-- `loading.py`: the files of `tables/`; `names`, `describe`, and `load`, which makes a Dataset
+- `loading.py`: the files of `tables/`, and the measurements of Cross (2007), which
+  `stackbounce.cross2007` holds; `names`, `describe`, and `load`, which makes a Dataset
 """
 
 from stackbounce.datasets.description import Column, Description

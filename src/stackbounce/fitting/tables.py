@@ -12,8 +12,8 @@ from stackbounce.files import content_of
 from stackbounce.fitting.files import check_name, read_force_record
 from stackbounce.fitting.quantities import find_quantity
 from stackbounce.measure.quantities import quantity_with_error
-from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.limits import BYTES, COLUMNS, LINE, refuse_others
+from stackbounce.measure.reading.roles import heading
 from stackbounce.measure.reading.text import decode, split
 from stackbounce.model import Drop
 from stackbounce.run.paths import drop_at, numbers_of

@@ -31,7 +31,6 @@ from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
 from stackbounce.model import Drop
 from stackbounce.run.blocks import Block, blocks, sides, size
-from stackbounce.run.columns import Rows, base_rows, fill
 from stackbounce.run.engines import (
     TWO_SPRINGS_EVENTS,
     choose_compiled,
@@ -39,7 +38,7 @@ from stackbounce.run.engines import (
     suits_two_springs,
 )
 from stackbounce.run.options import Options, check_room
-from stackbounce.run.parameters import drop_pieces
+from stackbounce.run.paths import Rows, base_rows, drop_pieces, fill
 
 _BLOCKS = range(1024, 16384)  # drops in a block: enough for the lanes, few enough for the caches
 _EACH = 8  # blocks per thread of a large grid, so that all threads end at about the same time

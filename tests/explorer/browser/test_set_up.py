@@ -69,3 +69,43 @@ def test_on_a_phone_the_ball_and_the_number_that_changes_it_are_on_one_screen(vi
     wait_for_stage("=== 0")
     slider.evaluate("(one) => one.blur()")
     wait_for_stage("< 0")
+
+
+# --- the share box shows a class where it finds the page
+@[pytest.mark.slow, pytest.mark.release]
+def test_the_share_box_shows_the_address_and_its_code(visit):
+    place = {"address": "http://192.168.1.5:8050/", "code": ["101", "010", "101"]}
+    visit.page.route("**/api/places", lambda route: route.fulfill(json={"places": [place]}))
+    page = visit.open()
+    page.get_by_text("Share", exact=True).click()
+    page.get_by_text("http://192.168.1.5:8050/").wait_for()
+    code = page.get_by_role("img", name="QR code of http://192.168.1.5:8050/")
+    assert code.locator("path").get_attribute("d").count("M") == 5
+
+
+@[pytest.mark.slow, pytest.mark.release]
+def test_a_page_for_one_machine_shows_none(page):
+    with page.expect_response("**/api/places"):
+        page.get_by_text("Share", exact=True).click()
+    assert not page.locator(".places").is_visible()
+
+
+# --- the server is away for a while: what is opened meanwhile comes to life when it is back
+@[pytest.mark.slow, pytest.mark.release]
+def test_a_view_opened_while_the_server_is_away_comes_to_life(visit, page):
+    page.evaluate("() => whole.then(() => null)")
+    page.context.set_offline(True)
+    page.get_by_role("tab", name="Measure").click()
+    page.locator("#measure .field-error").filter(has_text="The server does not answer").wait_for()
+    page.context.set_offline(False)
+    page.get_by_role("button", name="Choose a file").wait_for()  # by itself
+    assert page.locator("#measure .unopened").count() == 0
+    visit.complaints.clear()  # Chromium logs the requests that failed
+
+
+@[pytest.mark.slow, pytest.mark.release]
+def test_the_banner_moves_nothing(page):
+    before = page.locator("#stage").bounding_box()
+    page.evaluate("() => store.set({ error: { detail: 'No answer.', offline: true } })")
+    page.locator("#banner").wait_for()
+    assert page.locator("#stage").bounding_box() == before

@@ -15,7 +15,7 @@ from explorer.page.scenarios import drawn, scenarios
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.errors import StackbounceError
 from stackbounce.explorer.answers import play
-from stackbounce.explorer.answers.predictions import add_values
+from stackbounce.explorer.answers.play import add_values
 from stackbounce.explorer.schema import read_drop
 from stackbounce.json_values import plain
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS

@@ -10,7 +10,7 @@ import pytest
 
 from measure import make_files as made
 from stackbounce.errors import FileError, InvalidValue, MissingExtra
-from stackbounce.measure.reading import sheets
+from stackbounce.measure.reading import tables
 
 TIMES = 0.01 * np.arange(8)
 
@@ -86,10 +86,10 @@ def test_what_a_spreadsheet_cannot_be(read, monkeypatch):
     ):
         with pytest.raises(FileError, match=message):
             read(wrong)
-    monkeypatch.setattr(sheets, "_CELLS", 50)
+    monkeypatch.setattr(tables, "_BOOK_CELLS", 50)
     with pytest.raises(FileError, match="more than 50 cells"):
         read(content)
-    monkeypatch.setattr(sheets, "_BYTES", 1000)
+    monkeypatch.setattr(tables, "_BOOK_BYTES", 1000)
     with pytest.raises(FileError, match="would unpack to more than"):
         read(content)
 

@@ -13,18 +13,23 @@ from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
 from stackbounce.files import content_of
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading import arrays, projects, sheets, wav, zipped
-from stackbounce.measure.reading.bare import NOT_NAMED
-from stackbounce.measure.reading.clock import without_counts
+from stackbounce.measure.reading import projects, wav
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
-from stackbounce.measure.reading.layouts import Layout
+from stackbounce.measure.reading.layouts import NOT_NAMED, Layout
 from stackbounce.measure.reading.limits import BYTES, refuse_others
-from stackbounce.measure.reading.numbers import Table, rows_of
-from stackbounce.measure.reading.options import ReadOptions, apply_options, of_run
-from stackbounce.measure.reading.part import part_of
+from stackbounce.measure.reading.numbers import (
+    Table,
+    array_in,
+    is_array,
+    layout_of_array,
+    rows_of,
+    rows_of_array,
+)
+from stackbounce.measure.reading.options import ReadOptions, apply_options, of_run, part_of
 from stackbounce.measure.reading.roles import Column
-from stackbounce.measure.reading.tables import Tables, chosen
+from stackbounce.measure.reading.series import without_counts
+from stackbounce.measure.reading.tables import Tables, chosen, from_xlsx, from_zip, is_xlsx
 from stackbounce.measure.reading.text import decode, tabulate
 from stackbounce.measure.reading.video import on_frames
 
@@ -195,7 +200,7 @@ def _read(name: str, content: bytearray, options: ReadOptions) -> "xr.Dataset":
 def _tables_in(content: bytearray) -> Tables | None:
     """Return the tables in a packing of its own, each as a program writes it; None if it is one."""
     if content.startswith((b"PK\x03\x04", b"PK\x05\x06")):
-        return sheets.from_xlsx(content) if zipped.is_xlsx(content) else zipped.members(content)
+        return from_xlsx(content) if is_xlsx(content) else from_zip(content)
     if content.startswith(b"\xd0\xcf\x11\xe0"):
         raise FileError("it is an old Excel file (.xls): save it as .xlsx or CSV")
     return projects.tables(content)
@@ -256,10 +261,10 @@ def _table(
     The text is freed on return, as it may be larger than all of these.
     """
     numbers: Callable[[Sequence[int]], Table]
-    if arrays.is_array(content):
-        array = arrays.array_in(content)
-        layout, doubts = arrays.layout_of_array(array), []
-        numbers = partial(arrays.rows_of_array, array)
+    if is_array(content):
+        array = array_in(content)
+        layout, doubts = layout_of_array(array), []
+        numbers = partial(rows_of_array, array)
     else:
         refuse_others(content)
         text = tabulate(decode(content), options.decimal, Path(name).name)

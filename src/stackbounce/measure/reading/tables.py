@@ -1,13 +1,36 @@
-"""The tables of one file, each as the bytes of a file of its own."""
+"""The tables of a zip archive or a spreadsheet, each as the bytes of a file of its own.
+
+Archives are unpacked in memory up to a limit; openpyxl reads spreadsheets of Excel, .xlsx.
+"""
 
 import io
-from collections.abc import Iterable, Sequence
+import re
+import warnings
+import zipfile
+import zlib
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.errors import FileError, InvalidValue, nearest, shown
+from stackbounce.extras import need
 from stackbounce.measure.messages import about_option
+from stackbounce.measure.reading.limits import BYTES
+from stackbounce.measure.reading.numbers import joined
+
+_MEMBERS = 1000  # of an archive, at most
+_RATIO = 400  # of bytes to packed bytes; numbers as text come to about 10
+_BROKEN = (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, RuntimeError)
+_ENDINGS = (".csv", ".tsv", ".txt", ".dat", ".lvm", ".npy", ".trk")
+_BOOK_CELLS = 2**19
+"""Cells of a spreadsheet, at most: some seconds."""
+
+_BOOK_BYTES = 2**26
+"""Bytes of its parts, unpacked, at most."""
+
+_COMMA = re.compile(r"\s*[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{1,4})?\s*")
+_Rows = Iterable[Sequence[object]]
 
 
 @dataclass(frozen=True)
@@ -78,3 +101,134 @@ def chosen(tables: Tables, table: object) -> str:
         wrong = f" must be one in the {tables.kind}, got {shown(table)}; {near}"
         raise InvalidValue(about_option("table", wrong))
     return found[0]
+
+
+def is_xlsx(content: bytearray) -> bool:
+    """Return whether an archive is a spreadsheet of Excel."""
+    return b"xl/workbook.xml" in content or b"xl/workbook.bin" in content
+
+
+def from_zip(content: bytearray) -> Tables:
+    """Return the tables of an archive; the arrays of an .npz file are one table.
+
+    Nothing is written to disk. Archives inside the archive are ignored.
+
+    Raises
+    ------
+    FileError
+        If the archive is broken, locked, a spreadsheet, without tables, or unpacks to too much.
+    """
+    if content.count(b"PK\x01\x02") > _MEMBERS:
+        raise FileError(f"it is a zip archive of more than {_MEMBERS} files")
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            return _tables(archive)
+    except FileError:
+        raise
+    except _BROKEN as error:
+        raise FileError(f"it is a broken zip archive: {' '.join(str(error).split())}") from error
+
+
+def _tables(archive: zipfile.ZipFile) -> Tables:
+    entries = archive.infolist()
+    names = {entry.filename for entry in entries}
+    if {"[Content_Types].xml", "META-INF/manifest.xml"} & names:
+        raise FileError("it is a spreadsheet or document: save it as .xlsx or CSV")
+    wanted = [
+        entry for entry in sorted(entries, key=lambda entry: entry.filename)
+        if entry.filename.casefold().endswith(_ENDINGS)
+        and not entry.filename.startswith(("meta/", "__MACOSX/"))
+    ]  # fmt: skip
+    if not wanted:
+        raise FileError(f"it is a zip archive without any table ({', '.join(_ENDINGS)})")
+    found: dict[str, bytes] = {}
+    left = BYTES
+    for entry in wanted:
+        name = shown(entry.filename)
+        if entry.flag_bits & 1:
+            raise FileError(f"its {name} is locked by a password: unpack it")
+        if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+            raise FileError(f"its {name} is packed in an unusual way: unpack it")
+        if entry.file_size > 2**20 and entry.file_size > _RATIO * max(entry.compress_size, 1):
+            raise FileError(f"its {name} would unpack to more than {_RATIO} times its size")
+        found[entry.filename] = _unzip(archive, entry, left)
+        left -= len(found[entry.filename])
+    if all(name.endswith(".npy") for name in names):
+        return Tables(joined(found), "NumPy", "its arrays are those of an .npz file")
+    if "meta/device.csv" in names:
+        return Tables(found, "phyphox", "its meta/device.csv is phyphox's")
+    return Tables(found)
+
+
+def _unzip(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, left: int) -> bytes:
+    """Return the bytes of an entry, at most `left` of them, whatever size its header says."""
+    with archive.open(entry) as file:
+        content = file.read(left + 1)
+    if len(content) > left:
+        raise FileError(f"its tables would unpack to more than {BYTES >> 20} MiB")
+    return content
+
+
+def from_xlsx(content: bytearray) -> Tables:
+    """Return the sheets of an .xlsx file.
+
+    Raises
+    ------
+    FileError
+        If it is broken, has no numbers, or is too large.
+    MissingExtra
+        If openpyxl is not installed.
+    """
+    need("sheets", "an Excel file (.xlsx)")
+    left = [_BOOK_CELLS]
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of parts that hold no cells, such as styles
+            found = {name: as_text(_bounded(rows, left)) for name, rows in _sheets(content)}
+    except (FileError, MemoryError):
+        raise
+    except Exception as error:  # a broken file fails in too many ways to list them
+        own = type(error).__module__ in ("builtins", "struct")  # of Python: no word for a user
+        why = "it is damaged" if own else " ".join(str(error).split())[:200]
+        raise FileError(
+            f"it is a spreadsheet or document that cannot be read ({why}): save it as CSV"
+        ) from error
+    names = sorted(found, key=lambda name: name.casefold() != "raw data")  # phyphox's table
+    found = {name: found[name] for name in names if found[name].strip()}
+    if not found:
+        raise FileError("it is a spreadsheet without any cell: save the one with numbers")
+    return Tables(found, "", "it is a sheet of a spreadsheet", "spreadsheet", ".")
+
+
+def _sheets(content: bytearray) -> Iterator[tuple[str, _Rows]]:
+    import openpyxl
+
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        entries = archive.infolist()
+        if sum(entry.file_size for entry in entries) > _BOOK_BYTES:
+            raise FileError(f"its parts would unpack to more than {_BOOK_BYTES >> 20} MiB")
+        for entry in entries:  # without a document type there are no entities; \0 is of UTF-16
+            if b"<!DOCTYPE" in archive.read(entry).replace(b"\0", b""):
+                raise FileError(f"its {shown(entry.filename)} has a document type, which none has")
+    book = openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=True)
+    for sheet in book.worksheets:
+        sheet.reset_dimensions()  # what the file says of its size may be wrong
+        yield sheet.title, sheet.iter_rows(values_only=True)
+
+
+def _bounded(rows: _Rows, left: list[int]) -> Iterator[list[object]]:
+    """Yield rows as long as there are not too many cells in them."""
+    for row in rows:
+        left[0] -= len(row) + 1
+        if left[0] < 0:
+            raise FileError(
+                f"it has more than {_BOOK_CELLS} cells: save the sheet of interest as CSV"
+            )
+        yield [_number(cell) for cell in row]
+
+
+def _number(cell: object) -> object:
+    """Return a number that was typed with a decimal comma, and stands as text, with a point."""
+    if isinstance(cell, str) and _COMMA.fullmatch(cell):
+        return cell.replace(",", ".")
+    return cell

@@ -9,8 +9,7 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds import KINDS
-from stackbounce.measure.kinds.heights.analysis import heights
-from stackbounce.measure.kinds.heights.result import Heights
+from stackbounce.measure.kinds.heights.analysis import Heights, heights
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.setup import Setup
 

@@ -11,7 +11,7 @@ from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.drag import Drag, with_difference, with_error_of_drag
 from stackbounce.measure.kinds.track import motion
 from stackbounce.measure.kinds.track.free_flight import comparable, no_flight, no_gain, what_is_seen
-from stackbounce.measure.kinds.track.notes import notes_of, stays_long
+from stackbounce.measure.kinds.track.motion import shape_of
 from stackbounce.measure.kinds.track.parabolas import Parabolas
 from stackbounce.measure.kinds.track.paths import (
     Columns,
@@ -20,8 +20,7 @@ from stackbounce.measure.kinds.track.paths import (
     positions_of,
     upward,
 )
-from stackbounce.measure.kinds.track.result import Track, Tracks
-from stackbounce.measure.kinds.track.shape import shape_of
+from stackbounce.measure.kinds.track.result import Track, Tracks, notes_of, stays_long
 from stackbounce.measure.kinds.track.steadiness import (
     Turn,
     acceleration_angle,
