@@ -9,7 +9,7 @@ import xarray as xr
 import stackbounce as sb
 from measure.near import near
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.measure import one_ball
+from stackbounce.measure import analyse, one_ball
 from stackbounce.measure.kinds.track.analysis import track
 from stackbounce.plots.measurements.track import draw as draw_track
 from synthetic.falls import falls
@@ -114,7 +114,8 @@ def test_a_track_that_begins_late_says_so():
 
 def test_the_floor_may_be_given():
     data = tracked(FALL, seed=1)
-    assert near(track(data, floor=0.0).balls[0].drop_height, 1.0)
+    (found,) = analyse(data, floor=0.0)
+    assert near(found.balls[0].drop_height, 1.0)
     with pytest.raises(InvalidValue, match="floor must be a level"):
         track(data, floor=5.0)
 
