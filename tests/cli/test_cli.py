@@ -248,6 +248,15 @@ def test_a_run_that_did_not_finish_says_what_to_do(printed, run):
     assert rows(out, "floor – B3")[0][1] == "∞"
 
 
+def test_chaos_is_told_with_its_time(printed):
+    balls, law = [sb.Ball(0.1), sb.Ball(0.05), sb.Ball(0.02)], sb.HuntCrossley(1e6, 1.5, 0.2)
+    drop = sb.Drop(balls, [law] * 3, gaps=[0.0, 1e-3], height=0.3, gravity=9.81)
+    Path("chaos.toml").write_text(drop.to_toml())
+    known = sb.simulate(drop, until=2.97).known_until
+    told = f"Chaotic: no digit of the speeds is known after {known:.3f} s"
+    assert told in printed("simulate", "chaos.toml", "--until", "2.97s")
+
+
 def one_ball(name, law, mass=0.1, **how):
     how = how or {"height": 0.5}
     drop = sb.Drop([sb.Ball(mass, name=name)], [law], **how)

@@ -58,6 +58,7 @@ def test_a_link_has_the_drop_of_its_figure():
     fitted = better_fit(Bench(PAPER))
     found = Drop.from_mapping(drop)
     assert (found.contacts, found.impact_speed) == (fitted.contacts, fitted.impact_speed)
+    assert found.gaps == (0.0,)
     assert [ball.mass for ball in found.balls] == [ball.mass for ball in fitted.balls]
 
 

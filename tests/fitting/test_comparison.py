@@ -59,6 +59,7 @@ def test_a_drop_that_is_left_out_is_predicted(compared):
     assert [row.name for row in rows][:2] == ["rebound_ratios.0", "rebound_ratios.1"]
     assert len(rows) == 6
     assert all(abs(row.pull) < 1.0 for row in rows)
+    assert rows[0]._replace(predicted=1.5, measured=1.0, error=0.3, predicted_error=0.4).pull == 1.0
     assert all(row.predicted_error < 0.2 for row in rows)
     assert compared.predictive("Hysteretic") > compared.predictive("Spring")
 
@@ -87,9 +88,11 @@ def test_a_model_with_more_numbers_than_data_is_refused_by_name():
 def test_usual_models_last_as_long_as_the_given_contacts():
     drop = sb.Drop(BALLS, SPRINGS, impact_speed=3.0)
     masses = [0.150, (0.150, 0.057)]  # in each contact
+    longest = max(map(sb.contact_time, SPRINGS, masses))
     for model in sb.standard_models(drop).values():
         if model.drop.rigid:
             continue
+        assert model.vary["gaps.0"] == pytest.approx((0.0, 4.0 * 3.0 * longest))
         for law, spring, mass in zip(model.drop.contacts, SPRINGS, masses, strict=True):
             wanted = sb.contact_time(spring, mass)
             assert sb.contact_time(law, mass, 3.0) == pytest.approx(wanted, rel=1e-6)

@@ -84,6 +84,8 @@ def test_loading_only():
     assert any("no unloading" in note for note in found.notes)
     assert found.parts()["contact"]["law"] == "PowerLaw"
     assert draw(None, found).axes
+    twice = press_record(BALL, cycles=2, **USUAL)
+    assert press(twice.isel(point=slice(0, 600)), cycle=1).loss is None
 
 
 def test_a_force_that_is_never_zero():
@@ -110,6 +112,7 @@ def test_rows_and_picture_show_what_was_found():
     above, below = draw(data, found).axes
     assert "out" in above.get_legend().get_texts()[1].get_text()
     assert below.get_xlabel() == "compression from contact (mm)"
+    assert above.texts[0].get_text() == "39 % of the work lost"  # 1 - 0.78**2
 
 
 @pytest.mark.slow
@@ -151,6 +154,7 @@ def test_an_unloading_that_is_no_power_law_is_told():
     force[200:] *= np.clip(1.0 - 4e2 * (5e-3 - way[200:]), 0.2, None)
     found = press((way, force + np.random.default_rng(1).normal(0.0, 0.05, 400)))
     assert found.loading.fits
+    assert 0.0 < found.loading.misfit < 0.05 / 50.0  # less than the noise of a point
     assert not found.unloading.fits
     assert any("unloading is not well described" in note for note in found.notes)
 

@@ -8,6 +8,8 @@ import pytest
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.bounces.analysis import bounces
 from stackbounce.measure.kinds.sound.analysis import knocks
+from stackbounce.measure.kinds.sound.loudness import Rises
+from stackbounce.measure.kinds.sound.sequence import find_chain
 from stackbounce.plots.measurements.bounces import draw as draw_bounces
 from stackbounce.plots.measurements.sound import draw as draw_sound
 from synthetic.falls import falls
@@ -21,6 +23,13 @@ def as_true(found, fall, before=0.5):
     """Return whether each bounce was found, and nothing else."""
     seen = [one.nominal_value for one in found.times]
     return seen == pytest.approx(fall.touches - fall.touches[0] + before, abs=1.5e-3, rel=0.0)
+
+
+@pytest.mark.parametrize(("error", "series"), [(1e-3, (0, 1)), (1e-2, (0, 1, 2))])
+def test_a_flight_is_longer_than_the_one_before_by_its_error_only(error, series):
+    times = np.array([0.0, 0.5, 1.03])
+    rises = Rises(times, np.full(3, error), np.array([3.0, 2.0, 1.0]), np.full(3, 9.0))
+    assert find_chain(rises, 0.01).indices == series
 
 
 @pytest.mark.fast_cases(6)

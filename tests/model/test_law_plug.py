@@ -143,7 +143,10 @@ def test_the_usual_models_are_those_that_laws_offer():
     drop = sb.Drop([sb.Ball(0.2), sb.Ball(0.1)], [sb.Spring(1e4)] * 2, impact_speed=1.0)
     offered = {name for law in LAWS.values() for name in law.usual_models}
     others = {"Rigid, one restitution", "Rigid, one for each contact"}
-    assert set(sb.standard_models(drop)) - offered == others
+    models = sb.standard_models(drop)
+    assert set(models) - offered == others
+    (exponent,) = {law.exponent for law in models["Hysteretic, Hertz loading"].drop.contacts}
+    assert exponent == sb.Hertz(1.0).exponent == 1.5
 
 
 def test_a_new_law_with_a_known_form_of_force_is_one_class(added, tmp_path, capfd):

@@ -108,21 +108,6 @@ class Description:
     remarks: str = ""
     licence: str = "figures quoted"
 
-    def column(self, name: str) -> Column | None:
-        """Return the column of a name.
-
-        Parameters
-        ----------
-        name : str
-            Such as ``"drop_height"``.
-
-        Returns
-        -------
-        Column or None
-            None if there is none of that name.
-        """
-        return next((column for column in self.columns if column.name == name), None)
-
 
 def read_description(name: str, mapping: Mapping[str, Any]) -> Description:
     """Return the dataset that the contents of a file of the package describe.

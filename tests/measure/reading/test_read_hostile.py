@@ -261,6 +261,8 @@ def test_gaps_and_repeats(read):
     data = read("t (s),F (N)\n" + "".join(f"{t},1\n" for t in times))
     assert "1 times are repeated" in data.attrs["doubt"]
     assert "1 gaps in time, the first after 0.4 s" in data.attrs["doubt"]
+    uneven = read("t (s),F (N)\n" + "".join(f"{k**2 / 100},1\n" for k in range(10)))
+    assert "gaps in time" not in uneven.attrs["doubt"]
 
 
 # --- much of it

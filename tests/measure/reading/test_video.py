@@ -226,6 +226,14 @@ def test_a_point_of_which_a_coordinate_is_missing_everywhere_is_left_out(read):
     assert data.track.values.tolist() == ["track 1"]
 
 
+def test_a_falling_ball_is_followed_further_than_a_point_may_be_from_its_path(read):
+    fallen = 5.0 * np.arange(15.0) ** 2
+    points = "".join(f"{k} 10.0 {y} 5.0\n" for k, y in enumerate(fallen))
+    data = read("Frame X1 Y1 Flag1 X2 Y2 Flag2\n" + "0 1.0 2.0 5.0 *\n" * 3 + points)
+    assert "blank cells were lost" in data.attrs["doubt"]
+    np.testing.assert_allclose(data.y.values[-15:, 0], fallen)
+
+
 def test_manual_tracking(read):
     head = "\tTrack n°\tSlice n°\tX\tY\tDistance\tVelocity\tPixel Value\n"
     data = read(head + rows("{n}\t1\t{n}\t{x:.0f}\t{y:.0f}\t-1\t-1\t0"))
