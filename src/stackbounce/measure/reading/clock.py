@@ -6,7 +6,6 @@ from datetime import UTC, datetime
 
 import numpy as np
 
-from stackbounce.errors import a_or_an
 from stackbounce.measure.kind import Kind
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
@@ -112,7 +111,7 @@ def _by_steps(kind: Kind, column: Column, times: Array) -> tuple[Column, list[st
     name = column.heading.name or str(column.index + 1)
     doubt = Message(
         f"no unit is told for {name}: taken as {unit}, as steps of {step:.4g} s are too long for "
-        f"{a_or_an(kind.name)}; ",
+        f"a file of {kind.name}; ",
         OptionHint({"units": {name if column.heading.name else column.index + 1: "s"}}),
         " tells another",
     )
