@@ -18,7 +18,7 @@ from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 _MOST_BOUNCES = 200  # of one drop
-_ROUNDING = 1e-5  # of an interval: a clock in single precision makes equal ones differ by less
+_ROUNDING = 5e-3  # of an interval: rounding makes equal ones differ by less, and a ball loses more
 _INSTANT = 1e-6  # s: no ball bounces twice in so short a time
 
 
