@@ -94,6 +94,7 @@ def test_parts_make_a_drop():
         ([0.0, 9e-10, 16e-10], "in s, got intervals of at most 9e-10 s"),
         ([0.0, math.nan, 1.0], "finite"),
         ((1e-4 * np.arange(25)).astype(np.float32), "faster and faster, got 24 equal intervals"),
+        (np.round(np.arange(90) / 30, 4), "faster and faster, got 89 equal intervals of 0.0333 s"),
         (np.arange(5000) ** 0.9, "bounces, at most 200, got 5000"),
     ],
 )

@@ -23,8 +23,9 @@ _MANY_ROWS = 20  # that tell frames, or samples of a scope
 _UNEVEN = 0.1  # of a step, by which rounding may move times
 _LONGEST_SAMPLE = 1e-3  # s, the step of an oscilloscope or sensor
 _LONGEST_FRAME = 0.2  # s, the step of a video
-_TELL = Message("name them, as in ", OptionHint({"names": {1: "time", 2: "force"}}))
-NOT_NAMED = Message("no header names the columns: ", _TELL)
+NOT_NAMED = Message(
+    "no header names the columns: name them, as in ", OptionHint({"names": {1: "time", 2: "force"}})
+)
 
 
 def guess(rows: Array) -> tuple[tuple[Column, ...], str]:
@@ -61,7 +62,8 @@ def _guessed(roles: tuple[str, ...], said: str) -> tuple[tuple[Column, ...], str
     columns = tuple(
         column(k, heading("", units.get(role, "")), role) for k, role in enumerate(roles)
     )
-    return columns, Message(f"no header names the columns: {said}; if that is wrong, ", _TELL)
+    said = f"no header names the columns: {said}; if that is wrong, "
+    return columns, Message(said, OptionHint({"names": None}), " tells what they are")
 
 
 def _step(numbers: Array) -> float:

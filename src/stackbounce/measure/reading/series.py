@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidValue, a_or_an, shown
+from stackbounce.errors import InvalidValue, shown
 from stackbounce.measure.kind import Kind
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
@@ -133,7 +133,7 @@ def _by_steps(kind: Kind, column: Column, times: Array) -> tuple[Column, list[st
     name = column.heading.name or str(column.index + 1)
     doubt = Message(
         f"no unit is told for {name}: taken as {unit}, as steps of {step:.4g} s are too long for "
-        f"{a_or_an(kind.name)}; ",
+        f"a file of {kind.name}; ",
         OptionHint({"units": {name if column.heading.name else column.index + 1: "s"}}),
         " tells another",
     )
