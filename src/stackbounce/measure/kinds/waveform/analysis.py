@@ -24,12 +24,15 @@ from stackbounce.measure.kinds.waveform.sensor import sensitivity_of
 from stackbounce.measure.kinds.waveform.shapes import UNTOLD, Ends, ends_of
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, known_to, measured_if_given
+from stackbounce.measure.samples import runs
 from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
+_HIGH = 0.25  # of the largest value, below which only hum and noise are sought at first
+_HIGH_MARGIN = 0.5  # of a high part's length, on each side
 _ROUNDS = 4  # of finding baseline and contacts by each other; later ones change nothing
 _MOST_CONTACTS = 120  # of a record of bounces
 _FEW_SAMPLES = 6  # of a contact, below which a note says so
@@ -168,6 +171,10 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
     """Find baseline and contacts by iteration, as each depends on the other."""
     quiet = np.zeros(len(record.times), dtype=bool)
     zero = quiet_parts(record, quiet, hum=False)
+    bare = np.abs(record.values - zero.baseline)
+    high = [Stretch(int(a), int(b)) for a, b in zip(*runs(bare > _HIGH * bare.max()), strict=True)]
+    humming = quiet_parts(record, _outside(len(bare), high, _HIGH_MARGIN), hum=True)
+    zero = humming if humming.hum else zero
     stretches: list[Stretch] = []
     short, own = 0, sign or 1
     for k in range(_ROUNDS):
@@ -175,7 +182,7 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
         own = sign or which_sign(bare, zero.noise)
         stretches, short = find_stretches(own * bare, zero.noise, zero.density, threshold)
         quiet = _outside(len(bare), stretches)
-        zero = quiet_parts(record, quiet, hum=k > 0)
+        zero = quiet_parts(record, quiet, hum=k > 0 or bool(humming.hum))
     signal = own * (record.values - zero.baseline)
     times, quantum = record.times, record.quantum
     return Seen(times, signal, own * raw, quantum, zero, quiet, stretches, short, own)
@@ -202,13 +209,13 @@ def _contacts(seen: Seen, ends: Ends) -> tuple[Seen, tuple[Contact, ...]]:
     return (seen, contacts) if len(joined) == len(kept) else _contacts(seen, ends)
 
 
-def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
+def _outside(count: int, stretches: list[Stretch], share: float = _MARGIN) -> NDArray[np.bool_]:
     """Return which samples are outside all contacts, with a margin."""
     quiet = np.ones(count, dtype=bool)
     ends = [-1, *(stretch.last for stretch in stretches)]
     starts = [*(stretch.first for stretch in stretches), count]
     for k, one in enumerate(stretches):
-        margin = int(_MARGIN * len(one)) + 2
+        margin = int(share * len(one)) + 2
         before, after = (one.first - ends[k]) // 3, (starts[k + 1] - one.last) // 3
         quiet[one.first - min(margin, before) : one.last + min(margin, after) + 1] = False
     return quiet
