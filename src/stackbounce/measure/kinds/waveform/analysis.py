@@ -18,6 +18,7 @@ from stackbounce.measure.kinds.waveform.intervals import (
     smoothed,
     which_sign,
 )
+from stackbounce.measure.kinds.waveform.peaks import flat_top
 from stackbounce.measure.kinds.waveform.record import Record, read_record, undrooped
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.sensor import sensitivity_of
@@ -138,7 +139,7 @@ def waveform(
             "which the bounces are a part? "
         )
         raise InvalidValue(Message(got, OptionHint({"start": None, "stop": None}), " choose it"))
-    unlike = sum(no_contact(seen.signal[part.first : part.last + 1]) for part in seen.stretches)
+    unlike = len(seen.stretches) - len(_alike(seen))
     seen, contacts = _contacts(seen, ends)
     notes = [*record.notes, *_notes(record.unit, seen, contacts, m, unlike)]
     if time_constant is None:
@@ -190,9 +191,7 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
 
 def _contacts(seen: Seen, ends: Ends) -> tuple[Seen, tuple[Contact, ...]]:
     """Measure the contacts; those that begin before the one before them ends are one with it."""
-    kept = [
-        part for part in seen.stretches if not no_contact(seen.signal[part.first : part.last + 1])
-    ]
+    kept = _alike(seen)
     around = [None, *kept, None]
     contacts = tuple(
         measure_contact(seen, around[k], stretch, around[k + 2], ends)
@@ -207,6 +206,17 @@ def _contacts(seen: Seen, ends: Ends) -> tuple[Seen, tuple[Contact, ...]]:
             joined.append(one)
     seen = seen._replace(stretches=joined)
     return (seen, contacts) if len(joined) == len(kept) else _contacts(seen, ends)
+
+
+def _alike(seen: Seen) -> list[Stretch]:
+    """Return the stretches that are like contacts of balls."""
+    noisy = seen.zero.noise > seen.quantum  # so that a flat top is a clipped one
+    parts = ((part, slice(part.first, part.last + 1)) for part in seen.stretches)
+    return [
+        part
+        for part, own in parts
+        if not no_contact(seen.signal[own], clipped=noisy and flat_top(seen.raw[own], seen.quantum))
+    ]
 
 
 def _outside(count: int, stretches: list[Stretch], share: float = _MARGIN) -> NDArray[np.bool_]:
