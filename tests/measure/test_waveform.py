@@ -242,10 +242,45 @@ def test_a_square_wave_and_a_decay_are_no_contacts(shape, noise):
     assert any("no contacts of balls" in note for note in found.notes)
 
 
-def test_hum_in_a_short_record_is_a_drift():
-    (contact,) = waveform(record_of(ONE, rate=1e5, noise=0.5, hum=5.0, seed=2)).contacts
-    assert contact.time.nominal_value == pytest.approx(TIME, rel=0.02)
-    assert contact.peak_force.nominal_value == pytest.approx(PEAK, rel=0.04)
+@pytest.mark.parametrize("rate", [2e4, 5e4, 1e5])
+def test_a_dashpot_that_loses_nearly_all_is_a_contact(rate):
+    law = sb.calibrate(sb.Dashpot, mass=0.1, contact_time=TIME, impact_speed=2.0, restitution=0.1)
+    drop = sb.Drop([sb.Ball(0.1)], [law], impact_speed=2.0)
+    for seed in range(5):
+        found = waveform(record_of(drop, rate=rate, noise=0.8, before=6e-3, seed=seed))
+        assert len(found.contacts) == 1
+        assert not any("no contacts of balls" in note for note in found.notes)
+
+
+@pytest.mark.parametrize("law", [sb.Spring, sb.Dashpot, sb.Hysteretic])
+@pytest.mark.parametrize("bits", [None, 8])
+def test_a_contact_that_is_clipped_low_is_one(law, bits):
+    shape = {"restitution": 0.9} if law is not sb.Spring else {}
+    made = sb.calibrate(law, mass=0.1, contact_time=TIME, impact_speed=2.0, **shape)
+    drop = sb.Drop([sb.Ball(0.1)], [made], impact_speed=2.0)
+    record = record_of(drop, rate=5e4, noise=0.5, before=6e-3, full_scale=20.0, bits=bits)
+    found = waveform(record)
+    assert [contact.clipped for contact in found.contacts] == [True]
+    assert found.contacts[0].time.nominal_value == pytest.approx(TIME, rel=0.03)
+
+
+@pytest.mark.parametrize("before", [3e-3, 8e-3, 0.03])
+@pytest.mark.parametrize("mains", [50.0, 60.05])
+def test_hum_of_less_than_two_periods(before, mains):
+    how = {"noise": 0.5, "hum": 8.0, "mains": mains, "before": before, "seed": 2}
+    found = waveform(record_of(ONE, rate=5e4, **how))
+    (contact,) = found.contacts
+    assert any(f"hum of {mains:.0f} Hz" in note for note in found.notes)
+    assert near(contact.time, TIME)
+    assert near(contact.impulse, 0.4)
+    assert near(contact.peak_force, PEAK)
+    assert contact.impulse.std_dev < 0.003
+
+
+@pytest.mark.parametrize("time_constant", [5e-3, 0.02, 0.1])
+def test_a_droop_is_no_hum(time_constant):
+    how = {"noise": 0.5, "time_constant": time_constant, "before": 5e-3}
+    assert not waveform(record_of(ONE, rate=5e4, **how)).hum
 
 
 def test_few_samples_are_said_and_covered_by_the_error():

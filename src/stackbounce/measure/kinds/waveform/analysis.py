@@ -18,18 +18,22 @@ from stackbounce.measure.kinds.waveform.intervals import (
     smoothed,
     which_sign,
 )
+from stackbounce.measure.kinds.waveform.peaks import flat_top
 from stackbounce.measure.kinds.waveform.record import Record, read_record, undrooped
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.sensor import sensitivity_of
 from stackbounce.measure.kinds.waveform.shapes import UNTOLD, Ends, ends_of
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, known_to, measured_if_given
+from stackbounce.measure.samples import runs
 from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
+_HIGH = 0.25  # of the largest value, below which only hum and noise are sought at first
+_HIGH_MARGIN = 0.5  # of a high part's length, on each side
 _ROUNDS = 4  # of finding baseline and contacts by each other; later ones change nothing
 _MOST_CONTACTS = 120  # of a record of bounces
 _FEW_SAMPLES = 6  # of a contact, below which a note says so
@@ -135,7 +139,7 @@ def waveform(
             "which the bounces are a part? "
         )
         raise InvalidValue(Message(got, OptionHint({"start": None, "stop": None}), " choose it"))
-    unlike = sum(no_contact(seen.signal[part.first : part.last + 1]) for part in seen.stretches)
+    unlike = len(seen.stretches) - len(_alike(seen))
     seen, contacts = _contacts(seen, ends)
     notes = [*record.notes, *_notes(record.unit, seen, contacts, m, unlike)]
     if time_constant is None:
@@ -168,6 +172,10 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
     """Find baseline and contacts by iteration, as each depends on the other."""
     quiet = np.zeros(len(record.times), dtype=bool)
     zero = quiet_parts(record, quiet, hum=False)
+    bare = np.abs(record.values - zero.baseline)
+    high = [Stretch(int(a), int(b)) for a, b in zip(*runs(bare > _HIGH * bare.max()), strict=True)]
+    humming = quiet_parts(record, _outside(len(bare), high, _HIGH_MARGIN), hum=True)
+    zero = humming if humming.hum else zero
     stretches: list[Stretch] = []
     short, own = 0, sign or 1
     for k in range(_ROUNDS):
@@ -175,7 +183,7 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
         own = sign or which_sign(bare, zero.noise)
         stretches, short = find_stretches(own * bare, zero.noise, zero.density, threshold)
         quiet = _outside(len(bare), stretches)
-        zero = quiet_parts(record, quiet, hum=k > 0)
+        zero = quiet_parts(record, quiet, hum=k > 0 or bool(humming.hum))
     signal = own * (record.values - zero.baseline)
     times, quantum = record.times, record.quantum
     return Seen(times, signal, own * raw, quantum, zero, quiet, stretches, short, own)
@@ -183,9 +191,7 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
 
 def _contacts(seen: Seen, ends: Ends) -> tuple[Seen, tuple[Contact, ...]]:
     """Measure the contacts; those that begin before the one before them ends are one with it."""
-    kept = [
-        part for part in seen.stretches if not no_contact(seen.signal[part.first : part.last + 1])
-    ]
+    kept = _alike(seen)
     around = [None, *kept, None]
     contacts = tuple(
         measure_contact(seen, around[k], stretch, around[k + 2], ends)
@@ -202,13 +208,24 @@ def _contacts(seen: Seen, ends: Ends) -> tuple[Seen, tuple[Contact, ...]]:
     return (seen, contacts) if len(joined) == len(kept) else _contacts(seen, ends)
 
 
-def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
+def _alike(seen: Seen) -> list[Stretch]:
+    """Return the stretches that are like contacts of balls."""
+    noisy = seen.zero.noise > seen.quantum  # so that a flat top is a clipped one
+    parts = ((part, slice(part.first, part.last + 1)) for part in seen.stretches)
+    return [
+        part
+        for part, own in parts
+        if not no_contact(seen.signal[own], clipped=noisy and flat_top(seen.raw[own], seen.quantum))
+    ]
+
+
+def _outside(count: int, stretches: list[Stretch], share: float = _MARGIN) -> NDArray[np.bool_]:
     """Return which samples are outside all contacts, with a margin."""
     quiet = np.ones(count, dtype=bool)
     ends = [-1, *(stretch.last for stretch in stretches)]
     starts = [*(stretch.first for stretch in stretches), count]
     for k, one in enumerate(stretches):
-        margin = int(_MARGIN * len(one)) + 2
+        margin = int(share * len(one)) + 2
         before, after = (one.first - ends[k]) // 3, (starts[k + 1] - one.last) // 3
         quiet[one.first - min(margin, before) : one.last + min(margin, after) + 1] = False
     return quiet

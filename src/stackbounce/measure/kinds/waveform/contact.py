@@ -6,8 +6,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.measure.kinds.waveform.baseline import Quiet, fit_quiet, scatter
+from stackbounce.measure.kinds.waveform.baseline import Quiet, scatter
 from stackbounce.measure.kinds.waveform.flanks import Part, fit_flank
+from stackbounce.measure.kinds.waveform.hum import fit_quiet
 from stackbounce.measure.kinds.waveform.intervals import Stretch
 from stackbounce.measure.kinds.waveform.peaks import find_peaks, flat_top, impulse_of
 from stackbounce.measure.kinds.waveform.result import Contact
@@ -129,4 +130,5 @@ def _part(seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | Non
             density = max(density, 1e-6 * float(np.ptp(values)))
         own = density / np.sqrt(sum(sides))
         offset = float(np.hypot(own, quantisation_error(seen.quantum, noise)))
+    offset = float(np.hypot(offset, seen.zero.hum_error[(one.first + one.last) // 2]))
     return Part(times, values, one.first - low, one.last - low, offset, noise, density)
