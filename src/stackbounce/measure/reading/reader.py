@@ -13,7 +13,7 @@ from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
 from stackbounce.files import content_of
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading import projects, wav
+from stackbounce.measure.reading import wav
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
 from stackbounce.measure.reading.layouts import NOT_NAMED, Layout
@@ -29,7 +29,7 @@ from stackbounce.measure.reading.numbers import (
 from stackbounce.measure.reading.options import ReadOptions, apply_options, of_run, part_of
 from stackbounce.measure.reading.roles import Column
 from stackbounce.measure.reading.series import without_counts
-from stackbounce.measure.reading.tables import Tables, chosen, from_xlsx, from_zip, is_xlsx
+from stackbounce.measure.reading.tables import Tables, chosen, from_project, tables_in
 from stackbounce.measure.reading.text import decode, tabulate
 from stackbounce.measure.reading.video import on_frames
 
@@ -188,22 +188,13 @@ def _read(name: str, content: bytearray, options: ReadOptions) -> "xr.Dataset":
             wrong = f": the file is a sound, got {shown(options.holds)}"
             raise InvalidValue(about_option("holds", wrong))
         return _signed(data, "WAV", why, "sound", doubts)
-    tables = _tables_in(content)
+    tables = tables_in(content)
     if tables is not None:
         return _from_tables(tables, options)
     if options.table is not None:
         alone = ": there is one only, as it is no zip archive or spreadsheet"
         raise InvalidValue(about_option("table", alone))
     return _from_table(name, content, options)
-
-
-def _tables_in(content: bytearray) -> Tables | None:
-    """Return the tables in a packing of its own, each as a program writes it; None if it is one."""
-    if content.startswith((b"PK\x03\x04", b"PK\x05\x06")):
-        return from_xlsx(content) if is_xlsx(content) else from_zip(content)
-    if content.startswith(b"\xd0\xcf\x11\xe0"):
-        raise FileError("it is an old Excel file (.xls): save it as .xlsx or CSV")
-    return projects.tables(content)
 
 
 def _from_tables(tables: Tables, options: ReadOptions) -> "xr.Dataset":
@@ -216,7 +207,7 @@ def _from_tables(tables: Tables, options: ReadOptions) -> "xr.Dataset":
     for name in names:
         try:
             content = bytearray(tables.members.pop(name))
-            inner = projects.tables(content)  # one of Tracker in a zip archive
+            inner = from_project(content)  # one of Tracker in a zip archive
             own = _from_tables(inner, options) if inner else _from_table(name, content, options)
             read.append((name, own))
         except StackbounceError as error:
