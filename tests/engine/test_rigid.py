@@ -13,7 +13,6 @@ from drops import assert_collisions, exact, precise, rigid
 from reference import rigid as reference
 
 PRECISION = 1e-11
-fractions = st.floats(0.01, 1.0)
 
 
 @pytest.mark.parametrize("e", [1.0, 0.92, 0.9, 0.88, 0.8, 0.5])
