@@ -10,10 +10,7 @@ from stackbounce.cross2007 import PAPER, changed
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.cross2007.drops import bisect, force_above, newton, peak_times, spring_pair
-from stackbounce.cross2007.figures_models import (
-    after_collision,
-    sample_forces,
-)
+from stackbounce.cross2007.figures_models import after_collision, sample_forces
 from stackbounce.cross2007.report import FIGURES, draw_figures
 from stackbounce.cross2007.stacks import (
     early_twins,

@@ -20,10 +20,6 @@ USUAL = {"peak": 5e-3, "slack": 1e-3, "noise": 0.1, "seed": 1}
 LOSSY = sb.Hysteretic(1e4, restitution=0.5)
 
 
-def way_in(data):
-    return data.isel(point=slice(0, int(data.compression.values.argmax()) + 1))
-
-
 @pytest.mark.parametrize(
     "law",
     [

@@ -8,16 +8,7 @@ from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.cases import AFTER_FIRST, AFTER_SECOND, STIFFNESS, pair_mass_ratios
 from stackbounce.cross2007.drops import Array, after_meeting, rigid_pair, spring_pair
 from stackbounce.cross2007.stacks import figure_5
-from stackbounce.cross2007.style import (
-    BLACK,
-    FLOOR,
-    GREY,
-    UPPER,
-    Picture,
-    describe,
-    make_axes,
-    tag,
-)
+from stackbounce.cross2007.style import BLACK, FLOOR, GREY, UPPER, Picture, describe, make_axes, tag
 from stackbounce.model.drop import Drop
 from stackbounce.run.result import Result
 

@@ -42,22 +42,10 @@ READINGS = {name: found for module in _MODULES for name, found in module.READING
 """The functions that compute the other readings of some claims, by name."""
 
 FIGURES: dict[str, Callable[[Bench], Picture]] = {
-    "2a": figures_models.draw_figure_2a,
-    "2b": figures_models.draw_figure_2b,
-    "4a": figures_models.draw_figure_4a,
-    "4b": figures_models.draw_figure_4b,
-    "5": figures_models.draw_figure_5,
-    "6": figures_models.draw_figure_6,
-    "7": figures_records.draw_figure_7,
-    "8": figures_records.draw_figure_8,
-    "8-hollow": figures_records.draw_figure_8_hollow,
-    "9": figures_records.draw_figure_9,
-    "10a": figures_records.draw_figure_10a,
-    "10b": figures_records.draw_figure_10b,
-    "11a": figures_records.draw_figure_11a,
-    "11b": figures_records.draw_figure_11b,
-    "12": figures_records.draw_figure_12,
-    "13": figures_records.draw_figure_13,
+    name.removeprefix("draw_figure_").replace("_", "-"): draw
+    for module in (figures_models, figures_records)
+    for name, draw in vars(module).items()
+    if name.startswith("draw_figure_")
 }
 """The functions that draw the figures, by the paper's number; 1 and 3 are sketches.
 

@@ -4,7 +4,7 @@
 options      the end time, the tolerance and the event limit of a run
 engines      chooses the engine, and plain Python or compiled code
 driver       one drop: `simulate`
-batch        many drops in blocks and threads
+batch        many drops in blocks, into which a grid is cut, and threads
 bounces      one ball that bounces on in air
 collision    one collision: restitution and contact time, and drops by separate collisions
 conditioning how far an error of the numbers of a drop grows
@@ -12,6 +12,5 @@ calibration  the law that has a restitution and a contact time
 quantities   speeds, heights, times and energy of many drops, by name
 result       the `Result` of one drop
 paths        the parameters of a drop by their paths, and of many drops as arrays
-blocks       a grid of drops cut into blocks
 ============ ===========================================================================
 """

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import FileError, InvalidValue, shown
 from stackbounce.model import Drop
-from stackbounce.run.blocks import Block, sides, size
+from stackbounce.run.batch import Block, sides, size
 from stackbounce.sweeps import files
 from stackbounce.sweeps.dataset import check_along, read_values, sweep
 from stackbounce.sweeps.files import Form

@@ -19,7 +19,7 @@ from stackbounce.explorer.answers.play import add_values
 from stackbounce.explorer.schema import read_drop
 from stackbounce.json_values import plain
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS
-from stackbounce.model.schema import read_law
+from stackbounce.model.toml import read_law
 from stackbounce.prediction import write_scenario
 from stackbounce.prediction.inputs import read_inputs
 from stackbounce.run.paths import numbers_of

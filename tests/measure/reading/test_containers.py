@@ -187,7 +187,7 @@ def test_two_masses_and_no_scale(read):
     ("<Document><DataSet></DataSet></Document>", "Logger Pro without numbers"),
 ])  # fmt: skip
 def test_xml_that_is_refused(read, content, message, monkeypatch):
-    monkeypatch.setattr("stackbounce.measure.reading.projects._BYTES", 4000)
+    monkeypatch.setattr("stackbounce.measure.reading.tables._XML", 4000)
     with pytest.raises(FileError, match=message):
         read(content)
 

@@ -12,8 +12,7 @@ formats    which program wrote a table: a function for each
 video      frames as times, pixels as lengths, one row for each frame
 dataset    columns -> the Dataset of what they hold
 series     times: since when, in which unit; runs, gaps, repeats, and rounded ones
-tables     the tables in a zip archive or a spreadsheet of Excel, as bytes
-projects   own files of Tracker and Logger Pro
+tables     the tables in a zip archive, a spreadsheet of Excel, own files of programs
 wav        sound, decoded by scipy
 ========== ====================================================================
 """

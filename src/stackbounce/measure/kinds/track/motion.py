@@ -53,11 +53,8 @@ class Shape(NamedTuple):
     @property
     def bent(self) -> float:
         """The size of that change where it is clear, else 0."""
-        return (
-            abs(self.change)
-            if abs(self.change) > max(_CLEARLY_BENT, 4.0 * self.change_error)
-            else 0.0
-        )
+        size = abs(self.change)
+        return size if size > max(_CLEARLY_BENT, 4.0 * self.change_error) else 0.0
 
 
 def shape_of(times: Array, heights: Array, flights: Sequence[Flight]) -> Shape:
