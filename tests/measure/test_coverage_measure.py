@@ -22,6 +22,7 @@ from measure.near import possible
 TOLD = {name: trial for name, trial in waveform.CASES.items() if name in waveform.TOLD}
 UNTOLD = {name: trial for name, trial in waveform.CASES.items() if name not in TOLD}
 UGLY = [name for name in sound.CASES if name.startswith("ugly")]
+SCATTERS = "sound, restitution that falls and scatters"
 POOLED = ("knock times", "flights", "restitutions")
 
 
@@ -90,6 +91,13 @@ def test_sound(case):
             assert can_be(share.within_one, len(seeds)), quantity
         else:
             assert 0.60 <= share.within_one <= 0.76, quantity
+        assert share.within_two >= 0.87, quantity
+
+
+@pytest.mark.slow
+def test_a_restitution_that_scatters_has_timid_errors():
+    for quantity, share in shares(sound.LIMITS[SCATTERS], range(60)).items():
+        assert share.within_one >= 0.60, quantity
         assert share.within_two >= 0.87, quantity
 
 
