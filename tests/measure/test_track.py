@@ -110,6 +110,7 @@ def test_three_points_a_flight():
 def test_a_track_that_begins_late_says_so():
     found = track(tracked(FALL, before=-0.25, seed=1))
     assert any("begins 0.2" in note for note in found.notes)
+    assert not any("go together" in note for note in found.notes)
 
 
 def test_the_floor_may_be_given():
