@@ -115,8 +115,7 @@ def test_a_track_that_begins_late_says_so():
 
 def test_the_floor_may_be_given():
     data = tracked(FALL, seed=1)
-    (found,) = analyse(data, floor=0.0)
-    assert near(found.balls[0].drop_height, 1.0)
+    assert near(analyse(data, floor=0.0)[0].balls[0].drop_height, 1.0)
     with pytest.raises(InvalidValue, match="floor must be a level"):
         track(data, floor=5.0)
 
