@@ -14,6 +14,7 @@ from stackbounce.measure.kinds.bounces.analysis import bounces
 from stackbounce.measure.kinds.bounces.knocks import missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import laws_of
 from stackbounce.measure.kinds.heights.analysis import heights
+from stackbounce.plots import measured
 from synthetic.falls import falls
 
 FALL = falls(1.0, lambda speed: 0.9 - 0.02 * speed, bounces=10)
@@ -158,6 +159,7 @@ def test_heights_without_errors_say_so():
     assert any("height_error" in note for note in found.notes)
     known = heights(ufloat(1.0, 0.01), ufloat(0.64, 0.01))
     assert known.mean.std_dev == pytest.approx(0.8 * 0.5 * math.hypot(0.01, 0.01 / 0.64))
+    assert measured(None, known).axes[0].lines[0].get_ydata()[-1] == pytest.approx(0.64)
 
 
 def test_repeated_heights_scatter():
