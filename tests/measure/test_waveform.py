@@ -221,6 +221,33 @@ def test_hum_is_taken_off(mains):
     assert near(contact.impulse, 0.4)
 
 
+@pytest.mark.parametrize("resonance", [(600.0, 0.01), (800.0, 0.03), (1100.0, 0.1)])
+def test_the_ringing_of_a_sensor_is_taken_off(resonance):
+    how = {"noise": 1.0, "before": 0.01, "bits": 12, "full_scale": 256.0, "seed": 3}
+    record = record_of(ONE, rate=5e4, resonance=resonance, **how)
+    found = waveform(record, sign=1)
+    (contact,) = found.contacts
+    (note,) = [note for note in found.notes if "sensor rings" in note]
+    assert float(re.search(r"at (\d+) Hz", note)[1]) == pytest.approx(resonance[0], rel=0.02)
+    assert near(contact.start, record.attrs["touch"])
+    assert near(contact.time, TIME)
+    assert near(contact.peak_force, PEAK)
+    assert near(contact.impulse, 0.4)
+    assert contact.time.std_dev < 0.02 * TIME
+    assert contact.peak_force.std_dev < 0.01 * PEAK
+
+
+def test_small_contacts_after_a_large_one_are_no_ringing():
+    times = np.arange(0.0, 0.012, 2e-5)
+    humps = [(2e-3, 100.0), (3.5e-3, 30.0), (5e-3, 10.0)]
+    phases = [np.pi * np.clip((times - at) / 1e-3, 0.0, 1.0) for at, _ in humps]
+    force = sum(height * np.sin(phase) for phase, (_, height) in zip(phases, humps, strict=True))
+    noise = np.random.default_rng(1).normal(0.0, 0.3, len(times))
+    found = waveform((times, force + noise))
+    assert len(found.contacts) == 3
+    assert not any("sensor rings" in note for note in found.notes)
+
+
 def test_no_contact_begins_before_the_one_before_it_ends():
     times = np.arange(0.0, 0.03, 2e-5)
     at = np.clip(times - 0.01, 0.0, 8e-3)

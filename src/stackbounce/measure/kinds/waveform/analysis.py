@@ -21,6 +21,7 @@ from stackbounce.measure.kinds.waveform.intervals import (
 from stackbounce.measure.kinds.waveform.peaks import flat_top
 from stackbounce.measure.kinds.waveform.record import Record, read_record, undrooped
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
+from stackbounce.measure.kinds.waveform.ringing import ringing_of
 from stackbounce.measure.kinds.waveform.sensor import sensitivity_of
 from stackbounce.measure.kinds.waveform.shapes import UNTOLD, Ends, ends_of
 from stackbounce.measure.messages import Message, OptionHint
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 
 _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
 _HIGH = 0.25  # of the largest value, below which only hum and noise are sought at first
+_SMOOTHED = 1e-4  # s of averages, so that noise does not break high parts into short ones
 _HIGH_MARGIN = 0.5  # of a high part's length, on each side
 _ROUNDS = 4  # of finding baseline and contacts by each other; later ones change nothing
 _MOST_CONTACTS = 120  # of a record of bounces
@@ -128,10 +130,14 @@ def waveform(
     v = measured_if_given("impact_speed", impact_speed, "m/s")
     record = read_record(data)
     raw = record.values
+    ringing = ringing_of(record)
+    if ringing is not None:
+        record = replace(record, values=ringing.force(record.values, record.step))
     seen = _see(record, raw, threshold, sign)
     if time_constant is not None:
         record = _undrooped(record, seen, time_constant)
         seen = _see(record, raw, threshold, sign)
+    seen = seen._replace(ringing=ringing)
     if len(seen.stretches) > _MOST_CONTACTS:
         got = (
             f"data must hold the contacts of a bounce or of a few, up to {_MOST_CONTACTS}, got "
@@ -172,7 +178,8 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
     """Find baseline and contacts by iteration, as each depends on the other."""
     quiet = np.zeros(len(record.times), dtype=bool)
     zero = quiet_parts(record, quiet, hum=False)
-    bare = np.abs(record.values - zero.baseline)
+    width = 2 * int(0.5 * _SMOOTHED / record.step) + 1
+    bare = smoothed(np.abs(record.values - zero.baseline), width)
     high = [Stretch(int(a), int(b)) for a, b in zip(*runs(bare > _HIGH * bare.max()), strict=True)]
     humming = quiet_parts(record, _outside(len(bare), high, _HIGH_MARGIN), hum=True)
     zero = humming if humming.hum else zero
@@ -247,6 +254,12 @@ def _notes(
     """Return the notes on a record."""
     notes = []
     of = f" {unit}" if unit else ""
+    if seen.ringing is not None:
+        notes.append(
+            f"the sensor rings at {seen.ringing.frequency:.0f} Hz with a damping ratio of "
+            f"{seen.ringing.damping:.2g}, as it shows after a contact: this was taken off at the "
+            "cost of accuracy; a stiffer sensor or mount rings above 5 / contact time"
+        )
     if unlike:
         notes.append(
             f"{unlike} of the stretches above the noise are no contacts of balls: they jump "
