@@ -221,11 +221,11 @@ def test_a_scenario_file_and_changes_to_it(printed, told):
 
 
 def test_names_cannot_write_on_the_terminal(run):
-    drop = sb.Drop([sb.Ball(1.0, name="a\x1b[31mb\nc[red]")], [sb.Spring(1.0)], impact_speed=1.0)
+    drop = sb.Drop([sb.Ball(1.0, name="a\x1b[31mb\nc[red] ..")], [sb.Spring(1.0)], impact_speed=1.0)
     Path("drop.toml").write_text(drop.to_toml())
     _, out, _ = run("simulate", "drop.toml")
     assert "\x1b" not in out
-    assert "a?[31mb?c[red] at 1.000 m/s" in out
+    assert "a?[31mb?c[red] … at 1.000 m/s" in out
 
 
 def test_highest_points_are_shown(printed, run):

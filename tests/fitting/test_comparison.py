@@ -68,7 +68,8 @@ def test_with_one_drop_each_datum_is_left_out():
     drop = sb.Drop(BALLS, [sb.Rigid(0.8), sb.Rigid(0.9)], impact_speed=3.0)
     model = sb.Model(drop, {"contacts.0.restitution": (0.1, 1.0)})
     ratios = [(ratio, 0.01) for ratio in sb.simulate(drop).rebound_ratios]
-    compared = sb.compare({"one": model}, {"rebound_ratios": ratios})
+    compared = sb.compare({"one": model, "same": model}, {"rebound_ratios": ratios})
+    assert [score.weight for score in compared.scores] == [0.5, 0.5]
     names = [row.name for row in compared.left_out["one"]]
     assert names == ["rebound_ratios.0", "rebound_ratios.1"]
 

@@ -73,11 +73,8 @@ def test_a_pull_out_of_reach_is_an_arrow_at_the_edge():
 
 def test_pulls_of_models_are_written_in_few_characters():
     data = {"rebound_ratios.1": "1.64 ± 0.02", "rebound_ratios.0": "0.2 ± 0.0001"}
-    compared = sb.compare({"one": sb.Model(DROP, BETWEEN)}, data)
-    small, large = sorted(compared.pulls.values[0], key=abs)
-    assert abs(small) < 99.5 < abs(large)
-    axes = plots.compared(compared).axes[1]
-    assert {text.get_text() for text in axes.texts} == {f"{small:+.1f}", f"{large:+.0f}"}
+    axes = plots.compared(sb.compare({"one": sb.Model(DROP, BETWEEN)}, data)).axes[1]
+    assert {text.get_text() for text in axes.texts} == {"+11.7", "+142"}
 
 
 def test_a_curve_over_one_parameter(one):
