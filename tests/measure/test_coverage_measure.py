@@ -23,7 +23,6 @@ TOLD = {name: trial for name, trial in waveform.CASES.items() if name in wavefor
 APART = {*TOLD, *waveform.HUMMING}
 UNTOLD = {name: trial for name, trial in waveform.CASES.items() if name not in APART}
 UGLY = [name for name in sound.CASES if name.startswith("ugly")]
-SCATTERS = "sound, restitution that falls and scatters"
 POOLED = ("knock times", "flights", "restitutions")
 
 
@@ -105,8 +104,9 @@ def test_sound(case):
 
 
 @pytest.mark.slow
-def test_a_restitution_that_scatters_has_timid_errors():
-    for quantity, share in shares(sound.LIMITS[SCATTERS], range(60)).items():
+@pytest.mark.parametrize("case", sound.LIMITS)
+def test_where_the_errors_of_a_sound_are_not_right_they_are_timid(case):
+    for quantity, share in shares(sound.LIMITS[case], range(60)).items():
         assert share.within_one >= 0.60, quantity
         assert share.within_two >= 0.87, quantity
 
