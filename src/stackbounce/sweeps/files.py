@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.extras import need
+from stackbounce.files import write_files
 from stackbounce.run.batch import Block, blocks
 
 if TYPE_CHECKING:
@@ -112,9 +113,9 @@ def create(path: Path, form: Form) -> None:
         if own:
             array[...] = form.values[name]
     zarr.consolidate_metadata(group.store)
-    for name, part in made.items():
+    for name in made:
         (path / name).parent.mkdir(parents=True, exist_ok=True)
-        (path / name).write_bytes(part.to_bytes())
+    write_files((path / name, part.to_bytes()) for name, part in made.items())
 
 
 @contextlib.contextmanager
