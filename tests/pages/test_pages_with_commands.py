@@ -20,7 +20,6 @@ from stackbounce.cross2007.figures_models import (
     rebound_by_mass,
     rebound_by_stiffness,
 )
-from stackbounce.fitting.quantities import QUANTITIES
 from stackbounce.measure import analyse
 from stackbounce.model.catalogue import CLASS_BALLS
 
@@ -64,37 +63,6 @@ def test_a_command_prints_what_stands_there(step, tmp_path, monkeypatch, capsys)
 def test_all_commands_of_the_page_are_run():
     assert len(RUNS) == STACKS_TEXT.count("$ stackbounce") == 5
     assert STACKS_TEXT.count("--plot") == 2
-
-
-# --- the page on fits: its commands print what it shows, in turn
-FIT_TEXT = read_page("fit")
-
-
-@pytest.mark.slow
-def test_the_commands_in_turn_print_what_is_shown(tmp_path, monkeypatch, capsys):
-    for path in [*(DOCS / "lab").iterdir(), *(DOCS / "fit").iterdir()]:
-        if path.is_file():
-            shutil.copy(path, tmp_path)
-    monkeypatch.chdir(tmp_path)
-    commands = [command[0] for command, _ in steps(FIT_TEXT)]
-    assert commands.count("fit") == FIT_TEXT.count("$ stackbounce fit")
-    run_all(steps(FIT_TEXT), capsys)
-    for name in ("force", "valley", "draws", "models"):
-        assert (tmp_path / f"{name}.png").stat().st_size > 10_000
-    drop = sb.Drop.from_toml(tmp_path / "fitted" / "highest.toml")
-    assert drop.contacts[1].stiffness == pytest.approx(1000.0, abs=3 * 21.0)  # what went in
-    assert drop.gaps[0] == pytest.approx(0.002, abs=3 * 0.00049)
-
-
-def test_every_picture_has_its_command():
-    pictures = re.findall(r"^\.\. plot:: figures/fit.py (\w+)$", FIT_TEXT, re.MULTILINE)
-    written = re.findall(r"^Picture: (\w+)\.png$", FIT_TEXT, re.MULTILINE)
-    assert sorted(pictures) == sorted(written) == ["draws", "force", "models", "valley"]
-
-
-def test_every_quantity_is_in_the_table():
-    for name in (*QUANTITIES, "force"):
-        assert re.search(rf"`{name}(\.\d)?`", FIT_TEXT), name
 
 
 # --- the page of maps and lines: its commands draw its pictures, and these agree with the paper's
@@ -143,7 +111,7 @@ def test_draws_are_dropped_from_each_height(tmp_path, monkeypatch):
     assert ds.rebound_ratio.std("draw").sel(ball=1).values == pytest.approx(0.02, rel=0.2)
 
 
-def test_every_picture_of_sweeps_has_its_command():
+def test_every_picture_has_its_command():
     shown = re.findall(r"^\.\. plot:: figures/sweeps.py (\w+)$", SWEEPS_TEXT, re.MULTILINE)
     assert len(COMMANDS) == len(shown) == len(set(shown)) > 0
 
@@ -186,7 +154,7 @@ def test_the_files_are_what_the_script_writes(tmp_path):
 
 
 @pytest.mark.slow
-def test_the_commands_of_the_lab_in_turn_print_what_is_shown(tmp_path, monkeypatch, capsys):
+def test_the_commands_in_turn_print_what_is_shown(tmp_path, monkeypatch, capsys):
     for path in FILES:
         shutil.copy(path, tmp_path)
     monkeypatch.chdir(tmp_path)
