@@ -132,7 +132,8 @@ def waveform(
     raw = record.values
     ringing = ringing_of(record)
     if ringing is not None:
-        record = replace(record, values=ringing.force(record.values, record.step))
+        record, inner = ringing.force(record)
+        raw = raw[inner]
     seen = _see(record, raw, threshold, sign)
     if time_constant is not None:
         record = _undrooped(record, seen, time_constant)

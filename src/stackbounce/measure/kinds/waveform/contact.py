@@ -12,7 +12,7 @@ from stackbounce.measure.kinds.waveform.hum import fit_quiet
 from stackbounce.measure.kinds.waveform.intervals import Stretch
 from stackbounce.measure.kinds.waveform.peaks import find_peaks, flat_top, impulse_of
 from stackbounce.measure.kinds.waveform.result import Contact
-from stackbounce.measure.kinds.waveform.ringing import Ringing
+from stackbounce.measure.kinds.waveform.ringing import OWN_NOISE, Ringing
 from stackbounce.measure.kinds.waveform.shapes import Ends
 from stackbounce.measure.quantities import Array, known_to
 from stackbounce.measure.samples import quantisation_error
@@ -82,10 +82,8 @@ def measure_contact(
     part = _part(seen, before, one, after)
     pad = len(one) // 20 + 2
     inner = slice(max(0, part.first - pad), part.last + pad + 1)
-    ringing, noise, density = seen.ringing, part.noise, part.density
-    if ringing is not None:
-        noise, density = density, ringing.peak_density
-    peaks = find_peaks(part.times[inner], part.values[inner], noise, density)
+    ringing, density = seen.ringing, part.density
+    peaks = find_peaks(part.times[inner], part.values[inner], part.noise, density)
     rise = fit_flank(part, peaks[0], ends.touch, forward=True) if one.first > 1 else None
     whole = one.last < len(seen.times) - 2
     fall = fit_flank(part, peaks[-1], ends.release, forward=False) if whole else None
@@ -97,8 +95,9 @@ def measure_contact(
         part.times[part.last] if end is None else end.nominal_value,
     )
     area = impulse_of(part.times, part.values, density, part.offset, inside)
-    times = [known_to(peak.time, peak.time_error) for peak in peaks]
-    forces = [known_to(peak.force, hypot(peak.force_error, part.offset)) for peak in peaks]
+    own = 1.0 if ringing is None else OWN_NOISE
+    times = [known_to(peak.time, own * peak.time_error) for peak in peaks]
+    forces = [known_to(peak.force, hypot(own * peak.force_error, part.offset)) for peak in peaks]
     return Contact(
         start=start,
         end=end,
