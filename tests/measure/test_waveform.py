@@ -269,6 +269,16 @@ def test_a_square_wave_and_a_decay_are_no_contacts(shape, noise):
     assert any("no contacts of balls" in note for note in found.notes)
 
 
+@pytest.mark.parametrize(("edge", "count"), [(0.05, 0), (0.5, 6)])
+def test_equal_pulses_with_slow_edges_are_a_square_wave_unless_they_are_round(edge, count):
+    times = np.arange(0.0, 0.12, 2e-5)
+    phase = np.clip((times % 0.02 - 2e-3) / 4e-3, 0.0, 1.0)  # of a pulse every 20 ms
+    force = np.clip(np.sin(np.pi * phase) / np.sin(np.pi * edge), 0.0, 1.0)
+    found = waveform((times, 100.0 * force + np.random.default_rng(1).normal(0.0, 0.5, len(times))))
+    assert len(found.contacts) == count
+    assert any("no contacts of balls" in note for note in found.notes) == (count == 0)
+
+
 @pytest.mark.parametrize("rate", [2e4, 5e4, 1e5])
 def test_a_dashpot_that_loses_nearly_all_is_a_contact(rate):
     law = sb.calibrate(sb.Dashpot, mass=0.1, contact_time=TIME, impact_speed=2.0, restitution=0.1)

@@ -25,7 +25,7 @@ from stackbounce.measure.kinds.waveform.ringing import ringing_of
 from stackbounce.measure.kinds.waveform.sensor import sensitivity_of
 from stackbounce.measure.kinds.waveform.shapes import UNTOLD, Ends, ends_of
 from stackbounce.measure.messages import Message, OptionHint
-from stackbounce.measure.quantities import Array, known_to, measured_if_given
+from stackbounce.measure.quantities import Array, known_to, measured_if_given, nominal
 from stackbounce.measure.samples import runs
 from stackbounce.model.laws import ContactLaw
 
@@ -36,6 +36,10 @@ _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count 
 _HIGH = 0.25  # of the largest value, below which only hum and noise are sought at first
 _SMOOTHED = 1e-4  # s of averages, so that noise does not break high parts into short ones
 _HIGH_MARGIN = 0.5  # of a high part's length, on each side
+_MANY_EQUAL, _EQUAL = 5, 0.02  # pulses, and the share by which their peaks differ at most
+_FULL = (
+    0.8  # of peak times duration: the impulse of a square pulse with slow edges; a sine has 0.64
+)
 _ROUNDS = 4  # of finding baseline and contacts by each other; later ones change nothing
 _MOST_CONTACTS = 120  # of a record of bounces
 _FEW_SAMPLES = 6  # of a contact, below which a note says so
@@ -148,6 +152,8 @@ def waveform(
         raise InvalidValue(Message(got, OptionHint({"start": None, "stop": None}), " choose it"))
     unlike = len(seen.stretches) - len(_alike(seen))
     seen, contacts = _contacts(seen, ends)
+    if _are_square(contacts):
+        unlike, contacts = unlike + len(contacts), ()
     notes = [*record.notes, *_notes(record.unit, seen, contacts, m, unlike)]
     if time_constant is None:
         notes += _droops(seen, record.step)
@@ -225,6 +231,17 @@ def _alike(seen: Seen) -> list[Stretch]:
         for part, own in parts
         if not no_contact(seen.signal[own], clipped=noisy and flat_top(seen.raw[own], seen.quantum))
     ]
+
+
+def _are_square(contacts: tuple[Contact, ...]) -> bool:
+    """Return whether pulses are equally high and full, as those of a generator."""
+    whole = [contact for contact in contacts if contact.time is not None]
+    if len(whole) < _MANY_EQUAL or any(contact.clipped for contact in contacts):
+        return False
+    peaks = np.array([nominal(contact.peak_force) for contact in whole])
+    areas = [nominal(contact.impulse) / nominal(contact.time) for contact in whole]
+    equal = float(np.ptp(peaks)) < _EQUAL * peaks.max()
+    return equal and float(np.median(areas / peaks)) > _FULL
 
 
 def _outside(count: int, stretches: list[Stretch], share: float = _MARGIN) -> NDArray[np.bool_]:
