@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
-from drops import of_contact, rigid, springs
+from drops import every_law, of_contact, rigid, springs
 from reference import precise
 
 PRECISION = 1e-11
@@ -129,19 +129,6 @@ def test_extreme_ratios_keep_energy(power):
         result = sb.simulate(springs(masses, stiffnesses))
         assert result.status is sb.Status.FINISHED
         assert abs(result.energy_retained - 1) <= 1e-12
-
-
-def every_law(stiffness):
-    """Return one contact of each finite law, for a ball of 1 kg at 1 m/s."""
-    return {
-        "Spring": sb.Spring(stiffness),
-        "Hertz": sb.Hertz(stiffness),
-        "PowerLaw": sb.PowerLaw(stiffness, 2.5),
-        "Dashpot": sb.Dashpot(stiffness, 0.2 * stiffness**0.5),
-        "Viscoelastic": sb.Viscoelastic(stiffness, 0.05),
-        "HuntCrossley": sb.HuntCrossley(stiffness, 1.5, 0.2),
-        "Hysteretic": sb.Hysteretic(stiffness, exponent=1.5, restitution=0.8),
-    }
 
 
 LAWS = sorted(every_law(1.0))

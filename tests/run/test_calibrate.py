@@ -298,15 +298,11 @@ def test_measures_of_something_else():
         assert got == "mass must be a positive number of kilograms, got -1.0"
 
 
-@pytest.mark.parametrize(
-    ("law", "what"),
-    [(sb.HuntCrossley(1, 1, 1e308), "restitution"), (sb.Dashpot(1e-300, 1e300), "restitution")],
-)
-def test_what_no_number_can_hold_is_refused(law, what):
-    got = refusal(errors.InvalidValue, getattr(sb, what), law, 1e-300, 1e300)
-    assert got.startswith(
-        f"law, mass and impact_speed must give a {what} in the range of numbers, got "
-    )
+@pytest.mark.parametrize("law", [sb.HuntCrossley(1, 1, 1e308), sb.Dashpot(1e-300, 1e300)])
+def test_what_no_number_can_hold_is_refused(law):
+    got = refusal(errors.InvalidValue, sb.restitution, law, 1e-300, 1e300)
+    expected = "law, mass and impact_speed must give a restitution in the range of numbers, got "
+    assert got.startswith(expected)
 
 
 # separate collisions
