@@ -229,6 +229,7 @@ def test_restitution_one_loses_nothing():
         (sb.Viscoelastic(2.0, 0.0), sb.Hertz(2.0)),
         (sb.HuntCrossley(2.0, 1.7, 0.0), sb.PowerLaw(2.0, 1.7)),
         (sb.PowerLaw(2.0, 1.0), sb.Spring(2.0)),
+        (sb.Hysteretic(2.0, restitution=1.0), sb.Spring(2.0)),
         (sb.StandardLinearSolid(2.0, 0.0, 1.0), sb.Spring(2.0)),
         (sb.PowerLaw(2.0, 1.5), sb.Hertz(2.0)),
     ]

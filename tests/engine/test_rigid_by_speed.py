@@ -109,11 +109,17 @@ def test_one_ball_comes_to_rest(p):
     assert 0.0 < lowest <= 1.1e-12  # of 1 m: what is left out is lower
 
 
-@pytest.mark.parametrize("p", [0.2, 0.43])
-def test_a_run_ends_amid_the_bounces(p):
-    law = sb.RigidLossBySpeed(0.8, 3.0, p)
+@pytest.mark.parametrize(
+    ("law", "last"),
+    [
+        (sb.RigidLossBySpeed(0.8, 3.0, 0.2), 1e-6),
+        (sb.RigidLossBySpeed(0.8, 3.0, 0.43), 1e-6),
+        (sb.Rigid(0.5), 1e-13),
+    ],
+)
+def test_a_run_ends_amid_the_bounces(law, last):
     end = bounce(law).end_time
-    for part in (0.5, 0.999, 1.0 - 1e-4, 1.0 - 1e-6):
+    for part in (0.5, 0.999, 1.0 - 1e-4, 1.0 - last):
         result = bounce(law, part * end)
         assert result.status is sb.Status.TIME_REACHED
         assert result.end_time == part * end
