@@ -77,9 +77,6 @@ def test_a_loss_in_proportion_to_the_speed_exactly(masses):
     assert_collisions(sb.simulate(drop), expected)
 
 
-# one ball under gravity
-
-
 def bounce(law, until=1e3, **more):
     """Return a ball that falls from 1 m and bounces."""
     return sb.simulate(sb.Drop([sb.Ball(0.6)], [law], height=1.0, gravity=G), until=until, **more)
@@ -156,9 +153,6 @@ def test_a_ball_above_one_that_comes_to_rest():
     assert result.collisions.tolist() == [-1, 0]
     assert len(result.intervals) == len(alone.intervals)
     assert result.rebound_speeds == pytest.approx([0.0, -G * result.end_time], rel=1e-13)
-
-
-# several balls
 
 
 def test_two_balls_come_to_rest_together():
@@ -255,19 +249,6 @@ def test_scatter_is_normal():
     assert stats.kstest((found - 0.83) / 0.03, "norm").pvalue > 1e-3
     later = drawn(bounces(granite(5.0, scatter=0.03), 100))
     assert stats.kstest((later - 0.83) / 0.03, "norm").pvalue > 1e-3
-
-
-def test_draws_of_neighbouring_seeds_contacts_and_collisions_are_independent():
-    draws = np.array(
-        [
-            [[float(restitution.normal(s, i, k)) for k in range(6)] for i in range(3)]
-            for s in range(200)
-        ]
-    )
-    columns = draws.reshape(200, -1)
-    correlation = np.corrcoef(columns.T) - np.eye(columns.shape[1])
-    assert np.abs(correlation).max() < 5.0 / np.sqrt(200)
-    assert abs(np.corrcoef(columns[:-1].ravel(), columns[1:].ravel())[0, 1]) < 5.0 / np.sqrt(3600)
 
 
 def test_e_is_kept_from_0_to_1():

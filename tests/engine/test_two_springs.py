@@ -65,11 +65,6 @@ def sweep(n, seed):
     return mass, stiffness, reach * speed * np.sqrt(lower / floor), speed
 
 
-def simulated(mass, stiffness, gap, speed):
-    balls, springs = [sb.Ball(m) for m in mass], [sb.Spring(k) for k in stiffness]
-    return sb.simulate(sb.Drop(balls, springs, [gap], impact_speed=speed))
-
-
 def compare(drops, out, loose=1.0):
     """Compare with the general engine; return how many drops were left to it."""
     left = 0
@@ -78,7 +73,8 @@ def compare(drops, out, loose=1.0):
             left += 1
             continue
         assert out["status"][r] == codes.FINISHED
-        result = simulated(mass, stiffness, gap, speed)
+        balls, springs = [sb.Ball(m) for m in mass], [sb.Spring(k) for k in stiffness]
+        result = sb.simulate(sb.Drop(balls, springs, [gap], impact_speed=speed))
         assert out["collisions"][r].tolist() == result.collisions.tolist()
         fastest = speed * max(1.0, np.sqrt(mass[1] / mass[0]))
         assert np.abs(out["velocity"][r] - result.rebound_speeds).max() <= loose * SPEED * fastest

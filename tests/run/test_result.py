@@ -24,9 +24,6 @@ def result():
     return sb.simulate(DROP)
 
 
-# what simulate refuses
-
-
 def test_only_a_drop_is_run():
     assert refusal(errors.InvalidType, sb.simulate, 3) == "drop must be a Drop, got 3"
 
@@ -51,9 +48,6 @@ def test_a_stack_too_tall_to_run():
     drop = sb.Drop([BALL] * 2001, [SPRING] * 2001, impact_speed=1.0)
     got = refusal(errors.InvalidValue, sb.simulate, drop)
     assert got == "balls must be at most 2000 for a run, got 2001"
-
-
-# times
 
 
 @pytest.mark.parametrize(
@@ -123,9 +117,6 @@ def test_times_that_are_no_real_numbers(result, times):
 )
 def test_times_out_of_range(result, times, expected):
     assert refusal(errors.InvalidValue, result.sample, times) == expected
-
-
-# what comes back
 
 
 @pytest.mark.parametrize("speed", [5e-324, 1e-200, 1.0, 1e200, 1e307])
