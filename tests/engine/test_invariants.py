@@ -61,7 +61,6 @@ def drops(draw, kinds=("spring",), largest=4):
 
 EVERY = ("spring", "mixed", "hysteretic", "power", "damped", "rigid")
 FINITE = EVERY[:-1]
-DAMPED = (sb.Dashpot, sb.Viscoelastic, sb.HuntCrossley, sb.StandardLinearSolid)
 
 
 def scaled(drop, *, mass=1.0, stiffness=1.0, speed=1.0, gap=1.0):
@@ -128,25 +127,6 @@ def test_energy_is_kept_without_losses(drop):
     assert result.energy_retained == pytest.approx(1.0, abs=ENERGY)
     energy = result.sample(np.linspace(0.0, 1.2 * result.end_time + 0.1, 80)).energy.values
     assert energy == pytest.approx(energy[0], rel=ENERGY)
-
-
-@given(drops(EVERY))
-@pytest.mark.slow
-def test_intervals_of_a_contact_follow_each_other(drop):
-    result = simulate(drop)
-    for i, count in enumerate(result.collisions):
-        rows = of_contact(result, i)
-        assert count in (len(rows), -1)
-        assert (rows["start"][1:] >= rows["end"][:-1]).all()
-        if not drop.rigid:
-            assert (rows["start"] < rows["end"]).all()
-            assert (rows["peak_compression"] > 0.0).all()
-            law = drop.contacts[i]
-            assert (rows["impulse"] <= rows["peak_force"] * (rows["end"] - rows["start"])).all()
-            if isinstance(law, DAMPED):
-                continue
-            force = law.stiffness * rows["peak_compression"] ** getattr(law, "exponent", 1.0)
-            assert rows["peak_force"] == pytest.approx(force, rel=1e-14)
 
 
 @given(drops(EVERY), st.floats(0.01, 100.0))

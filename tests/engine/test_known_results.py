@@ -22,19 +22,6 @@ def overlapping(result):
     return bool((rows["start"][1:] < np.maximum.accumulate(rows["end"])[:-1]).any())
 
 
-@pytest.mark.parametrize("lower", [10.0, 3.0, 2.0, 1.0])
-def test_stiff_floor_meets_separate_collisions(lower):
-    """The remaining difference falls with the square root of the stiffness ratio."""
-    separate = sb.simulate(rigid([lower, 1.0])).rebound_ratios
-    errors = [
-        np.abs(sb.simulate(springs([lower, 1.0], [ratio, 1.0])).rebound_ratios - separate).max()
-        for ratio in (1e4, 1e6, 1e8, 1e10)
-    ]
-    orders = -np.diff(np.log10(errors)) / 2
-    assert errors[-1] < 1e-4
-    assert orders == pytest.approx(0.5, abs=0.05) or (orders > 0.45).all()
-
-
 @given(
     masses=st.lists(st.floats(-1, 1).map(lambda x: 10**x), min_size=1, max_size=4),
     stiffness=st.floats(0.2, 5.0),
@@ -61,27 +48,6 @@ def test_tie_at_the_end_on_springs(gap):
     assert result.collisions.tolist() == [3, 2]
     assert result.rebound_ratios == pytest.approx([1.0, 1.0], abs=PRECISION)
     assert result.status is sb.Status.FINISHED
-
-
-@pytest.mark.parametrize(("masses", "gap"), [((1.0, 1.0), 0.0), ((4.0, 1.0), 0.4), ((1.0, 6.0), 1)])
-def test_hysteretic_meets_springs(masses, gap):
-    """With restitution 1 they are springs; 1 - e away from it the difference is of first order."""
-    balls = [sb.Ball(m) for m in masses]
-
-    def ratios(e):
-        laws = [sb.Hysteretic(k, restitution=e) for k in (1.0, 0.5)]
-        return sb.simulate(sb.Drop(balls, laws, [gap], impact_speed=1.0)).rebound_ratios
-
-    exact = sb.simulate(springs(masses, [1.0, 0.5], [gap])).rebound_ratios
-    assert ratios(1.0) == pytest.approx(exact, abs=1e-12)
-    errors = [np.abs(ratios(1 - step) - exact).max() for step in (1e-2, 1e-3, 1e-4, 1e-5)]
-    assert -np.diff(np.log10(errors)) == pytest.approx(1.0, abs=0.05)
-
-
-def test_light_upper_ball_does_not_disturb_the_lower_one():
-    result = sb.simulate(springs([1.0, 1e-9], [1.0, 1.0]))
-    assert result.rebound_ratios[0] == pytest.approx(1.0, abs=1e-8)
-    assert result.intervals["end"].max() == pytest.approx(np.pi, abs=1e-3)
 
 
 # --- rows of equal balls, of which the first strikes the others: known results

@@ -12,7 +12,7 @@ import stackbounce as sb
 from batches import bits, numbers_of, on_two_springs, swept
 from fuzz.draw import balls_of, drops_of, is_rigid
 from fuzz.replay import drop_of, options_of
-from reference import data, precise
+from reference import precise
 from stackbounce.engine import codes, native
 from stackbounce.engine.memory import FINITE, RIGID, spring_workspace
 from stackbounce.engine.records import Drops
@@ -65,11 +65,6 @@ def sweep(n, seed):
     return mass, stiffness, reach * speed * np.sqrt(lower / floor), speed
 
 
-def simulated(mass, stiffness, gap, speed):
-    balls, springs = [sb.Ball(m) for m in mass], [sb.Spring(k) for k in stiffness]
-    return sb.simulate(sb.Drop(balls, springs, [gap], impact_speed=speed))
-
-
 def compare(drops, out, loose=1.0):
     """Compare with the general engine; return how many drops were left to it."""
     left = 0
@@ -78,7 +73,8 @@ def compare(drops, out, loose=1.0):
             left += 1
             continue
         assert out["status"][r] == codes.FINISHED
-        result = simulated(mass, stiffness, gap, speed)
+        balls, springs = [sb.Ball(m) for m in mass], [sb.Spring(k) for k in stiffness]
+        result = sb.simulate(sb.Drop(balls, springs, [gap], impact_speed=speed))
         assert out["collisions"][r].tolist() == result.collisions.tolist()
         fastest = speed * max(1.0, np.sqrt(mass[1] / mass[0]))
         assert np.abs(out["velocity"][r] - result.rebound_speeds).max() <= loose * SPEED * fastest
@@ -117,10 +113,10 @@ def same(one, other, rows=slice(None)):
         assert one[name][rows].tobytes() == other[name].tobytes(), name
 
 
-@pytest.mark.slow
-def test_random_drops():
-    drops = sweep(2000, 1)
-    assert compare(drops, solve(*drops)) <= 10
+@pytest.mark.parametrize("count", [200, pytest.param(2000, marks=pytest.mark.slow)])
+def test_random_drops(count):
+    drops = sweep(count, 1)
+    assert compare(drops, solve(*drops)) <= count / 200
 
 
 def test_a_million_events_keep_energy():
@@ -129,40 +125,6 @@ def test_a_million_events_keep_energy():
     assert set(out["status"]) <= {codes.FINISHED, codes.ASK}
     assert done.mean() > 0.999
     assert np.abs(out["energy"][done] - 1.0).max() <= ENERGY
-
-
-def two_balls():
-    for row in data.read("springs"):
-        case = row["case"]
-        together = len(set(case["velocities"])) == 1
-        sprung = all(law and law["law"] == "Spring" for law in case["contacts"])
-        if len(case["masses"]) == 2 and together and sprung:
-            yield row
-
-
-def test_reference():
-    rows = list(two_balls())
-    assert len(rows) > 200
-    cases = [row["case"] for row in rows]
-    mass = np.array([case["masses"] for case in cases])
-    stiffness = np.array([[k["stiffness"] for k in case["contacts"]] for case in cases])
-    gap = np.array([case["gaps"][0] for case in cases])
-    speed = -np.array([case["velocities"][0] for case in cases])
-    out = solve(mass, stiffness, gap, speed)
-    known = out["status"] == codes.FINISHED
-    assert known.mean() > 0.9
-    for r in np.flatnonzero(known):
-        intervals = np.array(sorted(rows[r]["intervals"]))
-        counts = np.bincount(intervals[:, 0].astype(int), minlength=2)
-        assert out["collisions"][r].tolist() == counts.tolist()
-        error = np.abs(out["velocity"][r] - rows[r]["rebound_speeds"])
-        assert error.max() <= SPEED * speed[r] * max(1.0, np.sqrt(mass[r, 1] / mass[r, 0]))
-        unit = np.sqrt(mass[r, 0] / stiffness[r, 0])
-        for i in (0, 1):
-            mine = intervals[intervals[:, 0] == i]
-            found = np.array([out["first_touch"][r, i], out["last_release"][r, i]])
-            expected = np.array([mine[:, 1].min(), mine[:, 2].max()])
-            assert (np.abs(found - expected) <= TIME * np.maximum(unit, expected)).all()
 
 
 @pytest.mark.slow

@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 
 import stackbounce as sb
+from drops import every_law
 from refusals import refusal
 from stackbounce import errors
 
@@ -21,9 +22,6 @@ DROP = sb.Drop([BALL], [SPRING], impact_speed=2.0)
 @pytest.fixture(scope="module")
 def result():
     return sb.simulate(DROP)
-
-
-# what simulate refuses
 
 
 def test_only_a_drop_is_run():
@@ -52,16 +50,12 @@ def test_a_stack_too_tall_to_run():
     assert got == "balls must be at most 2000 for a run, got 2001"
 
 
-# times
-
-
 @pytest.mark.parametrize(
     "times",
     [
         0.5,
         1,
         np.float32(0.5),
-        [0.5, 1],
         (0.5, Fraction(1, 2)),
         range(3),
         [],
@@ -87,22 +81,17 @@ class Unreadable:
 @pytest.mark.parametrize(
     "times",
     [
-        True,
         [0.5, True],
         np.array([True]),
         "1",
-        ["1"],
         [1.0, "2"],
         b"1",
-        1j,
         [1j],
         None,
-        [None],
         {1.0},
         {1: 2},
         [[1], [2, 3]],
         np.datetime64("2020-01-01"),
-        np.timedelta64(1, "s"),
         np.array([1, 2], dtype="m8[ns]"),
         np.array(["2020-01-01"], dtype="M8[s]"),
         dt.timedelta(seconds=1),
@@ -130,9 +119,6 @@ def test_times_out_of_range(result, times, expected):
     assert refusal(errors.InvalidValue, result.sample, times) == expected
 
 
-# what comes back
-
-
 @pytest.mark.parametrize("speed", [5e-324, 1e-200, 1.0, 1e200, 1e307])
 @pytest.mark.parametrize("mass", [1e-308, 1.0, 1e308])
 def test_the_energy_of_any_speed_and_mass(speed, mass):
@@ -157,22 +143,11 @@ def test_copies_cannot_be_written_to_either(again):
 
 
 # --- the time of the peak force in `Result.intervals`
-LAWS = {
-    "Spring": sb.Spring(2500.0),
-    "Hertz": sb.Hertz(1e6),
-    "Dashpot": sb.Dashpot(2500.0, 5.0),
-    "Viscoelastic": sb.Viscoelastic(1e6, 1e-4),
-    "HuntCrossley": sb.HuntCrossley(1e6, 1.5, 0.2),
-    "Hysteretic": sb.Hysteretic(4e4, restitution=0.8),
-}
-
-
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("masses", [(0.06,), (0.06, 0.1, 0.03), (0.1, 1.0)], ids=len)
+@pytest.mark.parametrize("law", every_law(1.0).values(), ids=every_law(1.0))
+@pytest.mark.parametrize("masses", [(0.6,), (0.6, 1.0, 0.3), (1.0, 10.0)], ids=len)
 def test_no_force_is_larger_and_that_one_is_there(law, masses):
-    result = sb.simulate(
-        sb.Drop([sb.Ball(m) for m in masses], [LAWS[law]] * len(masses), height=0.5)
-    )
+    balls = [sb.Ball(mass) for mass in masses]
+    result = sb.simulate(sb.Drop(balls, [law] * len(masses), impact_speed=1.0))
     for row in result.intervals:
         times = np.linspace(row["start"], row["end"], 2001)
         force = result.sample(np.append(times, row["peak_time"])).force.values[row["contact"]]
