@@ -22,11 +22,7 @@ from synthetic.track import track as tracked
 
 UGLY = {"uneven": 0.2, "room": 0.4, "alike": 0.5, "wind": 0.01, "coarse": 0.4, "level": 2.0}
 TYPED = {"mass": "2.7 g", "diameter": "40 mm", "drag_coefficient": "0.45 ± 0.05"}
-
-
 FALL = falls_in_air(0.5, kept, bounces=9)
-
-
 KNOCKS = xr.Dataset({"knock_time": ("knock", FALL.touches)}, attrs={"holds": "knocks"})
 
 
