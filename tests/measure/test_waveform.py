@@ -410,9 +410,6 @@ def test_pictures_of_every_kind():
     assert "bounce.csv" in draw(record, waveform(record)).axes[0].get_title(loc="left")
 
 
-# --- the droop of a piezo sensor's amplifier
-
-
 @pytest.mark.parametrize("time_constant", [1e-4, 1e-2, 10.0])
 def test_the_two_undo_each_other(time_constant):
     random = np.random.default_rng(1)

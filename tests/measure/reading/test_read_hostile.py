@@ -26,9 +26,6 @@ def refused(read, content, message, error=FileError, **options):
     assert len(said) < 500
 
 
-# --- what is no file
-
-
 @pytest.mark.parametrize(
     ("path", "error", "message"),
     [
@@ -58,9 +55,6 @@ def test_too_large_a_file_is_not_read(tmp_path):
         file.truncate(limits.BYTES + 1)
     with pytest.raises(FileError, match="larger than 256 MiB"):
         sb.read(path)
-
-
-# --- what is no table
 
 
 @pytest.mark.parametrize(("content", "message"), [
@@ -101,9 +95,6 @@ def test_too_large_a_file_is_not_read(tmp_path):
 ])  # fmt: skip
 def test_refused(read, content, message):
     refused(read, content, message)
-
-
-# --- zip archives
 
 
 def test_a_bomb_does_not_go_off(read):
@@ -151,9 +142,6 @@ def test_which_table_of_an_archive(read):
         assert told.attrs["format"] == "phyphox"
         assert told.attrs["doubt"] == ""
     refused(read, content, "did you mean Aside.csv?", InvalidValue, table="Asides.csv")
-
-
-# --- encodings, decimals, cells
 
 
 @pytest.mark.parametrize(
@@ -235,9 +223,6 @@ def test_units_that_are_not_known(read):
     assert "taken as a weight" in weight.attrs["doubt"]
 
 
-# --- times
-
-
 def test_times_that_start_again_or_are_none(read):
     text = "t (s),F (N)\n" + "".join(f"{k % 10},{k}\n" for k in range(20))
     data = read(text)
@@ -256,9 +241,6 @@ def test_gaps_and_repeats(read):
     assert "1 gaps in time, the first after 0.4 s" in data.attrs["doubt"]
     uneven = read("t (s),F (N)\n" + "".join(f"{k**2 / 100},1\n" for k in range(10)))
     assert "gaps in time" not in uneven.attrs["doubt"]
-
-
-# --- much of it
 
 
 def test_too_many_odd_lines(read, monkeypatch):
@@ -280,8 +262,6 @@ def test_too_many_numbers(read, monkeypatch):
     monkeypatch.setattr("stackbounce.measure.reading.wav.CELLS", 50)
     refused(read, made.wav(), "more than 50 samples")
 
-
-# --- anything at all
 
 FILES = minimal_cases()
 
