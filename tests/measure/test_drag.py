@@ -231,10 +231,7 @@ def test_options_of_air_that_are_missing_or_out_of_range(options, words):
     [
         ((0.0, 0.04, 0.5), "mass must be a positive"),
         ((1.0, 0.04, 0.0), "coefficient must be"),
-        (
-            (1e-100, 1.0, 0.5),
-            r"of a ball in air, got 2.36e\+99 1/m of drag \(a table tennis",
-        ),
+        ((1e-100, 1.0, 0.5), r"of a ball in air, got 2.36e\+99 1/m of drag \(a table tennis"),
         ((1.0, 1e300, 0.5), "of a ball in air, got inf 1/m"),
     ],
 )

@@ -246,7 +246,7 @@ def test_what_does_not_fly_freely_and_bounce(name):
         track(make())
 
 
-@pytest.mark.parametrize("name", ["rectified sine", "pendulum", "bowl", "throw", "coaster"])
+@pytest.mark.parametrize("name", ["rectified sine", "pendulum", "bowl", "throw", "drift"])
 def test_neither_where_the_scale_is_unknown(name):
     times, heights = TRACKS[name][0]()
     data = over_time("y", np.arange(len(times)) * 1.0, 500.0 * heights, "px", "frame")
