@@ -114,12 +114,12 @@ def test_speeds_far_from_one_metre_per_second_have_no_power_law():
 
 
 # --- covariances were summed over a set, so that the last bits differed from run to run
-SOUND = Path(__file__).parents[2] / "docs" / "lab" / "basketball.wav"
+LAB = Path(__file__).parents[2] / "docs" / "lab"
 
 
 def bits():
     """Return all numbers of an analysis, with fresh objects at other addresses."""
-    found, *_ = analyse(sb.read(SOUND))
+    found, *_ = analyse(sb.read(LAB / "basketball.wav"))
     rows = [row.value for row in found.rows()]
     return [(one.nominal_value, one.std_dev) for one in rows if hasattr(one, "std_dev")]
 
@@ -132,9 +132,6 @@ def test_a_recording_gives_the_same_bits_again():
 
 
 # --- the first press curve or sound in a fresh process of the server took seconds, for imports
-LAB = Path(__file__).parents[2] / "docs" / "lab"
-
-
 def imported_for(name):
     """Return the libraries, but for this package, that a file makes a process import."""
     before = set(sys.modules)

@@ -22,11 +22,7 @@ from synthetic.track import track as tracked
 
 UGLY = {"uneven": 0.2, "room": 0.4, "alike": 0.5, "wind": 0.01, "coarse": 0.4, "level": 2.0}
 TYPED = {"mass": "2.7 g", "diameter": "40 mm", "drag_coefficient": "0.45 ± 0.05"}
-
-
 FALL = falls_in_air(0.5, kept, bounces=9)
-
-
 KNOCKS = xr.Dataset({"knock_time": ("knock", FALL.touches)}, attrs={"holds": "knocks"})
 
 
@@ -235,10 +231,7 @@ def test_options_of_air_that_are_missing_or_out_of_range(options, words):
     [
         ((0.0, 0.04, 0.5), "mass must be a positive"),
         ((1.0, 0.04, 0.0), "coefficient must be"),
-        (
-            (1e-100, 1.0, 0.5),
-            r"of a ball in air, got 2.36e\+99 1/m of drag \(a table tennis",
-        ),
+        ((1e-100, 1.0, 0.5), r"of a ball in air, got 2.36e\+99 1/m of drag \(a table tennis"),
         ((1.0, 1e300, 0.5), "of a ball in air, got inf 1/m"),
     ],
 )

@@ -143,16 +143,7 @@ def test_every_kind_that_is_offered_is_accepted(name, read):
     assert read(content, holds=name).attrs["holds"] == wanted
 
 
-# --- columns by header or number
-
-
-@pytest.mark.parametrize(
-    "names",
-    [
-        {1: "time", 3: "y"},
-        {"a": "time", "c d": "y"},
-    ],
-)
+@pytest.mark.parametrize("names", [{1: "time", 3: "y"}, {"a": "time", "c d": "y"}])
 def test_columns_are_named_by_header_or_number(read, names):
     data = read(table("a,b,c d", np.arange(9) / 100, wave(9) + 1, wave(9)), names=names)
     assert data.attrs["holds"] == "track"
@@ -171,9 +162,6 @@ def test_a_named_time_and_a_named_channel_come_before_those_of_the_header(read):
     assert float(data.time[-1]) == 8e-3
     assert float(data.voltage[0]) == 7.0
     assert float(data.voltage_2[0]) == 2.0
-
-
-# --- nothing internal
 
 
 @pytest.mark.parametrize("head", ["bounce", "Bounce", "impact", "event"])

@@ -7,6 +7,7 @@ from uncertainties import ufloat
 
 import stackbounce as sb
 from measure.near import near
+from refusals import refusal
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import press, series_stiffness, split_series
 from stackbounce.measure.statistics.ar_noise import correlation_factor
@@ -21,15 +22,7 @@ LOSSY = sb.Hysteretic(1e4, restitution=0.5)
 
 
 @pytest.mark.parametrize(
-    "law",
-    [
-        sb.Spring(1e4),
-        sb.Hertz(5e5),
-        sb.PowerLaw(3e8, 3.0),
-        BALL,
-        sb.Hysteretic(1e4, restitution=0.5),
-    ],
-    ids=repr,
+    "law", [sb.Spring(1e4), sb.Hertz(5e5), sb.PowerLaw(3e8, 3.0), BALL, LOSSY], ids=repr
 )
 def test_what_went_in_comes_out(law):
     found = press(press_record(law, **USUAL))
@@ -205,9 +198,7 @@ def test_correlated_noise_has_larger_errors():
     ],
 )
 def test_what_is_no_press_curve(data, message):
-    with pytest.raises((InvalidType, InvalidValue), match=message) as caught:
-        press(data)
-    assert "\n" not in str(caught.value)
+    assert message in refusal((InvalidType, InvalidValue), press, data)
 
 
 @pytest.mark.parametrize("option", [{"compliance": -1.0}, {"tabulated": 1}])

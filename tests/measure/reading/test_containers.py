@@ -15,9 +15,6 @@ from stackbounce.measure.reading import tables
 TIMES = 0.01 * np.arange(8)
 
 
-# --- spreadsheets
-
-
 def xlsx(tables):
     book = openpyxl.Workbook()
     book.remove(book.active)
@@ -111,8 +108,6 @@ def test_a_missing_reader_is_named(read, monkeypatch):
         read(content)
 
 
-# --- Tracker's own files
-
 POINTS = {4: (150.0, 300.0), 5: (155.0, 310.0), 7: (165.0, 340.0)}
 
 
@@ -192,9 +187,6 @@ def test_xml_that_is_refused(read, content, message, monkeypatch):
         read(content)
 
 
-# --- Logger Pro's own files
-
-
 def cmbl(runs):
     sets = ""
     for name, columns in runs.items():
@@ -215,9 +207,6 @@ def test_logger_pros_own_file(read):
     assert data.force.values.tolist() == [1.0, 2.5, 3.0]
     assert data["column"].values.tolist() == [3.0, 4.0, 5.0]  # it has no name and no unit
     assert read(content, run="Latest").force.values.tolist() == [7, 8]
-
-
-# --- NumPy
 
 
 def npy(array):

@@ -193,11 +193,6 @@ def test_bare_columns_of_a_video_are_a_track(read):
     np.testing.assert_allclose(data.y.values[:, 0], 1.0 - times)
 
 
-def test_a_capital_s_is_a_second(read):
-    data = read("Time(S),Force(N)\n0,1\n1,2\n2,3\n")
-    assert (data.attrs["holds"], data.attrs["doubt"]) == ("waveform", "")
-
-
 def test_labels_of_audacity_are_knocks_and_times_of_kinovea_have_hours(read):
     labels = "".join(f"{k + 1:.6f}\t{k + 1.2:.6f}\t{'hit' * (k % 2)}\n" for k in range(6))
     data = read(labels)
