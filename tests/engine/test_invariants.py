@@ -154,7 +154,14 @@ def test_powers_of_two_change_no_bit(name, drop, power):
     changed, found = (
         {key: 2.0 ** (power * times) for key, times in factors.items()} for factors in SCALED[name]
     )
-    assert_identical(simulate(drop), simulate(scaled(drop, **changed)), **found)
+    one, other = simulate(drop), simulate(scaled(drop, **changed))
+    if one.status is sb.Status.COLLAPSED and "gap" in changed:  # gaps shrink until they underflow
+        assert other.status is sb.Status.COLLAPSED
+        assert (
+            one.rebound_speeds * found.get("speed", 1.0)
+        ).tolist() == other.rebound_speeds.tolist()
+    else:
+        assert_identical(one, other, **found)
 
 
 @given(drops(EVERY, largest=3))
