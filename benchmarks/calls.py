@@ -21,7 +21,7 @@ from stackbounce.engine.memory import memory
 from stackbounce.engine.records import BEGIN_WITH_PEAKS
 from stackbounce.run.engines import choose_engine
 from stackbounce.run.options import run_options
-from stackbounce.run.parameters import drop_numbers
+from stackbounce.run.paths import drop_numbers
 
 LAWS = {
     "springs": "Spring(2500.0)",

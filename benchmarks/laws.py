@@ -1,9 +1,10 @@
 """Sweeps of two balls: nonlinear contacts beside `solve_ivp`, rigid ones beside a division.
 
 Random drops, half of them with a gap. The reference is this package at its smallest tolerance,
-which `tests/engine/test_laws.py` compares with 30 digits. Our runs use four tolerances per decade,
-so that our error shown beside that of `solve_ivp` is no larger and hardly smaller. Times are
-processor times without compilation: the shortest of some rounds, in which both take turns.
+which `tests/engine/test_known_results.py` compares with 30 digits. Our runs use four tolerances
+per decade, so that our error shown beside that of `solve_ivp` is no larger and hardly smaller.
+Times are processor times without compilation: the shortest of some rounds, in which both take
+turns.
 """
 
 import math

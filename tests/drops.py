@@ -57,6 +57,24 @@ def compared(row: Mapping[str, Any], result: sb.Result, precision: float) -> lis
     return [table_of(result), expected]
 
 
+def every_law(stiffness):
+    """Return one contact of each finite law, for a ball of 1 kg at 1 m/s."""
+    return {
+        "Spring": sb.Spring(stiffness),
+        "Hertz": sb.Hertz(stiffness),
+        "PowerLaw": sb.PowerLaw(stiffness, 2.5),
+        "Dashpot": sb.Dashpot(stiffness, 0.2 * stiffness**0.5),
+        "Viscoelastic": sb.Viscoelastic(stiffness, 0.05),
+        "HuntCrossley": sb.HuntCrossley(stiffness, 1.5, 0.2),
+        "Hysteretic": sb.Hysteretic(stiffness, exponent=1.5, restitution=0.8),
+    }
+
+
+def one_ball(law, speed=1.0, mass=1.0):
+    """Return the run of one ball on a contact."""
+    return sb.simulate(sb.Drop([sb.Ball(mass)], [law], impact_speed=speed))
+
+
 def springs(
     masses: Sequence[float],
     stiffnesses: Sequence[float | None],

@@ -69,14 +69,6 @@ def jumper() -> tuple[Array, Array]:
     return _seen(times, np.where(since > 0.2, flown, -0.1 * np.sin(np.pi * since / 0.2)), 3e-3)
 
 
-def coaster() -> tuple[Array, Array]:
-    """Return the height of a roller coaster."""
-    times = np.arange(300) / 30.0
-    return _seen(
-        times, 5.0 * np.sin(times) + 3.0 * np.sin(2.3 * times) + 8.0 * np.exp(-times / 3.0)
-    )
-
-
 def thrown_up() -> tuple[Array, Array]:
     """Return a ball that is hit in the moment of its bounce: it leaves with 1.3 times its speed."""
     since = np.arange(60) / 60.0 - 0.4
@@ -89,11 +81,10 @@ TRACKS = {
     "pendulum": (pendulum, "no free flight"),
     "valley": (valley, "accelerations along y are 0.1.* m/s.2 where a fall has 9.81"),
     "bowl": (bowl, "accelerations along y are .* a ball that rolls, swings or is held"),
-    "spring": (spring, "no free flight"),
-    "drift": (drift, "no free flight"),
+    "spring": (spring, "no free flights that meet at a floor"),
+    "drift": (drift, "no free flight: accelerations along y are"),
     "throw": (throw, "one flight of 1.3 s with an acceleration of 9.8.* m/s.2 and no bounce"),
     "jumper": (jumper, "on the floor for 0.17 s; legs or a trampoline"),
-    "coaster": (coaster, "no free flight"),
     "hit": (thrown_up, r"a restitution of 1\..* it is hit or thrown there"),
 }
 """Each with the words of its refusal."""

@@ -1,10 +1,12 @@
 import math
 import pickle
+import re
 from functools import partial
 
 import numpy as np
 import pytest
 
+from refusals import refusal
 from stackbounce import errors
 
 
@@ -37,9 +39,8 @@ def test_numbers_of_every_kind_become_floats(value):
 )
 def test_what_is_no_number_is_refused(value):
     for check in (errors.finite, errors.positive, errors.non_negative, errors.fraction):
-        with pytest.raises(errors.InvalidType, match=r"^mass must be a .*number.*, got ") as caught:
-            check("mass", value)
-        assert "\n" not in str(caught.value)
+        said = refusal(errors.InvalidType, check, "mass", value)
+        assert re.match(r"mass must be a .*number.*, got ", said)
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 10**400])
@@ -66,9 +67,7 @@ def test_what_is_not_finite_is_refused(value):
     ],
 )
 def test_message_says_what_was_wrong_what_was_got_and_what_would_be_right(check, value, message):
-    with pytest.raises(errors.InvalidValue) as caught:
-        check("mass", value)
-    assert str(caught.value).startswith(f"mass must be {message}")
+    assert refusal(errors.InvalidValue, check, "mass", value).startswith(f"mass must be {message}")
 
 
 def test_ends_of_ranges_are_in_them():

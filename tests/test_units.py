@@ -3,6 +3,7 @@ import math
 import numpy as np
 import pytest
 
+from refusals import refusal
 from stackbounce import errors
 from stackbounce.units import quantity
 
@@ -25,9 +26,11 @@ from stackbounce.units import quantity
         ("+2 m", "m", 2.0),
         (" 2 m ", "m", 2.0),
         ("0.058", "m", 0.058),
+        (0.058, "m", 0.058),
+        (np.float64(0.058), "m", 0.058),
     ],
 )
-def test_strings_with_units(text, unit, value):
+def test_strings_with_units_and_numbers_of_si(text, unit, value):
     got = quantity(text, unit)
     assert type(got) is float
     assert got == pytest.approx(value, rel=1e-15, abs=0)
@@ -38,18 +41,6 @@ def test_decimal_prefixes_lose_no_digit(text):
     assert quantity(text, "kg") == float(f"{text.removesuffix(' g')}e-3")
 
 
-@pytest.mark.parametrize("value", [0.058, np.float64(0.058)])
-def test_numbers_are_si_already(value):
-    assert quantity(value, "m") == 0.058
-
-
-def test_message_is_one_clear_line():
-    with pytest.raises(errors.UnitError) as caught:
-        quantity("3 kg", "m", "height")
-    right = 'a length (a number of m or a string such as "58 mm")'
-    assert str(caught.value) == f"height must be {right}, got '3 kg'"
-
-
 def test_unknown_unit_is_said_to_be_one():
     with pytest.raises(errors.UnitError, match=r"got '3 furlongz', of unknown unit$"):
         quantity("3 furlongz", "m")
@@ -58,7 +49,7 @@ def test_unknown_unit_is_said_to_be_one():
 @pytest.mark.parametrize(
     ("text", "unit", "kind"),
     [
-        ("3 kg", "m", "a length"),
+        ("3 kg", "m", 'a length (a number of m or a string such as "58 mm")'),
         ("3 m", "kg", "a mass"),
         ("3 m", "m/s", "a speed"),
         ("3 m", "", "a pure number"),
@@ -66,9 +57,9 @@ def test_unknown_unit_is_said_to_be_one():
     ],
 )
 def test_units_that_do_not_fit(text, unit, kind):
-    with pytest.raises(errors.UnitError, match=f"x must be {kind} ") as caught:
-        quantity(text, unit, "x")
-    assert str(caught.value).endswith(f"got {text!r}")
+    said, _, got = refusal(errors.UnitError, quantity, text, unit, "x").partition(", got ")
+    assert said.startswith(f"x must be {kind}")
+    assert got == repr(text)
 
 
 @pytest.mark.parametrize(
@@ -82,10 +73,9 @@ def test_units_that_do_not_fit(text, unit, kind):
     ],
 )  # fmt: skip
 def test_strings_that_cannot_be_read(text):
-    with pytest.raises(errors.UnitError, match=r"^x must be a length ") as caught:
-        quantity(text, "m", "x")
-    assert "\n" not in str(caught.value)
-    assert len(str(caught.value)) < 200
+    said = refusal(errors.UnitError, quantity, text, "m", "x")
+    assert said.startswith("x must be a length ")
+    assert len(said) < 200
 
 
 @pytest.mark.parametrize("value", [None, True, [1.0], {}, b"3 m"])

@@ -56,6 +56,58 @@ def _bounce(seed: int, exponent: float | None, **how: Any) -> list[tuple[str, An
 
 
 @cache
+def _bounced(exponent: float, twice: bool) -> sb.Result:
+    """Return the run of one ball that bounces once, or twice after 0.1 s."""
+    law = sb.calibrate(
+        sb.PowerLaw, mass=MASS, contact_time=TIME, impact_speed=0.5, exponent=exponent
+    )
+    drop = sb.Drop([sb.Ball(MASS)], [law], impact_speed=0.5, gravity=9.81 * twice)
+    return sb.simulate(drop, until=0.125) if twice else sb.simulate(drop)
+
+
+def _ugly(
+    seed: int, *, leads: tuple[float, float], hum: float = 0.0, rings: bool = False
+) -> list[tuple[str, Any, float]]:
+    """Analyse one bounce or two in a record with noise, an offset, steps, and hum or ringing.
+
+    The record begins and stops with a lead in s between two; the hum is relative to the peak.
+    """
+    random = np.random.default_rng(seed + 10_000)
+    result = _bounced(_EXPONENTS[seed % 5], twice=seed % 2 == 1)
+    rows = result.intervals
+    peak = float(max(rows["peak_force"]))
+
+    def between(least: float, most: float) -> float:
+        return float(np.exp(random.uniform(np.log(least), np.log(most))))
+
+    how: dict[str, Any] = {
+        "rate": random.choice([2e4, 5e4, 1e5]),
+        "before": between(*leads),
+        "noise": peak * random.uniform(0.003, 0.01),
+        "offset": peak * random.uniform(-0.2, 0.2),
+        "bits": int(random.integers(10, 13)),
+        "full_scale": 2.0 * peak,
+        "hum": hum * peak * between(0.5, 2.0),
+        "mains": random.choice([50.0, 60.0]) + random.normal(0.0, 0.03),
+        "resonance": (between(600.0, 1100.0), between(0.01, 0.1)) if rings else None,
+    }
+    record = record_of(result, seed=seed, **how)
+    contacts, touch = waveform(record).contacts, record.attrs["touch"]
+    found = []
+    for row in rows:
+        start, end = float(row["start"]), float(row["end"])
+        middle = touch + 0.5 * (start + end)
+        contact = min(contacts, key=lambda one: abs(one.peaks[0][0].nominal_value - middle))
+        found += [
+            ("touch", contact.start, touch + start),
+            ("contact time", contact.time, end - start),
+            ("impulse", contact.impulse, row["impulse"]),
+            ("peak force", contact.peak_force, row["peak_force"]),
+        ]
+    return found
+
+
+@cache
 def _law(law: Any, exponent: float | None, restitution: float | None) -> sb.Result:
     """Return the run of one ball on a law with the same contact time."""
     shape = {"exponent": exponent, "restitution": restitution}
@@ -143,6 +195,20 @@ CASES: dict[str, Callable[[int], list[tuple[str, Any, float]]]] = {
 }
 """Case name to a trial: seed to (quantity, estimate, truth)."""
 
+HUMMING: dict[str, Callable[[int], list[tuple[str, Any, float]]]] = {
+    "ugly: hum of 3 %": partial(_ugly, leads=(8e-3, 0.06), hum=0.03),
+    "ugly: hum of 10 %": partial(_ugly, leads=(8e-3, 0.06), hum=0.1),
+    "ugly: hum of 3 %, 3 to 8 ms beside contacts": partial(_ugly, leads=(3e-3, 8e-3), hum=0.03),
+}
+"""The same with hum, steps, and one bounce or two."""
+
+RINGING: dict[str, Callable[[int], list[tuple[str, Any, float]]]] = {
+    "ugly: a sensor that rings": partial(_ugly, leads=(5e-3, 0.06), rings=True)
+}
+"""Records of a sensor that rings at 0.6 to 1.1 kHz, whose errors are on the timid side."""
+
+CASES |= HUMMING
+
 TOLD: dict[str, Callable[[int], list[tuple[str, Any, float]]]] = {
     "told: dashpot": partial(_damped, law=sb.Dashpot, **NOISY),
     "told: viscoelastic": partial(_damped, law=sb.Viscoelastic, **NOISY),
@@ -158,6 +224,7 @@ TOLD: dict[str, Callable[[int], list[tuple[str, Any, float]]]] = {
 CASES |= TOLD
 
 LIMITS: dict[str, Callable[[int], list[tuple[str, Any, float]]]] = {
+    **RINGING,
     "exponent 2, 10 bits": partial(_ends, **SQUARE, only="release"),
     "exponent 1.75, 43 samples": partial(_ends, **SLOW, only="release"),
     "Dashpot, a jump at the touch": partial(_ends, law=sb.Dashpot, restitution=0.8, **NOISY),

@@ -10,7 +10,7 @@ from typing import Any
 
 from sphinx.application import Sphinx
 
-from stackbounce.explorer.lessons import NAMES, Item, Lesson, read_lesson, split_links
+from stackbounce.explorer.lessons.lesson import NAMES, Item, Lesson, read_lesson, split_links
 
 _LINE = "______________________"
 _WIDTH, _HEIGHT, _STEP = 160, 90, 10

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 import stackbounce as sb
 from stackbounce import cross2007, plots
-from stackbounce.cli import app, descriptions, main
+from stackbounce.cli import app, main, simulation_tables
 from stackbounce.cli.drop_options import read_contact
 from stackbounce.cli.options import DROP
 from stackbounce.cli.scenario import read
@@ -46,13 +46,10 @@ def test_version_and_help(printed, run):
     assert run() == (0, out, "")
     assert run("-h") == (0, out, "")
     assert CliRunner().invoke(app, ["--help"]).exit_code == 0
-    for command in ("simulate", "balls", "paper"):
+    for command in ("balls", "paper"):
         assert run(command, "--help")[0] == 0
-
-
-def test_help_names_every_law(run):
-    _, out, _ = run("simulate", "--help")
-    assert all(name in out for name in LAWS)
+    of_simulate = printed("simulate", "--help")
+    assert all(name in of_simulate for name in LAWS)
 
 
 def test_functions_of_commands_take_the_options_of_the_table():
@@ -221,11 +218,11 @@ def test_a_scenario_file_and_changes_to_it(printed, told):
 
 
 def test_names_cannot_write_on_the_terminal(run):
-    drop = sb.Drop([sb.Ball(1.0, name="a\x1b[31mb\nc[red]")], [sb.Spring(1.0)], impact_speed=1.0)
+    drop = sb.Drop([sb.Ball(1.0, name="a\x1b[31mb\nc[red] ..")], [sb.Spring(1.0)], impact_speed=1.0)
     Path("drop.toml").write_text(drop.to_toml())
     _, out, _ = run("simulate", "drop.toml")
     assert "\x1b" not in out
-    assert "a?[31mb?c[red] at 1.000 m/s" in out
+    assert "a?[31mb?c[red] … at 1.000 m/s" in out
 
 
 def test_highest_points_are_shown(printed, run):
@@ -246,6 +243,15 @@ def test_a_run_that_did_not_finish_says_what_to_do(printed, run):
     _, out, _ = run("simulate", "B3", "B1", *rigid)
     assert "Status: COLLAPSED: " in out
     assert rows(out, "floor – B3")[0][1] == "∞"
+
+
+def test_chaos_is_told_with_its_time(printed):
+    balls, law = [sb.Ball(0.1), sb.Ball(0.05), sb.Ball(0.02)], sb.HuntCrossley(1e6, 1.5, 0.2)
+    drop = sb.Drop(balls, [law] * 3, gaps=[0.0, 1e-3], height=0.3, gravity=9.81)
+    Path("chaos.toml").write_text(drop.to_toml())
+    known = sb.simulate(drop, until=2.97).known_until
+    told = f"Chaotic: no digit of the speeds is known after {known:.3f} s"
+    assert told in printed("simulate", "chaos.toml", "--until", "2.97s")
 
 
 def one_ball(name, law, mass=0.1, **how):
@@ -403,15 +409,12 @@ def test_a_standard_output_that_cannot_be_written_to(arguments, streams, line):
     assert done.stderr == ("" if line is None else f"stackbounce: error: {line}\n")
 
 
-def test_the_catalogue_as_a_table(printed):
+def test_the_catalogue_as_a_table_and_as_json(printed, told):
     out = printed("balls")
     assert rows(out, "tennis")[0] == ["tennis", *"57.00 66.00 0.7506 5.000 22500 10300".split()]
     assert rows(out, "basketball")[0][4] == "–"
     assert "Cross 2007, Table I" in out
     assert rows(out, "B1")[1][:5] == ["B1", "B2", "56000", "16000", "1.000"]
-
-
-def test_the_catalogue_as_json(told):
     got = told("balls")
     tennis = got["balls"][1]
     assert (tennis["name"], tennis["mass"], tennis["stiffness"]) == ("tennis", 0.057, 22500.0)
@@ -468,7 +471,7 @@ def test_an_output_folder_without_permission(refused):
 )
 def test_a_law_is_read_and_described(words, law, text):
     assert read_contact(words, "x") == law
-    assert descriptions.law_text(law).startswith(text)
+    assert simulation_tables.law_text(law).startswith(text)
 
 
 def test_sweep_writes_a_store_and_a_picture(printed, told, tmp_path):

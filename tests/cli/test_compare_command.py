@@ -1,6 +1,10 @@
 """``stackbounce fit --compare`` and the paper's data sets on the command line."""
 
 import pytest
+from rich.console import Console
+
+import stackbounce as sb
+from stackbounce.cli.comparison_tables import print_comparison
 
 
 def test_a_data_set_is_fitted_by_its_name(told):
@@ -36,3 +40,17 @@ def test_a_comparison_for_machines(told):
     assert (best["model"], best["same_as"][:1]) == ("Hysteretic", ["Hysteretic, Hertz loading"])
     left_out = {row["name"] for row in found["left_out"][best["model"]]}
     assert left_out == {"durations.0", "rebound_ratios.0"}
+
+
+def test_models_of_as_many_numbers_are_as_far_apart_as_their_chi_squared(capsys):
+    balls, vary = [sb.Ball(0.15), sb.Ball(0.057)], {"contacts.0.restitution": (0.1, 1.0)}
+    right, wrong = (
+        sb.Drop(balls, [sb.Rigid(0.8), sb.Rigid(e)], impact_speed=3.0) for e in (0.9, 0.5)
+    )
+    ratios = [(ratio, 0.01) for ratio in sb.simulate(right).rebound_ratios]
+    models = {"right": sb.Model(right, vary), "wrong": sb.Model(wrong, vary)}
+    print_comparison(Console(width=100), sb.compare(models, {"rebound_ratios": ratios}))
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()]
+    best, other, *pulls = (row for row in rows if row and row[0] in models)
+    assert (best[4], other[4]) == ("0", other[2])
+    assert pulls[0] == ["right", "+0.0", "+0.0"]

@@ -25,10 +25,12 @@ def test_highest_of_balls_that_have_a_file_each(printed):
     for name, mass in (("a", 0.2), ("b", 0.02)):
         drop = sb.Drop([sb.Ball(mass, name=name)], [sb.Spring(1e4)], height=1.0)
         Path(f"{name}.toml").write_text(drop.to_toml(), encoding="utf-8")
-    out = printed("highest", "a.toml", "b.toml", "--balls", "2", "--gap", "0", "--rows", "1")
-    assert "The best 1 of 2 stacks" in out
-    stack = sb.Drop([sb.Ball(0.2), sb.Ball(0.02)], [sb.Spring(1e4), sb.Spring(5e3)], height=1.0)
-    height = sb.simulate(stack).rebound_ratios[1]
+    words = ["a.toml", "b.toml", "--balls", "2", "--gap", "1mm", "--height", "1m", "--rows", "1"]
+    out = printed("highest", *words)
+    assert "The best 1 of 2 stacks, at 4.429 m/s" in out  # sqrt(2 * 9.80665)
+    assert "Top ball, with gaps of 1.000 mm" in out
+    balls, laws = [sb.Ball(0.2), sb.Ball(0.02)], [sb.Spring(1e4), sb.Spring(5e3)]
+    height = sb.simulate(sb.Drop(balls, laws, gaps=[1e-3], height=1.0)).rebound_ratios[1]
     assert f"{height:.3f}" in next(line for line in out.splitlines() if line.startswith("a + b"))
 
 

@@ -72,13 +72,6 @@ def test_a_ball_is_saved_and_dropped(told):
     )
 
 
-def test_numbers_without_an_error_are_null_in_json(told):
-    rows = told("measure", "tennis.wav")["files"][0]["found"]
-    errors = {row["name"]: row["error"] for row in rows}
-    assert errors["knocks"] is None
-    assert errors["restitution, mean"] > 0.0
-
-
 @pytest.mark.parametrize(
     ("parts", "law"),
     [

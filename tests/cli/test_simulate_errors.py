@@ -1,9 +1,12 @@
 """``stackbounce simulate`` of numbers with errors."""
 
+from pathlib import Path
+
 import pytest
 
 import stackbounce as sb
 from stackbounce.cli.errors_given import split_errors
+from stackbounce.prediction import read_scenario
 
 PAIR = ["simulate", "basketball", "tennis", "--height", "63 ± 1 cm", "--gap", "2mm"]
 
@@ -60,3 +63,58 @@ def test_apexes_have_errors_and_a_picture_bands(tmp_path, printed):
     out = printed(*PAIR, "--gravity", "9.81", "--until", "1s", "--plot", str(path))
     assert "Highest points, the first 3 of each ball" in out
     assert path.stat().st_size > 10_000
+
+
+# --- scenario files whose numbers have errors
+BALLS = [sb.Ball(0.15, name="a (1) ± b"), sb.Ball(0.057)]
+DROP = sb.Drop(BALLS, [sb.Hertz(2e5), sb.Spring(1000.0)], gaps=[0.002], height=0.63)
+
+
+@pytest.fixture(autouse=True)
+def _files():
+    Path("plain.toml").write_text(DROP.to_toml(), encoding="utf-8")
+    text = DROP.to_toml()
+    for old, new in (
+        ("height = 0.63", 'height = "63 ± 1 cm"'),
+        ("gaps = [0.002]", 'gaps = ["2.0(5) mm"]'),
+        ("mass = 0.057", 'mass = "57 g ± 0.5 g"'),
+        ("stiffness = 200000.0", 'stiffness = "200000 ± 10000"'),
+    ):
+        assert old in text
+        text = text.replace(old, new)
+    Path("drop.toml").write_text(text, encoding="utf-8")
+
+
+def test_a_file_has_the_drop_and_its_errors():
+    drop, errors = read_scenario("drop.toml")
+    assert drop == DROP
+    assert errors == {
+        "height": "63 ± 1 cm",
+        "gaps.0": "2.0(5) mm",
+        "balls.1.mass": "57 g ± 0.5 g",
+        "contacts.0.stiffness": "200000 ± 10000",
+    }
+    assert read_scenario("plain.toml") == (DROP, {})
+
+
+def test_a_drop_has_no_errors():
+    with pytest.raises(sb.errors.ScenarioError, match="height must be a length without an error"):
+        sb.Drop.from_mapping(DROP.to_mapping() | {"height": "63 ± 1 cm"})
+
+
+def test_simulate_carries_the_errors_of_a_file(told):
+    found = told("simulate", "drop.toml")["errors"]
+    given = {"gaps.0": (0.002, 0.0005), "height": (0.63, 0.01), "balls.1.mass": (0.057, 0.0005)}
+    exact = sb.predict(DROP, given | {"contacts.0.stiffness": (2e5, 1e4)})
+    speed = exact["rebound_speeds.1"]
+    assert found["values"]["rebound_speeds.1"]["error"] == pytest.approx(speed.std_dev, rel=1e-9)
+    assert found["numbers"]["balls.1.mass"] == {"value": 0.057, "error": 0.0005}
+    assert set(found["numbers"]) == set(exact.errors)
+    assert "errors" not in told("simulate", "plain.toml")
+
+
+def test_an_option_takes_the_place_of_a_number_and_its_error(told):
+    options = ("--speed", "3.5m/s", "--gap", "1 ± 0.1 mm")
+    found = told("simulate", "drop.toml", *options)["errors"]["numbers"]
+    assert list(found) == ["balls.1.mass", "contacts.0.stiffness", "gaps.0"]
+    assert found["gaps.0"] == {"value": 0.001, "error": pytest.approx(1e-4)}

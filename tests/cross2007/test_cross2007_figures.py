@@ -9,12 +9,9 @@ import stackbounce as sb
 from stackbounce.cross2007 import PAPER, changed
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.cases import list_cases
-from stackbounce.cross2007.curves import (
-    after_collision,
-    sample_forces,
-)
 from stackbounce.cross2007.drops import bisect, force_above, newton, peak_times, spring_pair
-from stackbounce.cross2007.paper import FIGURES, draw_figures
+from stackbounce.cross2007.figures_models import after_collision, sample_forces
+from stackbounce.cross2007.report import FIGURES, draw_figures
 from stackbounce.cross2007.stacks import (
     early_twins,
     gap_for_delay,

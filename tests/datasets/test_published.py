@@ -123,7 +123,7 @@ def test_an_unknown_name_suggests_the_nearest():
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_dataset_says_all_of_itself_that_it_has_to(name):
+def test_a_dataset_and_its_columns_say_all_of_themselves_that_they_have_to(name):
     about = datasets.describe(name)
     texts = [value for value in vars(about).values() if isinstance(value, str)]
     assert all(text == text.strip() for text in texts)
@@ -133,21 +133,15 @@ def test_a_dataset_says_all_of_itself_that_it_has_to(name):
     assert (about.seen == "quoted") == bool(about.quoted_by)
     assert len({column.name for column in about.columns}) == len(about.columns)
     assert len({len(column.values) for column in about.columns}) == 1
-
-
-COLUMNS = [(name, column) for name in NAMES for column in datasets.describe(name).columns]
-
-
-@pytest.mark.parametrize(("name", "column"), COLUMNS)
-def test_a_column_has_values_and_errors_of_one_kind(name, column):
-    assert all((column.name, column.meaning)), name
-    words = [isinstance(value, str) and bool(value) for value in column.values]
-    assert set(words) == {column.unit == "text"}
-    assert len({isinstance(value, tuple) and len(value) for value in column.values}) == 1
-    assert len(column.errors) in (0, len(column.values))
-    assert all(error >= 0.0 for error in column.errors)
-    assert bool(column.assumed_error) == bool(column.assumed_because)
-    assert not (column.assumed_error and column.errors)
+    for column in about.columns:
+        assert all((column.name, column.meaning)), column
+        words = [isinstance(value, str) and bool(value) for value in column.values]
+        assert set(words) == {column.unit == "text"}, column
+        assert len({isinstance(value, tuple) and len(value) for value in column.values}) == 1
+        assert len(column.errors) in (0, len(column.values)), column
+        assert all(error >= 0.0 for error in column.errors), column
+        assert bool(column.assumed_error) == bool(column.assumed_because), column
+        assert not (column.assumed_error and column.errors), column
 
 
 def test_the_command_lists_all_and_shows_one(capsys):

@@ -1,8 +1,9 @@
-"""Exponential, logarithm, power, sine and cosine: their errors, limits and bits."""
+"""Parts of the engine: functions with their errors, limits and bits, series, the event queue."""
 
 import itertools
 import math
 import random
+from random import Random
 
 import mpmath
 import numpy as np
@@ -10,6 +11,9 @@ import pytest
 from kernel_build.jit import compile_kernel
 
 from stackbounce.engine import elementary
+from stackbounce.engine.event_queue import clear_queue, schedule
+from stackbounce.engine.series import evaluate, lower_bound
+from stackbounce.engine.trigonometry import cosine, half_turns, nudge_mode, sinc
 
 INF, NAN = math.inf, math.nan
 SUBNORMAL, TINY, HUGE = 5e-324, 2.2250738585072014e-308, 1.7976931348623157e308
@@ -191,3 +195,77 @@ def test_compiled_bits(name):
     plain, compiled = getattr(elementary, name), compile_kernel(getattr(elementary, name))
     found = np.array([compiled(*case) for case in cases])
     assert np.array_equal(np.array([plain(*case) for case in cases]), found, equal_nan=True)
+
+
+# --- bounds of power series next to their values on a grid
+RNG = np.random.default_rng(4)
+SERIES = [(RNG.normal(size=n + 1) * 0.7 ** np.arange(n + 1), n) for n in range(1, 25)]
+SERIES += [(np.abs(a) * (-1.0) ** np.arange(n + 1), n) for a, n in SERIES]
+
+
+@pytest.mark.parametrize("limit", [1e-3, 0.3, 1.0])
+@pytest.mark.parametrize("low", [0, 1])
+def test_a_series_is_never_below_its_bound(low, limit):
+    for a, n in SERIES:
+        bound = lower_bound(list(a), low, n, limit)
+        least = min(evaluate(list(a[low:]), n - low, s) for s in np.linspace(0.0, limit, 101))
+        assert bound <= least + 1e-12
+        assert compile_kernel(lower_bound)(a, low, n, limit) == bound
+
+
+def test_the_bound_is_sharp_for_a_parabola_that_falls():
+    assert lower_bound([1.0, -0.5, -0.25], 0, 2, 1.0) == 0.25
+
+
+@pytest.mark.parametrize("place", [0, 1, 2])
+def test_a_lost_number_is_handed_on(place):
+    a = np.array([1.0, 2.0, 3.0])
+    a[place] = math.nan
+    assert math.isnan(lower_bound(list(a), 0, 2, 0.5))
+    assert math.isnan(compile_kernel(lower_bound)(a, 0, 2, 0.5))
+
+
+# --- cosine and sine without branches, compared with the standard library's
+ROUNDING = 5e-16  # of numbers up to 1, with the standard library's own
+
+
+def test_polynomials_begin_as_taylor_series():
+    assert cosine(0.0) == sinc(0.0) == 1.0
+    for x in (1e-9, 1e-7, 1e-3):
+        assert cosine(x * x) == pytest.approx(math.cos(x), rel=2.3e-16, abs=0.0)
+        assert x * sinc(x * x) == pytest.approx(math.sin(x), rel=2.3e-16, abs=0.0)
+
+
+def test_half_turns():
+    for x in np.linspace(-70.0, 70.0, 2001).tolist():
+        sign, angle = half_turns(x)
+        assert abs(angle) <= 0.5 * math.pi * (1.0 + 1e-15)
+        assert abs(sign * cosine(angle * angle) - math.cos(x)) <= ROUNDING
+        assert abs(sign * (angle * sinc(angle * angle)) - math.sin(x)) <= ROUNDING
+
+
+@pytest.mark.parametrize("omega", [0.0, 0.3, 1.0, 16.0])
+def test_nudged(omega):
+    for angle in np.linspace(-0.01, 0.01, 201).tolist():
+        d = angle / max(omega, 1.0)
+        y, z = nudge_mode(omega, d, 0.6, -0.8)
+        travel = math.sin(omega * d) / omega if omega else d
+        assert abs(y - (0.6 * math.cos(omega * d) - 0.8 * travel)) <= ROUNDING
+        rate = -0.8 * math.cos(omega * d) - 0.6 * omega * math.sin(omega * d)
+        assert abs(z - rate) <= ROUNDING * max(omega, 1.0)
+
+
+# --- the event queue gives the earliest slot, the lowest of equal ones, after any changes
+@pytest.mark.parametrize("size", [1, 2, 3, 10, 33])
+def test_the_earliest_slot_comes_first(size):
+    random = Random(size)
+    due, heap, place = [0.0] * size, [0] * size, [0] * size
+    clear_queue(due, heap, place)
+    times = [float("inf")] * size
+    for _ in range(500):
+        slot = random.randrange(size)
+        times[slot] = random.choice([float("inf"), *map(float, range(8))])
+        schedule(due, heap, place, slot, times[slot])
+        assert heap[0] == min(range(size), key=lambda s: (times[s], s))
+        assert due == times
+        assert [heap[place[s]] for s in range(size)] == list(range(size))

@@ -17,10 +17,6 @@ SPEED = (2 * 9.80665 * 0.2) ** 0.5
 TIGHT = 1e-14  # of the tolerances a user can ask for
 
 
-def one_ball(law, mass=0.101, speed=SPEED):
-    return sb.simulate(sb.Drop([sb.Ball(mass)], [law], impact_speed=speed), rtol=TIGHT)
-
-
 def quarter(power):
     """Return the integral of dx / sqrt(1 - x**(power + 1)) from 0 to 1."""
     s = 1.0 / (power + 1.0)
@@ -31,7 +27,7 @@ def quarter(power):
 @pytest.mark.parametrize("exponent", [1.0, 1.25, 1.5, 2.0, 3.0])
 def test_one_ball(e, exponent):
     law = sb.Hysteretic(5.6e4, exponent=exponent, restitution=e)
-    result = one_ball(law)
+    result = sb.simulate(sb.Drop([sb.Ball(0.101)], [law], impact_speed=SPEED), rtol=TIGHT)
     assert abs(result.rebound_ratios[0] - e) <= RESTITUTION
     assert result.collisions.tolist() == [1]
     peak = ((exponent + 1.0) * 0.101 * SPEED**2 / (2.0 * 5.6e4)) ** (1.0 / (exponent + 1.0))

@@ -6,15 +6,12 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
+from drops import one_ball
 from reference import pieces
 from stackbounce.model.laws.tabulated import monotone_spline
 
 CLOSE = 1e-9
 TABLE = [0.0, 0.01, 0.03, 0.06, 0.1], [0.0, 0.5, 2.5, 4.0, 9.0], [0.0, 0.0, 0.7, 2.0, 9.0]
-
-
-def one_ball(law, speed, mass=1.0):
-    return sb.simulate(sb.Drop([sb.Ball(mass)], [law], impact_speed=speed))
 
 
 def reference_of(law):
@@ -81,30 +78,6 @@ def test_a_hollow_ball_without_loss_in_closed_form(ratio, speed):
     assert interval["peak_force"] == pytest.approx(force, rel=1e-12)
     assert interval["peak_time"] == pytest.approx(first + ahead, rel=1e-7)
     assert interval["impulse"] == pytest.approx(2.0 * speed, rel=1e-12)
-
-
-@pytest.mark.parametrize("e", [0.2, 0.5, 0.9])
-def test_a_ball_that_does_not_buckle_is_a_hysteretic_one(e):
-    stack = [sb.Ball(1.0), sb.Ball(0.4)]
-    both = [
-        sb.simulate(sb.Drop(stack, [law, law], impact_speed=1.0))
-        for law in (
-            sb.HollowBall(100.0, 0.05, 1.0, e),
-            sb.HollowBall(100.0, 50.0, 0.1, e),
-            sb.Hysteretic(100.0, restitution=e),
-        )
-    ]
-    for result in both[:2]:
-        assert result.rebound_ratios == pytest.approx(both[2].rebound_ratios, abs=1e-10)
-        assert result.last_release == pytest.approx(both[2].last_release, rel=1e-9)
-
-
-def test_a_table_of_a_straight_line_is_a_spring():
-    table = sb.Tabulated([0.0, 0.1, 0.2, 0.5], [0.0, 10.0, 20.0, 50.0])
-    result = one_ball(table, 3.0)  # to 0.3 m, over two knots
-    spring = one_ball(sb.Spring(100.0), 3.0)
-    assert result.rebound_ratios == pytest.approx(spring.rebound_ratios, rel=1e-14)
-    assert result.last_release == pytest.approx(spring.last_release, rel=1e-13)
 
 
 @pytest.mark.parametrize("speed", [0.05, 0.3, 0.8, 3.0])

@@ -7,16 +7,13 @@ from hypothesis import strategies as st
 from mpmath import exp, findroot, mp, mpf, polyroots
 
 import stackbounce as sb
+from drops import one_ball
 from reference.relaxing import integrate
 from stackbounce.model.laws.standard_linear_solid import collision
 
 Solid = sb.StandardLinearSolid
 STRENGTHS = (0.01, 1.0, 8.0, 30.0, 1000.0)
 TIMES = (1e-4, 0.02, 0.2, 1.0, 100.0)
-
-
-def one_ball(law, speed=1.0, **options):
-    return sb.simulate(sb.Drop([sb.Ball(1.0)], [law], impact_speed=speed, **options))
 
 
 def by_laplace(strength, time):
@@ -81,22 +78,6 @@ def test_limits_of_the_relaxation_time():
     assert kept[least] < 0.5
     assert (np.diff(kept[: least + 1]) < 0.0).all()
     assert (np.diff(kept[least:]) > 0.0).all()
-    soft, stiff = one_ball(sb.Spring(1.0)), one_ball(sb.Spring(4.0))
-    for law, spring in ((Solid(1.0, 3.0, 1e-5), soft), (Solid(1.0, 3.0, 1e6), stiff)):
-        result = one_ball(law)
-        assert result.rebound_ratios == pytest.approx(spring.rebound_ratios, abs=1e-4)
-        assert result.last_release == pytest.approx(spring.last_release, rel=1e-4)
-
-
-def test_a_strong_and_quick_relaxation_is_a_dashpot():
-    """With Δ k τ = b, and τ towards 0, the dashpot stands beside the spring."""
-    damping, dashpot = 0.4, one_ball(sb.Dashpot(1.0, 0.4))
-    off = []
-    for time in (1e-3, 1e-4):
-        found = one_ball(Solid(1.0, damping / time, time))
-        off.append(abs(found.rebound_ratios[0] - dashpot.rebound_ratios[0]))
-    assert off[1] < 3e-4
-    assert off[1] == pytest.approx(0.1 * off[0], rel=0.1)
 
 
 def test_the_ball_leaves_still_compressed():
@@ -158,18 +139,6 @@ def test_bounces_under_gravity_by_another_method(name):
     story = integrate(drop, 40.0)
     assert result.rebound_speeds == pytest.approx(story.velocities, abs=1e-9)
     assert len(result.intervals[result.intervals["end"] < 40.0]) == len(story.intervals) > 5
-
-
-def test_a_surface_that_has_not_recovered_is_met_where_it_is():
-    law = Solid(1.0, 2.0, 1.0)
-    drop = sb.Drop([sb.Ball(1.0)], [law], impact_speed=1.0, gravity=0.3)
-    result = sb.simulate(drop, until=8.0)
-    first, second = result.intervals[:2]
-    left, met = result.sample([first["end"], second["start"]]).compression.values[0]
-    recovery_time = (1.0 + law.relaxation_strength) * law.relaxation_time
-    recovered = np.exp(-(second["start"] - first["end"]) / recovery_time)
-    assert 0.1 < recovered < 0.9
-    assert met == pytest.approx(recovered * left, rel=1e-11)
 
 
 @pytest.mark.parametrize("name", ["large on small", "three, slow surfaces"])

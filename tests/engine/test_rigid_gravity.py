@@ -14,21 +14,6 @@ G = 9.81
 falling = functools.partial(rigid, gravity=1.0)
 
 
-def assert_same(drop, until, precision=PRECISION):
-    """Compare all collisions, and heights and velocities at the end, with the reference."""
-    result = sb.simulate(drop, until=until)
-    expected, heights = fallen(drop, until)
-    assert result.status is sb.Status.TIME_REACHED
-    assert_collisions(result, expected, precision)
-    end = result.sample([until])
-    heights = [float(height) for height in heights]
-    assert end.position[:, 0].values == pytest.approx(heights, abs=precision)
-    assert end.velocity[:, 0].values.tolist() == result.rebound_speeds.tolist()
-
-
-# one ball
-
-
 @pytest.mark.parametrize("compiled", [False, True])
 @pytest.mark.parametrize("e", [1e-13, 0.3, 0.5, 0.9, 0.99])
 def test_one_ball_bounces_to_rest(e, compiled):
@@ -66,23 +51,15 @@ def test_without_loss_a_ball_bounces_for_ever():
     assert result.apexes["height"] == pytest.approx(0.5, rel=1e-15)
 
 
-def test_restitution_zero_rests_at_once():
-    result = sb.simulate(falling([1.0], [0.0]), until=9.0)
+@pytest.mark.parametrize(
+    ("masses", "restitutions", "collisions"),
+    [([1.0], [0.0], [1]), ([1.0, 20.0], [0.5, 0.5], [-1, -1])],
+)
+def test_what_loses_all_speed_rests_at_once(masses, restitutions, collisions):
+    result = sb.simulate(falling(masses, restitutions), until=9.0)
     assert result.status is sb.Status.SETTLED
-    assert (result.end_time, result.collisions.tolist()) == (0.0, [1])
+    assert (result.end_time, result.collisions.tolist()) == (0.0, collisions)
     assert len(result.apexes) == 0
-
-
-def test_a_run_ends_amid_the_bounces():
-    drop = falling([1.0], [0.5])
-    end = sb.simulate(drop, until=99.0).end_time
-    for part in (0.5, 0.999, 1.0 - 1e-9, 1.0 - 1e-13):
-        result = sb.simulate(drop, until=part * end)
-        assert result.status is sb.Status.TIME_REACHED
-        assert result.end_time == part * end
-
-
-# how runs end
 
 
 def test_without_a_time_the_run_ends_once_none_approaches():
@@ -140,9 +117,6 @@ def test_a_collapse_on_the_way_up_and_down_again():
     assert after.status is sb.Status.SETTLED
 
 
-# several balls
-
-
 @pytest.mark.parametrize(
     ("masses", "restitutions", "gaps", "until"),
     [
@@ -157,21 +131,15 @@ def test_a_collapse_on_the_way_up_and_down_again():
     ],
 )
 def test_several_balls(masses, restitutions, gaps, until):
-    assert_same(falling(masses, restitutions, gaps), until, 1e-10)
-
-
-def test_random_stacks():
-    random = Random(3)
-    for _ in range(60):
-        size = random.choice([2, 2, 3, 4])
-        elastic = random.random() < 0.5
-        drop = falling(
-            [10 ** random.uniform(-0.5, 0.5) for _ in range(size)],
-            [1.0 if elastic else random.uniform(0.85, 1.0) for _ in range(size)],
-            [random.choice([0.0, random.uniform(0.0, 1.0)]) for _ in range(size - 1)],
-        )
-        if len(fallen(drop, 1.5)[0].collisions) < 200:
-            assert_same(drop, 1.5, 1e-9)
+    drop = falling(masses, restitutions, gaps)
+    result = sb.simulate(drop, until=until)
+    expected, heights = fallen(drop, until)
+    assert result.status is sb.Status.TIME_REACHED
+    assert_collisions(result, expected, 1e-10)
+    end = result.sample([until])
+    heights = [float(height) for height in heights]
+    assert end.position[:, 0].values == pytest.approx(heights, abs=1e-10)
+    assert end.velocity[:, 0].values.tolist() == result.rebound_speeds.tolist()
 
 
 def test_a_ball_dropped_on_others_at_rest():
@@ -249,9 +217,6 @@ def test_only_ratios_count(speed, gravity):
     assert counts[0] == pytest.approx(counts[1], rel=0.02)
 
 
-# sampling, apexes, both modes
-
-
 def test_a_run_up_to_a_time_is_the_beginning_of_a_longer_one():
     drop = falling([1.0, 0.5, 2.0], [0.9, 0.8, 0.95], [0.1, 0.2])
     whole = sb.simulate(drop, until=4.0)
@@ -272,10 +237,3 @@ def test_apexes_of_two_balls():
     for index, apex in enumerate(apexes):
         assert at.position[apex["ball"], index] == pytest.approx(apex["height"], abs=1e-13)
         assert at.velocity[apex["ball"], index] == pytest.approx(0.0, abs=1e-13)
-
-
-def test_no_apex_of_what_collapses_at_once():
-    result = sb.simulate(falling([1.0, 20.0], 0.5), until=9.0)
-    assert result.status is sb.Status.SETTLED
-    assert result.end_time == 0.0
-    assert len(result.apexes) == 0

@@ -1,13 +1,17 @@
 """The examples with a class's balls: what they say is what they do."""
 
 import re
+from importlib.resources import files
 
+import numpy as np
 import pytest
 
 import stackbounce as sb
+from example_records import floor_force, two_tracks
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.explorer import LIMITS
 from stackbounce.explorer.examples import list_examples
+from stackbounce.model.catalogue import CLASS_BALLS
 
 EXAMPLES = list(list_examples())
 
@@ -33,3 +37,75 @@ def test_the_last_ball_of_the_cradle_takes_most_of_the_speed():
     *others, next_to_last, last = sb.simulate(case.drop).rebound_ratios
     assert f"the next at {next_to_last:.2f}." in case.says
     assert max(map(abs, others)) < 0.1 * last
+
+
+# --- the records that the explorer offers for a try are those that `example_records` makes
+RECORDS = files("stackbounce.explorer") / "static" / "examples"
+MADE = {
+    "floor-force.csv": (floor_force, 0.1, "waveform"),
+    "two-tracks.csv": (two_tracks, 1e-4, "track"),
+}
+
+
+def _numbers(text):
+    return np.array([float(number) for number in re.findall(r"-?\d+\.\d+(?:E[+-]?\d+)?", text)])
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_a_record_is_as_it_is_made_to_its_last_digit_and_read_as_what_it_is(name):
+    make, digit, holds = MADE[name]
+    kept, made = (RECORDS / name).read_text(encoding="utf-8"), make()
+    assert kept.count("\n") == made.count("\n") > 100
+    assert kept.splitlines()[0] == made.splitlines()[0]
+    np.testing.assert_allclose(_numbers(kept), _numbers(made), rtol=0.0, atol=1.001 * digit)
+    assert sb.read(RECORDS / name).attrs["holds"] == holds
+
+
+def test_the_page_offers_each_record_and_no_other():
+    said = (RECORDS.parent / "index.html").read_text(encoding="utf-8")
+    offered = set(re.findall(r'data-example="(.+?)"', said))
+    assert offered == set(MADE) == {path.name for path in RECORDS.iterdir()}
+
+
+# --- the colours of balls: each known ball has its own, and each curve is seen on its card
+STATIC = files("stackbounce.explorer") / "static"
+SCRIPT = (STATIC / "js/stage/looks.js").read_text("utf-8")
+STYLES = [(STATIC / name).read_text("utf-8") for name in ("style.css", "css/looks.css")]
+LOOKS = re.findall(r'^  "?([\w-]+)"?: \{ balls: \[(.*?)\]', SCRIPT, re.MULTILINE)
+KINDS = [kind for kind, _ in LOOKS]
+
+
+def colors(dark):
+    """Return the colours by name, in light or as dark changes them."""
+    found = {}
+    for text in STYLES:
+        light, _, changed = text.partition("@media")
+        for part in (light, changed) if dark else (light,):
+            found |= dict(re.findall(r"--([\w-]+): (#[0-9a-f]{6});", part))
+    return found
+
+
+def luminance(color):
+    parts = [int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+    linear = [one / 12.92 if one <= 0.03928 else ((one + 0.055) / 1.055) ** 2.4 for one in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def contrast(one, other):
+    low, high = sorted((luminance(one), luminance(other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+def test_curves_are_seen_on_their_card(dark):
+    found = colors(dark)
+    inks = [f"ink-{kind}" for kind in KINDS] + [f"place-{i}" for i in range(6)]
+    assert min(contrast(found[ink], found["card"]) for ink in inks) >= 3.0
+    assert len({found[ink] for ink in inks}) == len(inks)
+
+
+def test_each_ball_of_a_class_has_a_look():
+    kinds = {ball: kind for kind, balls in LOOKS for ball in re.findall(r'"(.+?)"', balls)}
+    assert {kinds[str(entry.ball.name)] for entry in CLASS_BALLS} == set(KINDS)
+    for name in ("fill", "mark", "ink"):
+        assert all(f"{name}-{kind}" in colors(dark=False) for kind in KINDS)

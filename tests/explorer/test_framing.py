@@ -65,7 +65,10 @@ def test_the_page_names_the_sites_that_may_frame_it():
 
 @pytest.mark.parametrize("name", ["explorer.html", "explorer"])
 def test_an_export_says_which_header_its_server_must_send(capsys, tmp_path, name):
-    assert main(["app", "--export", str(tmp_path / name), "--embed", SITE]) == 0
+    path = tmp_path / name
+    assert main(["app", "--export", str(path), "--embed", SITE]) == 0
     told = capsys.readouterr().out.splitlines()
-    assert told[0].startswith(f"{tmp_path / name}: the explorer")
+    size = sum(part.stat().st_size for part in (path, *path.rglob("*")) if part.is_file())
+    assert told[0].startswith(f"{path}: the explorer")
+    assert told[0].endswith(f", {size / 1000:.0f} kB")
     assert told[-1] == f"Content-Security-Policy: frame-ancestors {SITE}"

@@ -15,7 +15,7 @@ import stackbounce as sb
 from explorer.conftest import DROP
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.explorer import LIMITS
-from stackbounce.explorer.page.catalogue import list_choices
+from stackbounce.explorer.page.data import list_choices
 
 
 def post(server, path, **asked):

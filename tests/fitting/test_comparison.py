@@ -60,6 +60,7 @@ def test_a_drop_that_is_left_out_is_predicted(compared):
     assert [row.name for row in rows][:2] == ["rebound_ratios.0", "rebound_ratios.1"]
     assert len(rows) == 6
     assert all(abs(row.pull) < 1.0 for row in rows)
+    assert rows[0]._replace(predicted=1.5, measured=1.0, error=0.3, predicted_error=0.4).pull == 1.0
     assert all(row.predicted_error < 0.2 for row in rows)
     assert compared.predictive("Hysteretic") > compared.predictive("Spring")
 
@@ -68,7 +69,8 @@ def test_with_one_drop_each_datum_is_left_out():
     drop = sb.Drop(BALLS, [sb.Rigid(0.8), sb.Rigid(0.9)], impact_speed=3.0)
     model = sb.Model(drop, {"contacts.0.restitution": (0.1, 1.0)})
     ratios = [(ratio, 0.01) for ratio in sb.simulate(drop).rebound_ratios]
-    compared = sb.compare({"one": model}, {"rebound_ratios": ratios})
+    compared = sb.compare({"one": model, "same": model}, {"rebound_ratios": ratios})
+    assert [score.weight for score in compared.scores] == [0.5, 0.5]
     names = [row.name for row in compared.left_out["one"]]
     assert names == ["rebound_ratios.0", "rebound_ratios.1"]
 
@@ -93,8 +95,11 @@ def test_usual_models_last_as_long_as_the_given_contacts_at_the_mean_speed():
     drops = at_speeds(BALLS, SPRINGS, (1, 3, 9))
     assert calibration_speed(drops) == pytest.approx(3.0)
     masses = [0.150, (0.150, 0.057)]  # in each contact
+    longest = max(map(sb.contact_time, SPRINGS, masses))
     for model in sb.standard_models(drops).values():
         (contacts,) = {drop.contacts for drop in model.drops.values()}  # the same in all drops
+        if not next(iter(contacts)).rigid:
+            assert model.vary["gaps.0"] == pytest.approx((0.0, 4.0 * 3.0 * longest))
         for law, spring, mass in zip(contacts, SPRINGS, masses, strict=True):
             if law.rigid:
                 continue

@@ -32,3 +32,5 @@ def test_the_two_large_balls_are_not_equal():
     drop, data = load_pair("B1", "B1")
     assert drop.balls[0].mass / drop.balls[1].mass == pytest.approx(1.040)
     assert data["rebound_ratios"] == [(0.76, 0.02), (0.76, 0.02)]
+    # two equal springs in series are half as stiff
+    assert drop.contacts[1].stiffness == pytest.approx(drop.contacts[0].stiffness / 2.0)

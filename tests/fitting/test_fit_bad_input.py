@@ -8,6 +8,7 @@ from uncertainties import ufloat
 
 import stackbounce as sb
 from drops import STACK
+from refusals import refusal
 from stackbounce.errors import InvalidType, InvalidValue, UnitError
 
 STIFFNESS = "contacts.1.stiffness"
@@ -17,11 +18,8 @@ NAN = float("nan")
 
 
 def refused(kind, message, drop=STACK, data=DATA, vary=VARY, **options):
-    with pytest.raises(kind) as caught:
-        sb.fit(drop, data, vary, **options)
-    told = str(caught.value)
+    told = refusal(kind, sb.fit, drop, data, vary, **options)
     assert message in told
-    assert "\n" not in told
     assert len(told) < 1000
 
 

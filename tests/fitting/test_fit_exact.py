@@ -26,13 +26,20 @@ def test_a_contact_time_gives_the_stiffness_of_one_spring():
     assert math.isnan(found.probability)
 
 
-def test_its_interval_is_where_the_time_is_one_error_off():
+@pytest.mark.parametrize(
+    ("name", "of_time"),
+    [
+        ("contacts.0.stiffness", lambda time: MASS * (math.pi / time) ** 2),
+        ("balls.0.mass", lambda time: 1e4 * (time / math.pi) ** 2),
+    ],
+)
+def test_its_interval_is_where_the_time_is_one_error_off(name, of_time):
     time, error = 5.0e-3, 0.5e-3
     drop = sb.Drop([sb.Ball(MASS)], [sb.Spring(1e4)], height=0.3)
-    found = sb.fit(drop, {"durations.0": (time, error)}, ["contacts.0.stiffness"])
+    found = sb.fit(drop, {"durations.0": (time, error)}, [name])
     for sigma in (1.0, 2.0):
-        low, high, *bounds = found.intervals(sigma=sigma)["contacts.0.stiffness"]
-        ends = [MASS * (math.pi / (time + sign * sigma * error)) ** 2 for sign in (1, -1)]
+        low, high, *bounds = found.intervals(sigma=sigma)[name]
+        ends = sorted(of_time(time + sign * sigma * error) for sign in (1, -1))
         assert [low, high] == pytest.approx(ends, rel=1e-3)
         assert bounds == [False, False]
 

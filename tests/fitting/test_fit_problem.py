@@ -55,3 +55,10 @@ def test_several_drops_stay_several():
     problem = FitProblem(drops, data, [STIFFNESS])
     assert problem.drop == problem.drops == drops
     assert [one.drop for one in problem.fit(starts=4).residuals] == ["low", "high"]
+
+
+def test_bounds_around_a_number_stay_in_the_range_of_its_law():
+    law = sb.Hysteretic(1e4, exponent=1.5, unloading_exponent=3.0)  # which is at least the exponent
+    drop = sb.Drop([sb.Ball(0.1)], [law], impact_speed=1.0)
+    (own,) = FitProblem(drop, DATA, ["contacts.0.unloading_exponent"]).objective.parameters
+    assert (own.low, own.high) == (pytest.approx(1.5), 300.0)

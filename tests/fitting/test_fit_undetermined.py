@@ -49,12 +49,9 @@ def test_a_prior_decides():
     assert both.std_dev / both.nominal_value == pytest.approx(relative, rel=1e-2)
 
 
-def test_a_duration_decides():
+def test_a_duration_decides_and_what_is_known_counts_as_a_datum():
     data = {**RATIOS, "durations.0": "30 ± 1 ms"}
     assert sb.fit(STACK, data, BOTH).undetermined == ()
-
-
-def test_what_is_known_counts_as_a_datum():
     known = {BOTH[0]: "2500 ± 25", BOTH[1]: None}
     assert sb.fit(STACK, {"rebound_ratios.1": (1.6, 0.02)}, known).undetermined == ()
 

@@ -36,9 +36,6 @@ def rows(columns, form="{:.6E}", delimiter=",", decimal=".", end="\n"):
     return "".join(lines)
 
 
-# --- Tracker
-
-
 @makes("tracker_one.txt")
 def tracker_one(delimiter="\t", decimal="."):
     head = f"mass_A\n{delimiter.join('txy')}\n"
@@ -52,8 +49,6 @@ def tracker_two(delimiter=",", decimal="."):
     columns = [FRAMES, AWAY, FALL, np.where(np.isnan(late), np.nan, AWAY), late]
     return (head + rows(columns, "{:.8E}", delimiter, decimal, delimiter + "\n")).encode()
 
-
-# --- phyphox
 
 VARIANTS = {"comma": (",", "."), "tab": ("\t", "."), "semicolon": (";", "."),
             "tab, decimal comma": ("\t", ","), "semicolon, decimal comma": (";", ",")}  # fmt: skip
@@ -136,8 +131,6 @@ def phyphox_acceleration(linear="", delimiter=",", decimal="."):
     return phyphox_zip({"Raw Data.csv": acceleration(linear)}, delimiter, decimal)
 
 
-# --- Vernier, Logger Pro, PASCO
-
 VERNIER = {
     "latest": ("Latest: Time (s)", "Latest: Force (N)"),
     "run": ("Run 1: Time (s)", "Run 1: Position (m)"),
@@ -168,9 +161,6 @@ def capstone(delimiter=",", decimal=".", preamble=""):
     columns = [TIMES, PULSE, TIMES * short, 0.5 * PULSE * short]
     head = preamble + delimiter.join(names) + "\n"
     return (head + rows(columns, "{:.7g}", delimiter, decimal)).encode("utf-8-sig")
-
-
-# --- oscilloscopes
 
 
 @makes("rigol.csv")
@@ -209,8 +199,6 @@ def tek_tds():
     rows = zip(keys, TIMES - 1e-3, VOLTS, strict=True)
     return "".join(f"{pair},,{t:018.12f},{v:10.5f},\n" for pair, t, v in rows).encode()
 
-
-# --- sound
 
 RATE = 8000
 
@@ -251,9 +239,6 @@ for _bits, _channels, _floating, _extensible in (
 ):  # fmt: skip
     _name = f"wav_{_bits}{'f' if _floating else ''}_{_channels}{'_ext' if _extensible else ''}.wav"
     MAKERS[_name] = partial(wav, _bits, _channels, _floating, _extensible)
-
-
-# --- other tables, press curves
 
 
 @makes("force_ms.csv")

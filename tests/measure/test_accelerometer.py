@@ -83,6 +83,13 @@ def test_of_several_drops_the_longest_series_counts():
     assert near(found.drop_height, 0.8)
 
 
+def test_half_of_a_flight_is_near_zero():
+    steps = [(50, 1.0), (10, 0.4), (10, 0.1), (2, 20.0), (8, 0.4), (8, 0.1), (2, 20.0), (50, 1.0)]
+    size = np.concatenate([np.full(count, level * G) for count, level in steps])
+    (kept,) = accelerometer((np.arange(len(size)) / 100.0, size)).restitutions
+    assert kept.nominal_value == pytest.approx(0.5 * 0.16 / 0.2)  # half a flight over the fall
+
+
 def test_a_bounce_between_two_samples_is_told():
     record = record_of(fall(), seed=1)
     size = record.acceleration_absolute.values.copy()
@@ -135,7 +142,10 @@ def test_a_ball_and_its_law_are_those_that_fell():
 def test_the_picture_tells_heights_and_restitutions():
     record = record_of(fall(), seed=1)
     (found,) = analyse(record)
-    words = [text.get_text() for text in measured(record, found).axes[0].texts]
+    texts = measured(record, found).axes[0].texts
+    words = [text.get_text() for text in texts]
     assert len(words) == 4 + 3
     assert words[0] == f"{100.0 * found.drop_height:.1uS} cm"
     assert words[4] == f"e = {found.restitutions[0]:.1uS}"
+    in_time = [text.get_text()[:3] for text in sorted(texts, key=lambda text: text.xy[0])]
+    assert [start == "e =" for start in in_time] == [False, True] * 3 + [False]

@@ -14,6 +14,7 @@ from stackbounce.measure.kinds.bounces.analysis import bounces
 from stackbounce.measure.kinds.bounces.knocks import missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import laws_of
 from stackbounce.measure.kinds.heights.analysis import heights
+from stackbounce.plots import measured
 from synthetic.falls import falls
 
 FALL = falls(1.0, lambda speed: 0.9 - 0.02 * speed, bounces=10)
@@ -94,6 +95,7 @@ def test_parts_make_a_drop():
         ([0.0, 9e-10, 16e-10], "in s, got intervals of at most 9e-10 s"),
         ([0.0, math.nan, 1.0], "finite"),
         ((1e-4 * np.arange(25)).astype(np.float32), "faster and faster, got 24 equal intervals"),
+        (np.round(np.arange(90) / 30, 4), "faster and faster, got 89 equal intervals of 0.0333 s"),
         (np.arange(5000) ** 0.9, "bounces, at most 200, got 5000"),
     ],
 )
@@ -157,6 +159,7 @@ def test_heights_without_errors_say_so():
     assert any("height_error" in note for note in found.notes)
     known = heights(ufloat(1.0, 0.01), ufloat(0.64, 0.01))
     assert known.mean.std_dev == pytest.approx(0.8 * 0.5 * math.hypot(0.01, 0.01 / 0.64))
+    assert measured(None, known).axes[0].lines[0].get_ydata()[-1] == pytest.approx(0.64)
 
 
 def test_repeated_heights_scatter():

@@ -14,17 +14,15 @@ from stackbounce import plots
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.explorer.answers import records
 from stackbounce.fitting.series.series import make_series
-from stackbounce.measure import Drag, analyse, bounces, heights, knocks, one_ball, one_law
+from stackbounce.measure import Drag, analyse, bounces, heights, knocks, one_ball, one_law, track
 from stackbounce.measure.kinds.sound.few_bounces import few_bounces
+from synthetic.falls import falls
 from synthetic.sound import sound
+from synthetic.track import track as tracked
 
 UGLY = {"uneven": 0.2, "room": 0.4, "alike": 0.5, "wind": 0.01, "coarse": 0.4, "level": 2.0}
 TYPED = {"mass": "2.7 g", "diameter": "40 mm", "drag_coefficient": "0.45 ± 0.05"}
-
-
 FALL = falls_in_air(0.5, kept, bounces=9)
-
-
 KNOCKS = xr.Dataset({"knock_time": ("knock", FALL.touches)}, attrs={"holds": "knocks"})
 
 
@@ -233,10 +231,7 @@ def test_options_of_air_that_are_missing_or_out_of_range(options, words):
     [
         ((0.0, 0.04, 0.5), "mass must be a positive"),
         ((1.0, 0.04, 0.0), "coefficient must be"),
-        (
-            (1e-100, 1.0, 0.5),
-            r"of a ball in air, got 2.36e\+99 1/m of drag \(a table tennis",
-        ),
+        ((1e-100, 1.0, 0.5), r"of a ball in air, got 2.36e\+99 1/m of drag \(a table tennis"),
         ((1.0, 1e300, 0.5), "of a ball in air, got inf 1/m"),
     ],
 )
@@ -251,3 +246,135 @@ def test_a_ball_that_cannot_fly_so_far():
     page = {"drag_coefficient": "0.5"}  # options are named as the page names them
     with pytest.raises(InvalidValue, match="give “Ball's mass” and “Diameter”"):
         records.measure_record("a.csv", b"height (m)\n1\n0.7\n", page)
+
+
+# --- drag in tracks: against falls that an integrator of scipy makes, with what is ugly in tracks
+TRACK_FALL = falls_in_air(1.0, kept, bounces=5)
+UGLY_TRACKS = {
+    "errors that go together": {"correlation": 0.5, "frame_rate": 100.0},
+    "pixels of 4 mm": {"pixel": 0.004},
+    "one point in five missing": {"missing": 0.2},
+    "tilted and drifting": {"tilt": 0.07, "drift": 0.1},
+    "downward": {"down": True, "frame_rate": 240.0},
+}
+
+
+def seen(fall=TRACK_FALL, **how):
+    usual = {"frame_rate": 60.0, "noise": 1e-3, "until": float(fall.touches[3])}
+    return tracked(fall, **usual | how)
+
+
+def pairs(ball, fall):
+    """Return what was found with what is true."""
+    yield from zip(ball.restitutions, fall.restitutions, strict=False)
+    yield from zip(ball.impact_speeds, fall.speeds, strict=False)
+    yield from zip(ball.rebound_speeds, fall.rebounds, strict=False)
+    yield from zip(ball.apex_heights, fall.apexes, strict=False)
+    yield from ((ball.drop_height, fall.height), (ball.gravity, fall.gravity))
+
+
+def test_a_track_nearly_without_errors_gives_what_went_in():
+    data = seen(noise=1e-5, frame_rate=240.0)
+    (ball,) = track(data, drag=AIR).balls
+    for found, true in pairs(ball, TRACK_FALL):
+        assert found.n == pytest.approx(true, rel=2e-5)
+    (free,) = track(data).balls
+    assert free.restitutions[0].n < TRACK_FALL.restitutions[0] - 0.04
+    assert free.impact_speeds[0].n > 1.02 * TRACK_FALL.speeds[0]
+
+
+@pytest.mark.parametrize("how", UGLY_TRACKS)
+def test_ugly_tracks_in_air(how):
+    """All lie within four of their errors; without air the first restitution does not."""
+    data = seen(seed=1, **UGLY_TRACKS[how])
+    found = track(data, drag=AIR)
+    (ball,) = found.balls
+    off = [(one.n - true) / one.s for one, true in pairs(ball, TRACK_FALL)]
+    assert max(map(abs, off)) < 4.0
+    assert ball.restitutions[0].s < 0.006
+    assert track(data).balls[0].restitutions[0].n < TRACK_FALL.restitutions[0] - 0.03
+    assert found.time_base.agrees
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("unsure", [False, True])
+def test_the_truth_lies_within_one_sigma_as_often_as_it_should(unsure):
+    hits = dict.fromkeys(["restitution", "impact speed", "drop height", "gravity"], 0)
+    for seed in range(100):
+        random = np.random.default_rng([seed, 7])
+        true = random.normal(0.45, 0.05) if unsure else 0.45
+        fall = falls_in_air(0.6, kept, coefficient=true, bounces=4)
+        (ball,) = track(seen(fall, seed=seed), drag=UNSURE if unsure else AIR).balls
+        rows = (
+            (ball.restitutions[0], fall.restitutions[0]),
+            (ball.impact_speeds[0], fall.speeds[0]),
+            (ball.drop_height, fall.height),
+            (ball.gravity, fall.gravity),
+        )
+        for name, (found, value) in zip(hits, rows, strict=True):
+            hits[name] += abs(found.n - value) <= found.s
+    for name, count in hits.items():
+        assert possible(count, 100, 0.60, 0.76), (name, count)
+
+
+def test_an_error_of_the_drag_is_the_change_by_it():
+    data = seen(frame_rate=120.0)
+    (ball,) = track(data, drag=UNSURE).balls
+    more, less = (track(data, drag=Drag(*BALL, one)).balls[0] for one in (0.50, 0.40))
+    for name in ("restitutions", "impact_speeds", "rebound_speeds"):
+        found, high, low = (getattr(one, name)[0] for one in (ball, more, less))
+        exact = getattr(track(data, drag=AIR).balls[0], name)[0]
+        assert found.n == exact.n
+        assert found.s == pytest.approx(np.hypot(exact.s, 0.5 * (high.n - low.n)), rel=1e-2)
+
+
+def test_a_soft_ball_and_its_floor():
+    fall = falls_in_air(1.0, kept, bounces=5, lasts=lambda _: 0.012)
+    data = seen(fall, frame_rate=240.0)
+    (ball,) = track(data, floor=0.0, drag=AIR).balls
+    for found, true in pairs(ball, fall):
+        assert found.n == pytest.approx(true, rel=5e-3)
+    (plain,) = track(data, drag=AIR).balls
+    assert plain.impact_speeds[0].n > 1.01 * fall.speeds[0]
+
+
+def test_without_drag_parabolas_stay():
+    data = seen(falls(1.0, 0.8))
+    thin = track(data, drag=Drag(*BALL, 1e-12)).balls[0]
+    free = track(data).balls[0]
+    for name in ("restitutions", "impact_speeds", "apex_heights", "levels"):
+        one, other = ([x.n for x in getattr(ball, name)] for ball in (thin, free))
+        assert one == pytest.approx(other, rel=1e-9, abs=1e-12)
+
+
+def test_the_curve_that_is_drawn_passes_through_the_points():
+    found = track(seen(frame_rate=240.0), drag=AIR)
+    (ball,) = found.balls
+    used = np.isfinite(ball.fit.residuals)
+    lines = plots.measured(None, found).axes[0].lines
+    curves = [line for line in lines if len(line.get_xdata()) == 60]
+    assert len(curves) == len(ball.fit.flights)
+    for line, (first, last) in zip(curves, ball.fit.flights, strict=True):
+        part = slice(first, last)
+        there = np.interp(ball.times[part][used[part]], line.get_xdata(), line.get_ydata())
+        assert np.std(there - ball.heights[part][used[part]]) < 1.2e-3
+
+
+def test_the_options_of_air_are_those_of_a_track():
+    (told,) = analyse(seen(), mass=BALL[0], diameter=BALL[1], drag_coefficient=0.45)
+    found = {row.name: row.value for row in told.rows()}
+    assert found["restitution of bounce 0"].n == pytest.approx(TRACK_FALL.restitutions[0], abs=3e-3)
+    assert found["drag coefficient"].n == 0.45
+    assert any(note.startswith("The drag of the air is taken") for note in told.notes)
+
+
+def test_what_has_no_air_is_told():
+    pixels = seen()
+    pixels.y.attrs["units"] = "px"
+    with pytest.raises(InvalidValue, match="drag needs lengths in m and times in s, got px and s"):
+        track(pixels, drag=AIR)
+    two = xr.concat([seen(), seen(names=["other"])], "track")
+    with pytest.raises(InvalidValue, match=r"drag is for the track of one ball .*, got 2"):
+        track(two, drag=AIR)
+    with pytest.raises(InvalidValue, match="it flies faster than it could fall"):
+        track(seen(), drag=Drag(1e-4, 0.040, 0.5))

@@ -27,6 +27,9 @@ def wave(count):
     return np.round(np.sin(np.arange(count)) + 2.0, 3)
 
 
+TIMES, WAVE = np.arange(40) / 25, wave(40)
+
+
 @pytest.fixture
 def refusal(tmp_path, monkeypatch, capfd):
     """Return the one line with which the command line refuses a table."""
@@ -64,19 +67,35 @@ def test_what_is_not_recognised_is_described_with_a_command_that_is_accepted(ref
 
 
 @pytest.mark.parametrize(
-    ("header", "hint"),
+    ("header", "columns", "hint"),
     [
-        ("Tiempo,posi_x,posi_z", "--holds track --column 1=time --column 3=y;"),
-        ("Zeit (s),B (T),Höhenlage (mm)", "--holds track --column 1=time --column 3=y;"),
-        ("Time (s),Bx (µT),By (µT)", ""),
-        ("a (s),b (s),c (s)", ""),
-        ("Distance (m),Mass (kg),Error (kg)", ""),
+        ("Tiempo,posi_x,posi_z", (TIMES, WAVE, WAVE), "track --column 1=time --column 3=y;"),
+        (
+            "Zeit (s),B (T),Höhenlage (mm)",
+            (TIMES, WAVE, WAVE),
+            "track --column 1=time --column 3=y;",
+        ),
+        ("id,time,px,py", (WAVE, TIMES, WAVE, WAVE), "track --column 2=time --column 4=y;"),
+        ("frame,ypix", (range(40), WAVE), "track --column 1=time --column 2=y;"),
+        ("", (TIMES, WAVE), "track --column 1=time --column 2=y;"),
+        ("Time (s),Bx (µT),By (µT)", (TIMES, WAVE, WAVE), ""),
+        ("a (s),b (s),c (s)", (TIMES, WAVE, WAVE), ""),
+        ("Distance (m),Mass (kg),Error (kg)", (TIMES, WAVE, WAVE), ""),
+        ("Trial,Drop height (cm),Rebound (cm)", (range(40), WAVE, WAVE), ""),
+        ("Time (s),Altitude (m)", (range(40), WAVE), ""),
+        ("h (cm),t (s)", (range(20, 120, 20), (0.20, 0.28, 0.35, 0.40, 0.45)), ""),
+        ("Lap,Time (s)", (range(9), WAVE[:9]), ""),
+        ("n,interval (s)", (range(9), 0.8 ** np.arange(9)), ""),
+        ("sample,adc", (range(40), WAVE), ""),
+        ("t,adc", (TIMES / 1e3, WAVE), ""),
+        ("Time shift (s),Autocorrelation", (TIMES, WAVE), ""),
+        ("", (np.cumsum(0.9 ** np.arange(40)), WAVE), ""),
     ],
 )
-def test_a_hint_is_one_that_names_and_units_leave_possible(refusal, header, hint):
-    said = refusal(table(header, np.arange(40) / 25, wave(40), wave(40)))
+def test_a_hint_is_one_that_names_units_and_times_leave_possible(refusal, header, columns, hint):
+    said = refusal(table(header, *columns))
     assert "do not tell a kind" in said
-    assert (hint or "--holds, --column tell so") in said
+    assert (f"--holds {hint}" if hint else "--holds, --column tell so") in said
 
 
 def test_a_refusal_says_what_has_words_no_fitting_unit_or_uneven_times(refusal):
@@ -124,16 +143,7 @@ def test_every_kind_that_is_offered_is_accepted(name, read):
     assert read(content, holds=name).attrs["holds"] == wanted
 
 
-# --- columns by header or number
-
-
-@pytest.mark.parametrize(
-    "names",
-    [
-        {1: "time", 3: "y"},
-        {"a": "time", "c d": "y"},
-    ],
-)
+@pytest.mark.parametrize("names", [{1: "time", 3: "y"}, {"a": "time", "c d": "y"}])
 def test_columns_are_named_by_header_or_number(read, names):
     data = read(table("a,b,c d", np.arange(9) / 100, wave(9) + 1, wave(9)), names=names)
     assert data.attrs["holds"] == "track"
@@ -152,9 +162,6 @@ def test_a_named_time_and_a_named_channel_come_before_those_of_the_header(read):
     assert float(data.time[-1]) == 8e-3
     assert float(data.voltage[0]) == 7.0
     assert float(data.voltage_2[0]) == 2.0
-
-
-# --- nothing internal
 
 
 @pytest.mark.parametrize("head", ["bounce", "Bounce", "impact", "event"])

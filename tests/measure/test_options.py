@@ -52,6 +52,8 @@ def test_the_command_line_offers_each(capfd, monkeypatch):
     assert offered - {one.on_command_line for one in OPTIONS} == {
         "--name", "--save", "--plot", "--overwrite", "--json", "--help"
     }  # fmt: skip
+    valued = [option for option in OPTIONS if option.form != "flag"]
+    assert all(re.search(f"{known.on_command_line} +{known.value_name} ", out) for known in valued)
     assert all(kind in out for kind in KINDS)
 
 

@@ -36,7 +36,7 @@ def test_one_bounce_has_a_time_and_a_loudness():
     assert told.flights == ()
     assert told.rows() == []
     assert "1 was heard" in told.notes[0]
-    assert any("Only 1 knock" in note for note in heard.notes)
+    assert any("Only 1 knock: too few" in note for note in heard.notes)
     assert [row.name for row in heard.rows()][2:4] == ["time of knock 0", "loudness of knock 0"]
 
 

@@ -8,6 +8,8 @@ from stackbounce.cross2007 import PAPER
 from stackbounce.cross2007.bench import Bench
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import dynamic_stiffness, law_constants, series_stiffness, split_series
+from stackbounce.measure.kinds.contact import CONTACT
+from stackbounce.measure.setup import Setup
 
 MEASURED = {
     "mass": ufloat(0.0567, 0.0005),
@@ -23,6 +25,14 @@ def test_errors_of_both():
     assert k.std_dev / k.nominal_value == pytest.approx(relative)
     law = sb.calibrate(sb.Spring, mass=0.0567, contact_time=5e-3)
     assert k.nominal_value == pytest.approx(law.stiffness)
+
+
+@pytest.mark.parametrize(
+    ("law", "known"), [("Rigid", ["restitution"]), ("Spring", ["mass", "contact_time"])]
+)
+def test_a_contact_without_a_restitution_or_without_a_time(law, known):
+    found = CONTACT.of_numbers(Setup(**{name: MEASURED[name] for name in known}))
+    assert found.parts()["contact"]["law"] == law
 
 
 def test_two_balls_have_their_reduced_mass():

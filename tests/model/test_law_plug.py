@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
-from stackbounce.cli import descriptions, main
-from stackbounce.explorer.page.catalogue import list_choices
+from stackbounce.cli import main, simulation_tables
+from stackbounce.explorer.page.data import list_choices
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.model import LAWS
 from stackbounce.model.laws import law_named
@@ -92,7 +92,7 @@ def goes_through_every_face(kind, tmp_path, capfd):
     assert json.loads(capfd.readouterr().out)["drop"]["contacts"] == [law.to_mapping()]
     assert main(["simulate", str(file)]) == 0
     table = capfd.readouterr().out
-    assert descriptions.law_text(law) in " ".join(table.split())
+    assert simulation_tables.law_text(law) in " ".join(table.split())
 
     (page,) = [one for one in list_choices()["laws"] if one["law"] == name]
     assert (page["formula"], page["source"], page["says"]) == (kind.formula, kind.source, kind.says)
@@ -145,7 +145,10 @@ def test_the_usual_models_are_those_that_laws_offer():
     rigid = [name for name, law in LAWS.items() if law.rigid]
     shared = ("one restitution", "one for each contact")
     others = {f"{name}, {kept}" for name in rigid for kept in shared}
-    assert set(sb.standard_models(drop)) - offered == others
+    models = sb.standard_models(drop)
+    assert set(models) - offered == others
+    (exponent,) = {law.exponent for law in models["Hysteretic, Hertz loading"].drop.contacts}
+    assert exponent == sb.Hertz(1.0).exponent == 1.5
 
 
 def test_a_new_law_with_a_known_form_of_force_is_one_class(added, tmp_path, capfd):
@@ -154,7 +157,7 @@ def test_a_new_law_with_a_known_form_of_force_is_one_class(added, tmp_path, capf
     fits_its_stiffness(law, result)
     is_told_by_a_force_record(law, result)
     assert cone in LAWS.values()
-    assert descriptions.law_text(law) == f"SharpCone, stiffness {law.stiffness:.6g} N/m^2"
+    assert simulation_tables.law_text(law) == f"SharpCone, stiffness {law.stiffness:.6g} N/m^2"
     power = sb.PowerLaw(law.stiffness, 2.0)
     assert np.array_equal(result.rebound_speeds, sb.simulate(alone(power)).rebound_speeds)
 

@@ -13,7 +13,7 @@ import pytest
 from lesson import lesson_markdown
 
 import stackbounce as sb
-from stackbounce.explorer.lessons import (
+from stackbounce.explorer.lessons.lesson import (
     LANGUAGES,
     NAMES,
     explorer_fragment,

@@ -71,6 +71,12 @@ def test_a_pull_out_of_reach_is_an_arrow_at_the_edge():
     assert dots(axes, ">").tolist() == [[5.0, 0.0], [5.0, 1.0]]
 
 
+def test_pulls_of_models_are_written_in_few_characters():
+    data = {"rebound_ratios.1": "1.64 ± 0.02", "rebound_ratios.0": "0.2 ± 0.0001"}
+    axes = plots.compared(sb.compare({"one": sb.Model(DROP, BETWEEN)}, data)).axes[1]
+    assert {text.get_text() for text in axes.texts} == {"+11.7", "+142"}
+
+
 def test_a_curve_over_one_parameter(one):
     axes = plots.fitted(one).axes[-1]
     assert axes.get_xlabel() == "contacts.1.stiffness (N/m)"

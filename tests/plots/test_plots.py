@@ -34,6 +34,7 @@ def test_lines_follow_each_ball():
     assert texts(axes.get_legend().get_texts()) == ["ball 0", "ball 1"]
     assert (axes.get_xscale(), axes.get_xlabel()) == ("log", "balls.0.mass (kg)")
     assert plots.lines(ds, "energy_retained").axes[0].get_ylabel() == "energy retained"
+    assert not plt.get_fignums()  # no figure is left with pyplot
 
 
 def test_a_map_has_a_color_for_each_value():
@@ -140,6 +141,8 @@ def test_a_change_of_sign_is_white():
     assert mesh.norm(0.0) == 0.5
     values = ds.rebound_ratio.sel(ball=0).values
     assert bar.get_ylim() == pytest.approx((values.min(), values.max()))
+    small = plots.heatmap(1e-3 * ds, index=0).axes[0].collections[0]
+    assert small.get_cmap().name == "RdBu_r"
 
 
 @pytest.mark.slow
@@ -201,11 +204,6 @@ def test_small_maps_fill_their_axes(shape, show):
 def test_errors(draw, message):
     with pytest.raises(sb.StackbounceError, match=message):
         draw(sb.sweep(DROP, OVER_BOTH))
-
-
-def test_no_figure_is_left_with_pyplot():
-    plots.lines(sb.sweep(DROP, {"balls.0.mass": MASS}))
-    assert not plt.get_fignums()
 
 
 def test_a_prediction_is_drawn_with_bands():

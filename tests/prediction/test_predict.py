@@ -5,7 +5,6 @@ import pickle
 
 import numpy as np
 import pytest
-import xarray as xr
 from uncertainties import correlated_values, covariance_matrix, ufloat
 
 import stackbounce as sb
@@ -242,18 +241,6 @@ def test_names_that_are_not_predicted_are_refused():
     for ask in (found.__getitem__, found.quantiles, found.advice):
         with pytest.raises(InvalidValue, match=r"is not predicted; did you mean rebound_speeds\.0"):
             ask("rebound_speed.0")
-
-
-def test_paired_values_are_not_a_product():
-    x = xr.DataArray(np.linspace(0.1, 0.3, 4), dims="draw")
-    y = xr.DataArray(np.linspace(0.0, 1e-3, 4), dims="draw")
-    ds = sb.sweep(LOSSY, {"height": x, "gaps.0": y})
-    assert ds.rebound_ratio.dims == ("draw", "ball")
-    pairs = {"height": ("draw", x.values), "gaps.0": ("draw", list(y.values))}
-    assert sb.sweep(LOSSY, pairs).identical(ds)
-    for k in range(4):
-        drop = sb.Drop(LOSSY.balls, LOSSY.contacts, gaps=[float(y[k])], height=float(x[k]))
-        assert np.array_equal(sb.simulate(drop).rebound_ratios, ds.rebound_ratio[k])
 
 
 def test_a_seed_has_32_bits():

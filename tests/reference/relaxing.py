@@ -17,16 +17,15 @@ _STEP = 0.4  # times the shortest of sqrt(m/k): so that no contact is passed ove
 
 
 class Story(NamedTuple):
-    """What came of a stack: speeds, intervals as (contact, start, end), and energies.
+    """What came of a stack: speeds, intervals as (contact, start, end), and energy.
 
-    `leaving` are the compressions at which the intervals ended, `held` is the energy of the springs
-    at the end, `lost` the work of the dashpots, of pressing contacts and of surfaces that recover.
+    `leaving` are the compressions at which the intervals ended, `lost` is the work of the dashpots,
+    of pressing contacts and of surfaces that recover.
     """
 
     velocities: np.ndarray
     intervals: list[tuple[int, float, float]]
     leaving: list[float]
-    held: float
     lost: float
 
 
@@ -86,7 +85,4 @@ def integrate(drop: sb.Drop, until: float) -> Story:
                     leaving.append(solids.parts(state)[0][i])
                 touches[i] = time
                 solids.pressed[i] = not solids.pressed[i]
-    c, v, r = solids.parts(state)
-    c = np.where(solids.pressed, c, -r / solids.k)
-    held = float(np.sum(0.5 * solids.k * c * c + 0.5 * r * r / solids.arm))
-    return Story(v, intervals, leaving, held, float(state[-1]))
+    return Story(solids.parts(state)[1], intervals, leaving, float(state[-1]))

@@ -40,7 +40,9 @@ def test_hunt_crossley(exponent, loss):
         assert abs(residual / slope) < CLOSE
 
 
-@pytest.mark.parametrize(("scaled", "published"), [(0.09, 0.902852), (0.25, 0.760037)])
+@pytest.mark.parametrize(
+    ("scaled", "published"), [(0.09, 0.902852), (0.25, 0.760037), (0.64, 0.525371)]
+)
 def test_published_restitution_of_a_viscoelastic_ball(scaled, published):
     """v* = sqrt(1.5 A) at unit mass, stiffness and speed; `scaled` is its square."""
     outcome = one_ball("Viscoelastic", dissipative_time=mpf(str(scaled)) / 1.5)

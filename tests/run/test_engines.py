@@ -9,9 +9,7 @@ from stackbounce.engine.memory import FINITE, OUT_OF_RANGE
 from stackbounce.run import batch, driver
 
 BALLS = [sb.Ball(0.15), sb.Ball(0.057)]
-SPRINGS = sb.Drop(BALLS, [sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.53)
 HERTZ = sb.Drop(BALLS, [sb.Hertz(1e5)] * 2, impact_speed=3.53)
-STONES = sb.Drop(BALLS, [sb.Rigid(0.9)] * 2, impact_speed=3.53)
 BUGS = (TypeError, AttributeError, NameError, IndexError, KeyError, AssertionError)
 
 

@@ -24,7 +24,6 @@ RIGID = sb.Drop(
 )
 STACK = sb.Drop([sb.Ball(0.1)] * 30, [sb.Hertz(1e7)] * 30, impact_speed=1.0)
 MASSES = np.linspace(0.5, 0.7, 100_000)
-STIFFNESSES = {f"contacts.{i}.stiffness": (1e6, 1e8) for i in range(30)}
 WORK = {
     "one run": lambda: [sb.simulate(SLOW) for _ in range(10)],
     "many drops": lambda: sb.sweep(HERTZ, {"balls.0.mass": MASSES, "gaps.0": np.zeros(1)}),

@@ -28,6 +28,7 @@ def waveform(
     bits: int | None = None,
     full_scale: float | None = None,
     time_constant: float | None = None,
+    resonance: tuple[float, float] | None = None,
     sensitivity: float | None = None,
     sign: int = 1,
     seed: int = 0,
@@ -38,7 +39,8 @@ def waveform(
     after the last release; the first sample is up to one step later. `noise`, `hum`, `offset`,
     `drift` and `full_scale` are in N, or in V with a `sensitivity` (V/N). The converter has some
     `bits`, by default with a range that is the next power of two above all values. A piezo
-    sensor's droop has a `time_constant` (RC, s).
+    sensor's droop has a `time_constant` (RC, s), a sensor that rings a `resonance`: frequency (Hz)
+    and damping ratio.
     """
     result = simulate(drop) if isinstance(drop, Drop) else drop
     random = np.random.default_rng(seed)
@@ -50,6 +52,8 @@ def waveform(
     columns: dict[str, Any] = {}
     for count, contact in enumerate(own, start=1):
         felt = gain * forces[contact]
+        if resonance is not None:
+            felt = rung(times, felt, *resonance)
         if time_constant is not None:
             felt = drooped(times, felt, time_constant)
         phase = random.uniform(0.0, 2.0 * np.pi)
@@ -90,6 +94,15 @@ def _converted(values, bits, full_scale):
     most = top / step
     steps: NDArray[np.float64] = np.clip(np.round(values / step), -most, most - 1.0)
     return step * steps
+
+
+def rung(times: NDArray[np.float64], force: Any, frequency: float, damping: float) -> Any:
+    """Return what a mass on a spring shows of a force at even times, linear between samples."""
+    from scipy.signal import lsim
+
+    turn = 2.0 * np.pi * frequency
+    sensor = ([turn**2], [1.0, 2.0 * damping * turn, turn**2])
+    return lsim(sensor, force, times - times[0])[1]
 
 
 def drooped(times: NDArray[np.float64], values: NDArray[np.float64], time_constant: float) -> Any:

@@ -14,7 +14,7 @@ from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.model.catalogue import catalogue_ball
 from stackbounce.model.laws.series import between
 from stackbounce.run.collision import separate
-from stackbounce.towers.batch import solve_drops
+from stackbounce.towers.masses import solve_drops
 from stackbounce.towers.separation import replace_gaps
 
 

@@ -1,19 +1,37 @@
-"""Tables of balls, contacts and highest points of a drop, with or without errors."""
+"""The numbers of a drop in tables: balls, contacts, highest points, with errors or not."""
 
 import math
 from typing import Any
 
 from rich.table import Table
 
-from stackbounce.cli.descriptions import label, meeting
 from stackbounce.cli.tables import add_columns, new_table, number, percent, with_error, write_count
-from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.model.drop import STANDARD_GRAVITY, Drop
 from stackbounce.prediction import Prediction
 from stackbounce.run.result import Result
 
 _BALLS = ("before\nm/s", "after\nm/s", "ratio\nv/v0", "bounce\n/drop", "height\nm")
 _CONTACTS = ("touch\nms", "release\nms", "longest\nms", "peak\nN", "peak\nmm", "impulse\nN s")
 _TIMES = _CONTACTS[:3]
+
+
+def label(name: str | None, i: int) -> str:
+    """Return the name of ball `i` in tables: printable, and at most 16 characters.
+
+    Examples
+    --------
+    >>> label(None, 1), label("B1", 0)
+    ('ball 1', 'B1')
+    """
+    text = "".join(c if c.isprintable() else "?" for c in name or f"ball {i}")
+    return text if len(text) <= 16 else text[:15] + "…"
+
+
+def meeting(drop: Drop, contact: int) -> str:
+    """Return the two sides of a contact: the floor or the ball below, and the ball above."""
+    upper = label(drop.balls[contact].name, contact)
+    below = "floor" if contact == 0 else label(drop.balls[contact - 1].name, contact - 1)
+    return f"{below} – {upper}"
 
 
 class Bounce:

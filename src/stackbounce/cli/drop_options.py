@@ -6,7 +6,7 @@ from typing import Any
 
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.model.laws import ContactLaw
-from stackbounce.model.schema import read_law
+from stackbounce.model.toml import read_law
 from stackbounce.units import quantity
 
 

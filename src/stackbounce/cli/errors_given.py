@@ -7,7 +7,7 @@ from typing import Any
 
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.model import Drop
-from stackbounce.prediction import scenario
+from stackbounce.prediction import prediction
 from stackbounce.prediction.inputs import add_value
 
 _PATHS = {"height": "height", "speed": "impact_speed", "gravity": "gravity", "gap": "gaps"}
@@ -29,7 +29,7 @@ def split_errors(given: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, st
     ('63 cm', ['2mm'], {'height': '63 ± 1 cm'})
     """
     numbers = {path: given.get(option) for option, path in _PATHS.items()}
-    plain, written = scenario.split_errors(numbers)
+    plain, written = prediction.split_errors(numbers)
     contacts = [
         _split_contact(text, f"contacts.{i}", written)
         for i, text in enumerate(given.get("contact") or ())
@@ -76,5 +76,5 @@ def _split_contact(text: str, path: str, written: dict[str, str]) -> str:
     plain = []
     for word in words:
         key, equals, value = word.partition("=")
-        plain.append(key + equals + scenario.split_error(value, f"{path}.{key}", written))
+        plain.append(key + equals + prediction.split_error(value, f"{path}.{key}", written))
     return shlex.join(plain) if any(name.startswith(f"{path}.") for name in written) else text

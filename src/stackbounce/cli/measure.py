@@ -25,8 +25,7 @@ def run(
 ) -> None:
     """Find restitutions, stiffnesses, speeds and heights in what was measured, with errors."""
     need("measure", "stackbounce measure")
-    from stackbounce.cli.measure_tables import print_measured, summary
-    from stackbounce.cli.measured_ball import law_of, save_ball
+    from stackbounce.cli.measure_tables import law_of, print_measured, save_ball, summary
     from stackbounce.measure.measurement import measure_file, measure_numbers
     from stackbounce.measure.option_values import read_options
 

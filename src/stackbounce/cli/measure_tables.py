@@ -1,11 +1,13 @@
-"""What ``stackbounce measure`` prints: tables for people, and JSON for machines."""
+"""What ``stackbounce measure`` makes of its results: tables, JSON, a law and a ball."""
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from rich.console import Console
 
 from stackbounce.cli.tables import table_of_rows
+from stackbounce.files import write_file
 from stackbounce.measure.constants import LawConstants
 from stackbounce.measure.measurement import Measurement, row_mapping
 from stackbounce.version import __version__
@@ -37,3 +39,38 @@ def print_measured(console: Console, done: Sequence[Measurement], law: LawConsta
     if law is not None:
         console.print(f"The contact as {type(law.law).__name__}", style="bold")
         console.print(table_of_rows(law.all_rows()))
+
+
+def law_of(known: Mapping[str, Any], done: Sequence[Measurement]) -> LawConstants:
+    """Return the law of ``--law``, calibrated to the results and the known numbers."""
+    from stackbounce.measure import one_law
+    from stackbounce.measure.setup import Setup
+
+    names = ("mass", "contact_time", "restitution", "exponent")
+    given = {name: known[name] for name in names if name in known}
+    of_fall = ("height", "speed", "gravity", "mass", "diameter", "drag_coefficient", "air_density")
+    speed = Setup.of(of_fall, known).impact_speed
+    found = [finding for measurement in done for finding in measurement.found]
+    return one_law(known["law"], found, **given, impact_speed=speed)
+
+
+def save_ball(
+    done: Sequence[Measurement],
+    law: LawConstants | None,
+    path: Path,
+    known: Mapping[str, Any],
+    name: str | None,
+    overwrite: bool,
+) -> dict[str, Any]:
+    """Write the ball that was measured as a scenario file, and return what is in it."""
+    from stackbounce.measure import one_ball
+
+    parts = [found.parts() for measurement in done for found in measurement.found]
+    if law is not None:
+        parts = [{key: part[key] for key in part if key != "contact"} for part in parts]
+        parts.append(law.parts())
+    ball = {key: known[key] for key in ("mass", "diameter") if key in known}
+    plain = {key: getattr(value, "nominal_value", value) for key, value in ball.items()}
+    drop = one_ball(parts, **plain, name=name)
+    write_file(path, drop.to_toml().encode(), overwrite)
+    return drop.to_mapping()

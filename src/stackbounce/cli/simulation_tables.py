@@ -1,18 +1,45 @@
-"""The tables of ``stackbounce simulate``: balls, contacts, highest points, energy."""
+"""What ``stackbounce simulate`` prints."""
 
 import math
 
 from rich.console import Console
 
-from stackbounce.cli.bounce_tables import Bounce
-from stackbounce.cli.descriptions import incidence, law_text, meeting
-from stackbounce.cli.scenario import Scenario
+from stackbounce.cli.bounce_tables import Bounce, label, meeting
+from stackbounce.cli.scenario import DEFAULT_HEIGHT, Scenario
 from stackbounce.cli.tables import number, percent, write_count
 from stackbounce.model import Tabulated
+from stackbounce.model.laws import ContactLaw
 from stackbounce.prediction import Prediction
 from stackbounce.run.result import Result, Status
 
 _LONG = 5_000_000  # work of a run that is not repeated to find its conditioning
+
+
+def incidence(scenario: Scenario) -> str:
+    """Return the names of the balls, and their height or speed."""
+    drop = scenario.drop
+    names = " + ".join(label(ball.name, i) for i, ball in enumerate(drop.balls))
+    if drop.velocities is not None:
+        text = "coming in at " + ", ".join(number(v) for v in drop.velocities) + " m/s"
+    elif drop.height is not None:
+        text = f"from {drop.height:.6g} m, at {number(drop.reference_speed)} m/s"
+    else:
+        text = f"at {number(drop.reference_speed)} m/s"
+    if scenario.speed_source == "default":
+        text += f" ({DEFAULT_HEIGHT:g} m unless --height or --speed is given)"
+    return f"{names} {text}"
+
+
+def law_text(law: ContactLaw | None) -> str:
+    """Return a contact law in words.
+
+    Examples
+    --------
+    >>> from stackbounce.model import Spring
+    >>> law_text(Spring(2500))
+    'Spring, stiffness 2500 N/m'
+    """
+    return "none" if law is None else law.described()
 
 
 def print_simulation(

@@ -1,12 +1,14 @@
 """The command ``stackbounce sweep``: solve a grid of drops into a file, and summarise it."""
 
-from collections.abc import Mapping, Sequence
+import contextlib
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.cli import output
 from stackbounce.cli.options import DROP
 from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.extras import need
 from stackbounce.files import check_place
 
 if TYPE_CHECKING:
@@ -25,7 +27,6 @@ def run(
 ) -> None:
     """Drop a stack for all combinations of other numbers in it, into a Zarr store."""
     from stackbounce.cli import scenario
-    from stackbounce.cli.cluster import connect
     from stackbounce.cli.drop_options import read_until
     from stackbounce.cli.sweep_tables import print_sweep, summary
     from stackbounce.sweeps import opened, write
@@ -37,7 +38,7 @@ def run(
     values = _values(drop, given["over"] or [], given["draws"])
     if plot is not None:
         _check_shown(drop, given)
-    with connect(given["cluster"]) as client, output.progress_bar("drops") as progress:
+    with _connect(given["cluster"]) as client, output.progress_bar("drops") as progress:
         write(out, drop, values, client=client, progress=progress, until=end, rtol=rtol)
     done = opened(out)
     if plot is not None:
@@ -86,3 +87,29 @@ def _check_shown(drop: "Drop", given: Mapping[str, Any]) -> None:
         raise InvalidValue(
             f"--show {name}. must end in a ball or contact from 0 to {most}, got {shown(show)}"
         )
+
+
+@contextlib.contextmanager
+def _connect(address: str | None) -> Iterator[Any]:
+    """Connect to a cluster, if any."""
+    if address is None:
+        yield None
+        return
+    need("cluster", "--cluster")
+    import logging
+    import socket
+
+    import distributed
+
+    for name in ("distributed", "distributed.client"):  # our own error says it in one line
+        logging.getLogger(name).setLevel(logging.CRITICAL)
+    wrong = f"--cluster must be the address of a dask scheduler, got {shown(address)}"
+    client_of: Any = distributed.Client
+    try:
+        host, _, port = address.rpartition("://")[2].rpartition(":")
+        socket.create_connection((host, int(port)), timeout=5.0).close()  # dask would try for long
+        client = client_of(address, timeout="10s")
+    except (OSError, ValueError) as error:
+        raise InvalidValue(wrong) from error
+    with client:
+        yield client

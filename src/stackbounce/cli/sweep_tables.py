@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from rich.console import Console
 
-from stackbounce.run.blocks import blocks, sides
+from stackbounce.run.batch import blocks, sides
 from stackbounce.run.result import Status
 
 _BLOCK = 2**18  # drops that are summarised together

@@ -4,8 +4,7 @@
 with what the library's solvers give.
 """
 
-from stackbounce.cross2007.data import PAPER, Data, Input, changed
-from stackbounce.cross2007.paper import Audit, audit
-from stackbounce.cross2007.report import write
+from stackbounce.cross2007.bench import PAPER, Data, Input, changed
+from stackbounce.cross2007.report import Audit, audit, write
 
 __all__ = ["PAPER", "Audit", "Data", "Input", "audit", "changed", "write"]

@@ -1,22 +1,113 @@
-"""The bench: access to the paper's data and to the solver, with a record of what was used.
+"""The paper's data and claims, and the bench: access to the data and the solver, with a record.
+
+The claims are the numbers that the paper prints, from ``claims.toml``: where, what, and why one
+differs.
+
+The data stand in ``numbers.csv``. Values are in SI units. ``printed`` is the number as the paper
+gives it. ``spread`` is the error that the paper states, or half a unit in the last printed digit if
+that is larger or no error is stated.
+
+A spread of 0 marks a number that the paper chooses for a calculation: Fig. 5's masses and springs,
+and the restitutions in eqs 1 to 4. Some of these come from a fit; the audit's row says so if their
+rounding matters (71 % with e = 0.92).
 
 Every row of the audit, every table and every figure is computed on a bench. It records which
 numbers are read and which drops are simulated. The inputs and library calls that a row shows are
 this record.
 """
 
-from collections.abc import Callable
-from dataclasses import MISSING, fields, is_dataclass, replace
+import csv
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from importlib.resources import files
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from stackbounce.cross2007.data import Data
 from stackbounce.model.drop import Drop
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
+
+
+@dataclass(frozen=True)
+class Input:
+    """One number that the paper gives.
+
+    Parameters
+    ----------
+    key : str
+        Its name in this package, such as ``"tennis.mass"``.
+    printed : str
+        As printed, with its unit.
+    value : float
+        In SI units.
+    unit : str
+        The SI unit; empty for a plain ratio.
+    spread : float
+        Its error in `unit`, see the module's text.
+    where : str
+        Section, table or figure.
+    what : str
+        What it is.
+    """
+
+    key: str
+    printed: str
+    value: float
+    unit: str
+    spread: float
+    where: str
+    what: str
+
+
+Data = Mapping[str, Input]
+"""The paper's numbers by key."""
+
+
+def changed(data: Data, key: str, factor: float) -> Data:
+    """Return the data with one value multiplied.
+
+    Parameters
+    ----------
+    data : mapping of str to Input
+        The data to start from.
+    key : str
+        The number to change.
+    factor : float
+        The factor.
+
+    Returns
+    -------
+    mapping of str to Input
+
+    Raises
+    ------
+    KeyError
+        If the key is unknown.
+
+    Examples
+    --------
+    >>> heavier = changed(PAPER, "tennis.mass", 1.01)
+    >>> round(heavier["tennis.mass"].value, 5)
+    0.05757
+    """
+    old = data[key]
+    return MappingProxyType({**data, key: replace(old, value=old.value * factor)})
+
+
+def _read_numbers() -> Iterator[Input]:
+    """Yield the rows of ``numbers.csv``, in the order of the paper."""
+    text = (files(__package__) / "numbers.csv").read_text("utf-8")
+    for key, printed, value, unit, spread, where, what in [*csv.reader(text.splitlines())][1:]:
+        yield Input(key, printed, float(value), unit, float(spread), where, what)
+
+
+PAPER: Data = MappingProxyType({number.key: number for number in _read_numbers()})
+"""The paper's numbers by key, in the order of the paper."""
 
 
 class Bench:
@@ -29,7 +120,7 @@ class Bench:
 
     Examples
     --------
-    >>> from stackbounce.cross2007.data import PAPER
+    >>> from stackbounce.cross2007.bench import PAPER
     >>> bench = Bench(PAPER)
     >>> bench("tennis.mass"), bench.read
     (0.057, ['tennis.mass'])
@@ -122,7 +213,7 @@ def propagate_error(compute: Callable[[Bench], float], data: Data, keys: list[st
 
     Examples
     --------
-    >>> from stackbounce.cross2007.data import PAPER
+    >>> from stackbounce.cross2007.bench import PAPER
     >>> error = propagate_error(lambda b: 2.0 * b("tennis.mass"), PAPER, ["tennis.mass"])
     >>> round(error, 6)
     0.001
@@ -141,3 +232,75 @@ def propagate_error(compute: Callable[[Bench], float], data: Data, keys: list[st
 
     result = wrap(at)(*(ufloat(data[key].value, data[key].spread) for key in uncertain))
     return float(result.std_dev)
+
+
+class Reading(NamedTuple):
+    """Another reading of a claim: what it assumes, and the number to compare with, in digits.
+
+    That number is by default the one of the claim.
+    """
+
+    text: str
+    number: str = ""
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A number that the paper prints.
+
+    Parameters
+    ----------
+    id : str
+        Its name.
+    where : str
+        Section, figure or table.
+    what : str
+        What it is.
+    printed : str
+        As printed, without the unit.
+    number : str
+        The same in digits, by default `printed`; the tolerance follows from its last one.
+    unit : str
+        A key of `SCALES`.
+    counted : bool
+        Whether it is a count, which must be equal.
+    reason : str
+        The reason for a difference, or a remark on an agreement.
+    readings : tuple of Reading
+        Other readings of it.
+    """
+
+    id: str
+    where: str
+    what: str
+    printed: str
+    number: str = ""
+    unit: str = ""
+    counted: bool = False
+    reason: str = ""
+    readings: tuple[Reading, ...] = ()
+
+    @property
+    def digits(self) -> str:
+        """The printed number in digits."""
+        return self.number or self.printed
+
+
+def _read_claims() -> dict[str, Claim]:
+    read = tomllib.loads((files(__package__) / "claims.toml").read_text("utf-8"))
+    claims = {}
+    for name, entry in read["claims"].items():
+        reason = entry.pop("reason", "").format(**read["reasons"])
+        readings = tuple(Reading(*found) for found in entry.pop("readings", ()))
+        claims[name] = Claim(name, reason=reason, readings=readings, **entry)
+    return claims
+
+
+CLAIMS: Mapping[str, Claim] = MappingProxyType(_read_claims())
+"""The claims by name, in the order of the paper.
+
+Examples
+--------
+>>> CLAIMS["II.ten_springs"].printed
+'1.13'
+"""

@@ -1,17 +1,21 @@
-"""The paper's cases for the explorer: every drop that it computes or measures, by name.
+"""The paper's cases and lines for the explorer: its drops, and curves over a number of a drop.
 
-Their words stand in ``cases.toml``.
+Cases are all drops that it computes or measures; their words stand in ``cases.toml``. Lines are
+those of Figures 2, 4 and 6: a drop, the number of it that varies, and between which ends. Both
+are links from the figures that open them in the explorer.
 """
 
 import tomllib
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from importlib.resources import files
+from typing import Any, NamedTuple
+from urllib.parse import urlencode
 
 from stackbounce.cross2007 import datasets, stacks
-from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.data import PAPER
-from stackbounce.cross2007.drops import rigid_pair
+from stackbounce.cross2007.bench import PAPER, Bench
+from stackbounce.cross2007.drops import rigid_pair, spring_pair
+from stackbounce.cross2007.style import read_words
 from stackbounce.model import Drop
 
 
@@ -105,3 +109,221 @@ _DROPS: dict[str, Callable[[Bench], Drop]] = {
     "B1-on-B1": stacks.late_twins,
     "B1-on-B1-parted": stacks.parted_twins,
 }
+
+
+@dataclass(frozen=True)
+class Range:
+    """The horizontal axis of a figure.
+
+    Parameters
+    ----------
+    path : str
+        What varies: ``mass_ratio`` or ``stiffness_ratio``, lower over upper.
+    low, high : float
+        Its ends.
+    log : bool
+        Whether it is logarithmic.
+    """
+
+    path: str
+    low: float
+    high: float
+    log: bool = False
+
+
+AFTER_FIRST = Range("mass_ratio", 0.02, 10.0)
+"""That of Figs. 2(a) and 4, which begin at 0."""
+
+AFTER_SECOND = Range("mass_ratio", 0.02, 1.0)
+"""That of Fig. 2(b)."""
+
+STIFFNESS = Range("stiffness_ratio", 0.1, 100.0, log=True)
+"""That of Fig. 6."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A curve of the paper: the rebound of a drop over one of its numbers.
+
+    Parameters
+    ----------
+    name : str
+        An identifier, such as ``figure-4a``.
+    title : str
+        The title on screen.
+    says : str
+        One or two sentences on what it shows.
+    drop : Drop
+        The drop, with a value of the number that varies.
+    across : Range
+        The number that varies.
+    measured : tuple of (float, float)
+        The measured rebound ratio of each ball with its error; empty where there are none.
+
+    Examples
+    --------
+    >>> next(list_lines()).name
+    'figure-2a'
+    """
+
+    name: str
+    title: str
+    says: str
+    drop: Drop
+    across: Range
+    measured: tuple[tuple[float, float], ...] = ()
+
+
+def list_lines() -> Iterator[Line]:
+    """Yield the lines in the paper's order.
+
+    Examples
+    --------
+    >>> [line.name for line in list_lines() if line.measured]
+    ['figure-6-tennis', 'figure-6-B2', 'figure-6-B3']
+    """
+    bench = Bench(PAPER)
+    yield from _separate(bench)
+    yield from _on_springs(bench)
+    _, middle, small = pair_mass_ratios(bench)
+    yield _over_stiffness(bench, "basketball", "tennis", stacks.better_fit(bench))
+    yield _over_stiffness(bench, "B1", "B2", _superballs(bench, "fig13", middle, "B2"))
+    yield _over_stiffness(bench, "B1", "B3", _superballs(bench, "B3_fit", small, "B3"))
+
+
+def pair_mass_ratios(b: Bench) -> tuple[float, ...]:
+    """Return the mass ratios m1/m2 of Fig. 6.
+
+    Examples
+    --------
+    >>> [round(ratio, 2) for ratio in pair_mass_ratios(Bench(PAPER))]
+    [2.63, 4.23, 12.3]
+    """
+    lower, upper = stacks.stack_masses(b)
+    return lower / upper, b("B2_on_B1.mass_ratio"), b("B3_on_B1.mass_ratio")
+
+
+def _separate(b: Bench) -> Iterator[Line]:
+    """Yield the lines of Fig. 2: separate collisions with two restitutions."""
+    figures = (("a", "first", 3.0, AFTER_FIRST), ("b", "second", 0.6, AFTER_SECOND))
+    for part, count, ratio, across in figures:
+        says = (
+            "Speeds after the last collision. To the right of the last place where the lower ball "
+            f"stops, that is the {count} one of the two balls, which Figure 2({part}) shows."
+        )
+        for key, ending in (("models.lossless", ""), ("models.restitution", "-lossy")):
+            upper, e = b("fig5.upper_mass"), b(key)
+            drop = rigid_pair((ratio * upper, upper), e, speed=b("models.speed"))
+            title = f"Figure 2({part}): separate, e = {e:g}"
+            yield Line(f"figure-2{part}{ending}", title, says, drop, across)
+
+
+def _on_springs(b: Bench) -> Iterator[Line]:
+    """Yield the lines of Fig. 4: equal springs, and a stiff lower one."""
+    equal = b("models.stiffness_ratio")
+    stiff = b("fig5.floor_stiffness") / b("fig5.ball_stiffness")
+    for part, ratio, says in (
+        ("a", equal, "Balls that stay in contact share the energy in another way."),
+        ("b", stiff, "A stiff floor contact ends early: nearly separate collisions."),
+    ):
+        drop = stacks.section_two(b, 3.0, ratio)
+        title = f"Figure 4({part}): springs, k₁/k₂ = {ratio:g}"
+        yield Line(f"figure-4{part}", title, says, drop, AFTER_FIRST)
+
+
+def _over_stiffness(b: Bench, lower: str, upper: str, drop: Drop) -> Line:
+    """Return a line of Fig. 6, with what was measured of its pair."""
+    balls = [
+        replace(ball, name=name, diameter=b(f"{name}.diameter"))
+        for ball, name in zip(drop.balls, (lower, upper), strict=True)
+    ]
+    measured = (b.measured(f"{upper}_on_{lower}.{ball}") for ball in ("lower", "upper"))
+    return Line(
+        f"figure-6-{upper}",
+        f"Figure 6: {upper} on {lower}",
+        f"Mass ratio {balls[0].mass / balls[1].mass:.3g}, no loss in the springs. Bands show the "
+        "measured speeds: the paper asks at which stiffness ratio the curves meet them.",
+        replace(drop, balls=balls),
+        STIFFNESS,
+        tuple((ratio.n, ratio.s) for ratio in measured),
+    )
+
+
+def _superballs(b: Bench, fit: str, ratio: float, upper: str) -> Drop:
+    """Return two superballs that touch, on the springs of a fit of section V, without loss."""
+    masses = ratio * b(f"{upper}.mass"), b(f"{upper}.mass")
+    stiffnesses = b(f"{fit}.floor_stiffness"), b(f"{fit}.ball_stiffness")
+    return spring_pair(masses, stiffnesses, speed=stacks.superball_speed(b))
+
+
+class Link(NamedTuple):
+    """A link to the explorer: its text and its address."""
+
+    text: str
+    address: str
+
+
+def link_figures(explorer: str) -> dict[str, list[Link]]:
+    """Return the links of each figure by its number.
+
+    Parameters
+    ----------
+    explorer : str
+        The address of the explorer.
+
+    Examples
+    --------
+    >>> [link.text for link in link_figures("../")["8"]]
+    ['Play this drop', 'Play Figure 8 with a gap of 2 mm']
+    """
+    cases = {case.name: case for case in list_cases()}
+    found: dict[str, list[Link]] = {}
+    for number, words in read_words().items():
+        for name in words.get("cases", ()):
+            text = f"Play {cases[name].title}" if number in found else "Play this drop"
+            address = explorer_address(explorer, _as_drawn(number, cases[name].drop), {})
+            found.setdefault(number, []).append(Link(text, address))
+    for line in list_lines():
+        number = line.name.removeprefix("figure-").partition("-")[0]
+        view = {"view": "line", "line": {"x": asdict(line.across), "show": "rebound_ratio"}}
+        address = explorer_address(explorer, line.drop, view)
+        link = Link(f"Open as a line: {line.title}", address)
+        found.setdefault(number, []).append(link)
+    return found
+
+
+def explorer_address(explorer: str, drop: Drop, settings: dict[str, Any]) -> str:
+    """Return the address of a drop in the explorer, with paths and values as in its own addresses.
+
+    Parameters
+    ----------
+    explorer : str
+        The address of the explorer.
+    drop : Drop
+        What it shows.
+    settings : dict
+        What its address says besides, by path or as dicts; the view is ``play`` by default.
+
+    Examples
+    --------
+    >>> from stackbounce import Ball, Drop, Spring
+    >>> drop = Drop([Ball(0.1)], [Spring(1e3)], impact_speed=1.0)
+    >>> explorer_address("../", drop, {"loop": 1})[:38]
+    '../#view=play&impact_speed=1.0&gravity'
+    """
+    state = {"view": "play", **drop.to_mapping(), **settings}
+    return f"{explorer}#{urlencode(list(_flatten('', state)))}"
+
+
+def _as_drawn(number: str, drop: Drop) -> Drop:
+    """Return an example's drop as its figure has it: that of Fig. 10(b) has a gap."""
+    return replace(drop, gaps=[Bench(PAPER)("superballs.gap")]) if number == "10b" else drop
+
+
+def _flatten(path: str, value: Any) -> Iterator[tuple[str, str]]:
+    if isinstance(value, dict | list | tuple):
+        members = value.items() if isinstance(value, dict) else enumerate(value)
+        for key, member in members:
+            yield from _flatten(f"{path}.{key}" if path else str(key), member)
+    elif value is not None:
+        yield path, str(value).lower() if isinstance(value, bool) else str(value)

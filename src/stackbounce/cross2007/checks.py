@@ -14,9 +14,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any, TypeAlias
 
-from stackbounce.cross2007.bench import Bench, propagate_error, write_call
-from stackbounce.cross2007.claims import Claim, Reading
-from stackbounce.cross2007.data import Data
+from stackbounce.cross2007.bench import Bench, Claim, Data, Reading, propagate_error, write_call
 
 AGREES = "agrees"
 WITHIN_ERROR = "agrees within error"

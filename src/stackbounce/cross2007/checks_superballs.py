@@ -1,5 +1,10 @@
-"""The audit's checks of section IV's text: drops of two superballs."""
+"""The audit's checks of section IV: drops of two superballs, and their force records.
 
+Of the records, the paper measured durations, delays and counts of peaks. Here the models compute
+them for the same drops. Stiffnesses that the paper does not give are guesses.
+"""
+
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -7,8 +12,21 @@ from numpy.typing import NDArray
 
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Compute
-from stackbounce.cross2007.drops import Two, bisect, rigid_pair
-from stackbounce.cross2007.stacks import heavier_b1, late_pair
+from stackbounce.cross2007.drops import Two, bisect, peak_times, rigid_pair
+from stackbounce.cross2007.stacks import (
+    early_pair,
+    early_twins,
+    gap_for_delay,
+    heavier_b1,
+    late_pair,
+    parted_twins,
+    reversed_pair,
+    small_fit,
+    smallest_fit,
+    stiffen,
+    twin_pair,
+)
+from stackbounce.model.drop import Drop
 from stackbounce.model.laws import Hertz
 from stackbounce.run.collision import contact_time
 from stackbounce.run.result import Result
@@ -93,6 +111,24 @@ def _split_twins(b: Bench, ratio: float) -> Result:
     return b.simulate(drop)
 
 
+def _delayed(b: Bench, drop: Drop) -> Drop:
+    """The drop with the gap for the measured delay of 2 ms."""
+    return replace(drop, gaps=(gap_for_delay(b, drop, b("superballs.delay")),))
+
+
+def _nearer(drop: Drop) -> Drop:
+    """The drop with the smallest gap that rounds to the printed one."""
+    return replace(drop, gaps=(drop.gaps[0] - 0.05e-3,))
+
+
+def _subpeaks(result: Result) -> int:
+    return len(peak_times(result, 1, result.end_time))
+
+
+def _one_mm_apart(b: Bench) -> Drop:
+    return reversed_pair(b, b("superballs.gap"))
+
+
 _REVERSED: dict[str, tuple[str, int]] = {
     "IV.reversed_apart_B1": ("fit.restitution", 1),
     "IV.reversed_apart_B2": ("fit.restitution", 0),
@@ -136,6 +172,19 @@ COMPUTED: dict[str, Compute] = {
     "IV.twin_upper": lambda b: _twins(b).rebound_ratios[1],
     "IV.twin_split_lower": lambda b: _split_twins(b, b("B1_on_B1.mass_ratio")).rebound_ratios[0],
     "IV.twin_split_upper": lambda b: _split_twins(b, b("B1_on_B1.mass_ratio")).rebound_ratios[1],
+    "IV.record_delay": lambda b: b.simulate(small_fit(b, b("B1.mass"))).first_touch[1],
+    "IV.record_gap": lambda b: gap_for_delay(b, small_fit(b, b("B1.mass")), b("superballs.delay")),
+    "IV.record_reversed_gap": lambda b: gap_for_delay(
+        b, reversed_pair(b, 0.0), b("superballs.delay")
+    ),
+    "IV.record_duration": lambda b: max(b.simulate(small_fit(b, b("B1.mass"))).last_release),
+    "IV.record_reversed_duration": lambda b: max(b.simulate(_one_mm_apart(b)).last_release),
+    "IV.record_B3_delay": lambda b: b.simulate(smallest_fit(b, b("B1.mass"))).first_touch[1],
+    "IV.record_peaks": lambda b: b.simulate(late_pair(b)).collisions[1],
+    "IV.record_merged": lambda b: b.simulate(early_pair(b)).collisions[1],
+    "IV.record_subpeaks": lambda b: _subpeaks(b.simulate(early_pair(b))),
+    "IV.record_twin_late_duration": lambda b: b.simulate(parted_twins(b)).last_release[0],
+    "IV.record_twin_duration": lambda b: b.simulate(early_twins(b)).last_release[0],
 }
 
 
@@ -169,4 +218,23 @@ READINGS: dict[str, tuple[Compute, ...]] = {
     "IV.small_B3": _velocity_ratios(0),
     "IV.twin_split_lower": (lambda b: _split_twins(b, 1.0).rebound_ratios[0],),
     "IV.twin_split_upper": (lambda b: _split_twins(b, 1.0).rebound_ratios[1],),
+    "IV.record_reversed_gap": (
+        lambda b: gap_for_delay(b, reversed_pair(b, 0.0), b("superballs.delay") - 0.5e-3),
+    ),
+    "IV.record_reversed_duration": (
+        lambda b: b.simulate(_one_mm_apart(b)).last_release[1],
+        lambda b: b.simulate(_delayed(b, reversed_pair(b, 0.0))).last_release[0],
+        lambda b: b.simulate(stiffen(b, _one_mm_apart(b))).last_release[0],
+        lambda b: max(b.simulate(stiffen(b, _one_mm_apart(b))).last_release),
+        lambda b: b.simulate(_delayed(b, stiffen(b, reversed_pair(b, 0.0)))).last_release[0],
+    ),
+    "IV.record_B3_delay": (
+        lambda b: b.simulate(_nearer(smallest_fit(b, b("B1.mass")))).first_touch[1],
+    ),
+    "IV.record_twin_late_duration": (
+        lambda b: b.simulate(stiffen(b, parted_twins(b))).last_release[0],
+        lambda b: b.simulate(
+            twin_pair(b, gap_for_delay(b, twin_pair(b, 0.0), 3.8e-3))
+        ).last_release[0],
+    ),
 }

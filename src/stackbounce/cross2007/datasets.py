@@ -10,7 +10,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, NamedTuple
 
-from stackbounce.cross2007.data import PAPER
+from stackbounce.cross2007.bench import PAPER
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.errors import InvalidValue, nearest
 from stackbounce.model import Ball, ContactLaw, Drop, Hysteretic, Spring

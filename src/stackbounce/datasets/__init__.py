@@ -2,12 +2,11 @@
 
 `tables/` has one file for each; a file that is put there is a dataset.
 
-- `description.py`: what a dataset says of itself
-- `paper.py`: the tables of Cross (2007), from `stackbounce.cross2007`, as descriptions
-- `loading.py`: the files of `tables/`; `names`, `describe`, and `load`, which makes a Dataset
+`loading.py` has what a dataset says of itself, its source and its columns; the files of `tables/`,
+and the measurements of Cross (2007), which `stackbounce.cross2007` holds; `names`, `describe`, and
+`load`, which makes a Dataset.
 """
 
-from stackbounce.datasets.description import Column, Description
-from stackbounce.datasets.loading import describe, load, names
+from stackbounce.datasets.loading import Column, Description, describe, load, names
 
 __all__ = ["Column", "Description", "describe", "load", "names"]

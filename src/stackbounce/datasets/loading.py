@@ -1,19 +1,208 @@
-"""The datasets by name, and each as an xarray Dataset in SI units."""
+"""The datasets by name: what each says of itself, and each as an xarray Dataset in SI units."""
 
 import functools
 import tomllib
-from dataclasses import fields
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from stackbounce.datasets.description import TEXT, Column, Description, read_description
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.units import in_si, quantity
 
 if TYPE_CHECKING:
     import xarray as xr
 
+TEXT = "text"
+"""The unit of a column of words."""
+
+Value: TypeAlias = float | str | tuple[float, ...]
+"""A cell: a number, a word, or repeated readings of a number."""
+_PLACES = {  # those that have measurements; the other sections have what is computed or chosen
+    "Sec. III": ("cross2007-section-3", "A tennis ball on a basketball, and each of them alone"),
+    "Fig. 7, text": ("cross2007-figure-7", "Balls that are pressed slowly"),
+    "Table I": ("cross2007-table-1", "Three superballs, each of them alone"),
+    "Sec. IV": ("cross2007-section-4", "Pairs of superballs, and of steel balls"),
+    "Table II": ("cross2007-table-2", "Pairs of balls: their rebound ratios"),
+}
+_SOURCE = "R. Cross, Vertical bounce of two vertically aligned balls, Am. J. Phys. 75, 1009 (2007)"
+_ERRORS = (
+    "An error is the one that the paper states, or half a unit in the last printed digit if that is"
+    " larger or none is stated; 0 marks a number that the paper chooses or fits."
+)
 _OFFSETS = {"degC": (273.15, "K")}  # units whose zero is shifted
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a dataset, in the units of its source.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``"drop_height"``.
+    unit : str
+        As the source writes it, such as ``"cm"``; ``"1"`` for a ratio and ``"text"`` for words.
+    meaning : str
+        What is measured.
+    values : tuple
+        One for each row: a number, a word, or a tuple of repeated readings.
+    errors : tuple of float, optional
+        One standard deviation of each value, as the source gives it; empty if it gives none.
+    assumed_error : float, optional
+        An error to reckon with where the source gives none; 0 if there is none.
+    assumed_because : str, optional
+        Why this error.
+
+    Examples
+    --------
+    >>> Column("restitution", "1", "restitution", (0.81, 0.85)).errors
+    ()
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    values: tuple[Value, ...]
+    errors: tuple[float, ...] = ()
+    assumed_error: float = 0.0
+    assumed_because: str = ""
+
+    @property
+    def repeated(self) -> bool:
+        """Return whether each value is a tuple of repeated readings."""
+        return isinstance(self.values[0], tuple)
+
+
+@dataclass(frozen=True)
+class Description:
+    """A dataset with its source, in the units of the source.
+
+    Parameters
+    ----------
+    name : str
+        Its name, as `load` takes it.
+    title, measured, ball : str
+        What it is about, how it was measured, and with what.
+    source : str
+        Authors, title and place.
+    address : str
+        Where it was read.
+    seen : str
+        What was read of it: ``"full text"``, ``"excerpt"``, ``"abstract"``, or a text that quotes
+        it, ``"quoted"``.
+    columns : tuple of Column
+        The table, of equally many rows.
+    kind : str, optional
+        What the numbers are: ``"measured"``, or ``"rule"``: limits that the rules of a game set.
+    surface : str, optional
+        What the ball fell on.
+    mass, mass_from, diameter, diameter_from : str, optional
+        Of the ball, with their units, and where each comes from.
+    doi, quoted_by, remarks : str, optional
+        The source's DOI, the text that quotes it, and what else a user should know.
+    licence : str, optional
+        The source's licence; by default only its figures are quoted.
+
+    Examples
+    --------
+    >>> from stackbounce.datasets import describe
+    >>> describe("granite-spheres").seen
+    'abstract'
+    """
+
+    name: str
+    title: str
+    measured: str
+    ball: str
+    source: str
+    address: str
+    seen: str
+    columns: tuple[Column, ...]
+    kind: str = "measured"
+    surface: str = ""
+    mass: str = ""
+    mass_from: str = ""
+    diameter: str = ""
+    diameter_from: str = ""
+    doi: str = ""
+    quoted_by: str = ""
+    remarks: str = ""
+    licence: str = "figures quoted"
+
+
+def read_description(name: str, mapping: Mapping[str, Any]) -> Description:
+    """Return the dataset that the contents of a file of the package describe.
+
+    Parameters
+    ----------
+    name : str
+        Its name.
+    mapping : mapping
+        The keys are the fields of `Description` but the name, those in ``columns`` the fields of
+        `Column`. A number as ``errors`` holds for all values.
+
+    Returns
+    -------
+    Description
+    """
+    columns = tuple(_column(**column) for column in mapping["columns"])
+    return Description(name=name, **{**mapping, "columns": columns})
+
+
+def _column(values: list[Any], errors: Any = (), **about: Any) -> Column:
+    each = [errors] * len(values) if isinstance(errors, int | float) else errors
+    found = tuple(_value(value) for value in values)
+    return Column(values=found, errors=tuple(float(error) for error in each), **about)
+
+
+def _value(value: Any) -> Value:
+    if isinstance(value, list):
+        return tuple(float(item) for item in value)
+    return value if isinstance(value, str) else float(value)
+
+
+def paper_datasets() -> dict[str, Description]:
+    """Return the datasets of the paper by their names: a row for each number, in SI units.
+
+    Examples
+    --------
+    >>> list(paper_datasets())[2]
+    'cross2007-table-1'
+    """
+    return {name: _description(name, title, place) for place, (name, title) in _PLACES.items()}
+
+
+def _description(name: str, title: str, place: str) -> Description:
+    from stackbounce.cross2007.bench import PAPER
+
+    inputs = [number for number in PAPER.values() if number.where == place]
+    values = tuple(number.value for number in inputs)
+    errors = tuple(number.spread for number in inputs)
+    return Description(
+        name=name,
+        title=title,
+        measured="Each row is one number that the paper gives",
+        ball="those of the paper",
+        source=f"{_SOURCE}, {place}",
+        doi="10.1119/1.2772286",
+        address="https://doi.org/10.1119/1.2772286",
+        seen="full text",
+        remarks=_ERRORS,
+        columns=(
+            _words(
+                "quantity", "the number's name in this package", [number.key for number in inputs]
+            ),
+            _words("what", "what it is", [number.what for number in inputs]),
+            _words("printed", "as printed", [number.printed for number in inputs]),
+            _words("unit", "the SI unit of the value", [number.unit or "1" for number in inputs]),
+            Column("value", "1", "in the unit of its row", values, errors),
+        ),
+    )
+
+
+def _words(name: str, meaning: str, values: list[str]) -> Column:
+    return Column(name, TEXT, meaning, tuple(values))
 
 
 def names() -> tuple[str, ...]:
@@ -152,8 +341,6 @@ def _in_si(value: Any, unit: str, si: str) -> Any:
 @functools.cache
 def _all() -> dict[str, Description]:
     """Return the datasets of the folder and those of the paper by their names."""
-    from stackbounce.datasets.paper import paper_datasets
-
     folder = Path(__file__).with_name("tables")
     found = {path.stem: tomllib.loads(path.read_text("utf-8")) for path in folder.glob("*.toml")}
     return {name: read_description(name, about) for name, about in found.items()} | paper_datasets()

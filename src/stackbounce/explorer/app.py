@@ -15,7 +15,7 @@ from pydantic import Json
 from stackbounce.errors import StackbounceError
 from stackbounce.explorer import schema
 from stackbounce.explorer.addresses import Place
-from stackbounce.explorer.answers import play, predictions, records
+from stackbounce.explorer.answers import play, records
 from stackbounce.explorer.guard import add_guard
 from stackbounce.explorer.limits import Limits
 from stackbounce.explorer.page.parts import KINDS, made_file
@@ -126,7 +126,7 @@ def _add_jobs(app: FastAPI, workers: Workers, seconds: float) -> None:
     async def predict_drop(request: Request, asked: schema.Uncertain) -> Response:
         """Carry the errors of a drop's numbers forward; return numbers and curves with errors."""
         async with turn(request):
-            return await compute(predictions.predict_drop, asked.drop, asked.errors, asked.until)
+            return await compute(play.predict_drop, asked.drop, asked.errors, asked.until)
 
     @app.post("/api/measure")
     async def measure_record(

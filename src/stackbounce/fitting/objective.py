@@ -16,10 +16,9 @@ from stackbounce.fitting.parameters import Parameter, find_numbers
 from stackbounce.fitting.ties import Tie, evaluate_ties
 from stackbounce.fitting.waveforms import Waveform
 from stackbounce.model import Drop
-from stackbounce.run.columns import Rows, check
 from stackbounce.run.driver import forces_at
 from stackbounce.run.options import Options
-from stackbounce.run.paths import Number, drop_at, numbers_of, value_in
+from stackbounce.run.paths import Number, Rows, check, drop_at, numbers_of, value_in
 from stackbounce.run.quantities import Array, solve_quantities
 from stackbounce.run.result import Status
 

@@ -12,7 +12,7 @@ from stackbounce.fitting.files import check_name, read_force_record
 from stackbounce.fitting.quantities import find_quantity
 from stackbounce.fitting.rows import Row, decimal_comma, rows_of
 from stackbounce.measure.quantities import quantity_with_error
-from stackbounce.measure.reading.headings import heading
+from stackbounce.measure.reading.roles import heading
 from stackbounce.model import Drop
 from stackbounce.run.paths import drop_at, numbers_of
 from stackbounce.run.quantities import QUANTITIES

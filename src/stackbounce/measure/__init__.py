@@ -8,15 +8,13 @@ finding       the shape that all results share
 options       the table of options, for all user interfaces
 option_values texts from a user interface -> values that the analyses take
 setup         what is known of ball and drop besides the file, from the options
-analysis      the right analysis for what a file holds
-measurement   a file or typed numbers, with the results, for all user interfaces
+measurement   the right analysis for what a file holds; a file or typed numbers with the results
 drag          the drag of the air in measured flights
-constants     contact time and restitution -> stiffness, constants of any law
-assembly      results -> a law, a ball to drop
+constants     contact time, restitution or results -> stiffness, law, a ball to drop
 messages      texts with options that they recommend, worded for each user interface
-quantities    numbers with errors; a row of a table
+quantities    numbers with errors, and those of a function of them; a row of a table
 samples       columns of a Dataset or arrays, runs, rounding, areas
-statistics/   regression, change points, AR noise, error propagation
+statistics/   regression, change points, AR noise
 ============= ================================================================
 """
 
@@ -26,11 +24,10 @@ from typing import TYPE_CHECKING, Any
 from stackbounce.extras import need
 
 if TYPE_CHECKING:
-    from stackbounce.measure.analysis import analyse as analyse
-    from stackbounce.measure.assembly import one_ball as one_ball
-    from stackbounce.measure.assembly import one_law as one_law
     from stackbounce.measure.constants import dynamic_stiffness as dynamic_stiffness
     from stackbounce.measure.constants import law_constants as law_constants
+    from stackbounce.measure.constants import one_ball as one_ball
+    from stackbounce.measure.constants import one_law as one_law
     from stackbounce.measure.drag import Drag as Drag
     from stackbounce.measure.kinds.acceleration.analysis import accelerometer as accelerometer
     from stackbounce.measure.kinds.bounces.analysis import bounces as bounces
@@ -44,30 +41,27 @@ if TYPE_CHECKING:
     from stackbounce.measure.kinds.waveform.gap.delay import gap_from_delay as gap_from_delay
     from stackbounce.measure.kinds.waveform.gap.delay import sensor_gap as sensor_gap
     from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap as floor_gap
+    from stackbounce.measure.measurement import analyse as analyse
     from stackbounce.measure.reading import read as read
 
 # Each name is imported when it is first used: the command line's help needs only the options.
-_HOMES = {
-    "Drag": "drag",
-    "accelerometer": "kinds.acceleration.analysis",
-    "analyse": "analysis",
-    "bounces": "kinds.bounces.analysis",
-    "dynamic_stiffness": "constants",
-    "floor_gap": "kinds.waveform.gap.floor_gap",
-    "gap_from_delay": "kinds.waveform.gap.delay",
-    "heights": "kinds.heights.analysis",
-    "knocks": "kinds.sound.analysis",
-    "law_constants": "constants",
-    "one_ball": "assembly",
-    "one_law": "assembly",
-    "press": "kinds.press.analysis",
-    "read": "reading",
-    "sensor_gap": "kinds.waveform.gap.delay",
-    "series_stiffness": "kinds.press.series",
-    "split_series": "kinds.press.series",
-    "track": "kinds.track.analysis",
-    "waveform": "kinds.waveform.analysis",
+_MODULES = {
+    "measurement": "analyse",
+    "constants": "dynamic_stiffness law_constants one_ball one_law",
+    "drag": "Drag",
+    "kinds.acceleration.analysis": "accelerometer",
+    "kinds.bounces.analysis": "bounces",
+    "kinds.heights.analysis": "heights",
+    "kinds.press.analysis": "press",
+    "kinds.press.series": "series_stiffness split_series",
+    "kinds.sound.analysis": "knocks",
+    "kinds.track.analysis": "track",
+    "kinds.waveform.analysis": "waveform",
+    "kinds.waveform.gap.delay": "gap_from_delay sensor_gap",
+    "kinds.waveform.gap.floor_gap": "floor_gap",
+    "reading": "read",
 }
+_HOMES = {name: module for module, names in _MODULES.items() for name in names.split()}
 __all__ = list(_HOMES)
 
 

@@ -184,7 +184,7 @@ class Drop:
         >>> drop.balls[0].mass, drop.contacts[0].stiffness
         (0.057, 22500.0)
         """
-        from stackbounce.model.schema import read_mapping
+        from stackbounce.model.toml import read_mapping
 
         return read_mapping(cls, mapping)
 
@@ -230,7 +230,7 @@ class Drop:
         >>> Drop([Ball(0.057)], [Spring(22500)], impact_speed=1).to_mapping()["contacts"]
         [{'law': 'Spring', 'stiffness': 22500.0}]
         """
-        from stackbounce.model.schema import write_mapping
+        from stackbounce.model.toml import write_mapping
 
         return write_mapping(self)
 

@@ -2,13 +2,11 @@
 
 from stackbounce.extras import need
 from stackbounce.plots.by_speed import restitutions
-from stackbounce.plots.fit_result import fitted
+from stackbounce.plots.fit_result import corner, fitted
 from stackbounce.plots.impact import bounce
 from stackbounce.plots.measurement import measured
 from stackbounce.plots.model_comparison import compared
-from stackbounce.plots.posterior import corner
-from stackbounce.plots.stacks import highest
-from stackbounce.plots.sweep_curves import heatmap, lines
+from stackbounce.plots.sweep_curves import heatmap, highest, lines
 
 __all__ = [
     "bounce",

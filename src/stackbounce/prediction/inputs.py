@@ -16,9 +16,8 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidType, InvalidValue, finite, shown, unmasked
 from stackbounce.measure.quantities import deviation, known_to, quantity_with_error
 from stackbounce.model import Drop
-from stackbounce.run.columns import check
 from stackbounce.run.options import Options
-from stackbounce.run.paths import Number, drop_at, number_at, value_in
+from stackbounce.run.paths import Number, check, drop_at, number_at, value_in
 from stackbounce.run.quantities import Array, Solved, solve_quantities
 from stackbounce.sweeps.dataset import check_together
 from stackbounce.units import quantity

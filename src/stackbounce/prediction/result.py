@@ -10,9 +10,8 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
-from stackbounce.prediction.draws import Slopes, budget
+from stackbounce.prediction.draws import Runs, Slopes, budget
 from stackbounce.prediction.inputs import FEWEST, Inputs, error_of_deviation, of_draws
-from stackbounce.prediction.runs import Runs
 from stackbounce.prediction.sensitivity import Sensitivity, fit_slopes, linear_shares, sobol_indices
 from stackbounce.run.options import Options
 from stackbounce.run.quantities import QUANTITIES, Array, Solved

@@ -2,18 +2,15 @@
 
 ============ ===========================================================================
 options      the end time, the tolerance and the event limit of a run
-parameters   the parameters of one drop, as the engine takes them
-columns      the parameters of many drops, as arrays for the engine
 engines      chooses the engine, and plain Python or compiled code
 driver       one drop: `simulate`
-batch        many drops in blocks and threads
+batch        many drops in blocks, into which a grid is cut, and threads
 bounces      one ball that bounces on in air
 collision    one collision: restitution and contact time, and drops by separate collisions
 conditioning how far an error of the numbers of a drop grows
 calibration  the law that has a restitution and a contact time
 quantities   speeds, heights, times and energy of many drops, by name
 result       the `Result` of one drop
-paths        the parameters of a drop by their paths, such as ``balls.0.mass``
-blocks       a grid of drops cut into blocks
+paths        the parameters of a drop by their paths, and of many drops as arrays
 ============ ===========================================================================
 """

@@ -1,17 +1,18 @@
 """Many drops at once: block by block, in threads.
 
 A grid of drops is cut into blocks, which several threads work on. For each block, the parameters of
-the base drop are repeated, and those that vary are replaced (`columns.fill`). The engine's batch
+the base drop are repeated, and those that vary are replaced (`paths.fill`). The engine's batch
 kernel then runs the drops of the block one after the other and writes their rows of `Outcomes`. It
 returns after a slice of work, so that an interruption (Ctrl+C) is answered at once: in the main
 thread by Python itself, in the others because they look at a flag.
 """
 
 import functools
+import itertools
 import math
 import os
 import threading
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from itertools import accumulate
 from typing import TypeAlias
@@ -30,8 +31,6 @@ from stackbounce.engine.memory import (
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
 from stackbounce.model import Drop
-from stackbounce.run.blocks import Block, blocks, sides, size
-from stackbounce.run.columns import Rows, base_rows, fill
 from stackbounce.run.engines import (
     TWO_SPRINGS_EVENTS,
     choose_compiled,
@@ -39,8 +38,10 @@ from stackbounce.run.engines import (
     suits_two_springs,
 )
 from stackbounce.run.options import Options, check_room
-from stackbounce.run.parameters import drop_pieces
+from stackbounce.run.paths import Rows, base_rows, drop_pieces, fill
 
+Block: TypeAlias = tuple[slice, ...]
+"""A range of each dimension."""
 _BLOCKS = range(1024, 16384)  # drops in a block: enough for the lanes, few enough for the caches
 _EACH = 8  # blocks per thread of a large grid, so that all threads end at about the same time
 
@@ -51,6 +52,42 @@ _Pause: TypeAlias = Callable[[], None]
 
 _Runner: TypeAlias = Callable[[Drops, Outcomes, Options, bool, _Pause], None]
 """Runs drops and writes their outcomes, except rebound ratios and retained energies."""
+
+
+def sides(shape: Sequence[int], most: int) -> tuple[int, ...]:
+    """Return the sides of a block of at most ``most`` drops, filled from the last dimension on.
+
+    Examples
+    --------
+    >>> sides((400, 300, 20), 1000)
+    (1, 50, 20)
+    """
+    found, left = [], most
+    for length in reversed(shape):
+        side = max(1, min(length, left))
+        left //= side
+        found.append(side)
+    return tuple(reversed(found))
+
+
+def blocks(shape: Sequence[int], sides: Sequence[int]) -> Iterator[Block]:
+    """Yield all blocks of a shape, in the order of memory; the last ones may be smaller.
+
+    Examples
+    --------
+    >>> [size(block) for block in blocks((2, 5), (1, 3))]
+    [3, 2, 3, 2]
+    """
+    ranges = [
+        [slice(start, min(start + side, length)) for start in range(0, length, side)]
+        for length, side in zip(shape, sides, strict=True)
+    ]
+    return itertools.product(*ranges)
+
+
+def size(block: Block) -> int:
+    """Return the number of drops in a block."""
+    return math.prod(side.stop - side.start for side in block)
 
 
 class _StoppedError(Exception):

@@ -38,7 +38,7 @@ def disturbed(numbers: Drops, error: float, seed: int) -> Drops:
     Examples
     --------
     >>> import stackbounce as sb
-    >>> from stackbounce.run.parameters import drop_numbers
+    >>> from stackbounce.run.paths import drop_numbers
     >>> one = drop_numbers(sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], impact_speed=1.0))
     >>> disturbed(one, 1e-3, 0).mass
     [1.0001257302210933]

@@ -19,7 +19,7 @@ from stackbounce.model import Drop
 from stackbounce.run.conditioning import disturbed
 from stackbounce.run.engines import choose_compiled, choose_engine
 from stackbounce.run.options import Options, run_options
-from stackbounce.run.parameters import drop_numbers, drop_pieces
+from stackbounce.run.paths import drop_numbers, drop_pieces
 from stackbounce.run.result import ROUND_OFF, Cause, Result, Status
 
 if TYPE_CHECKING:

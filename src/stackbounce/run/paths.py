@@ -1,13 +1,22 @@
-"""The parameters of a drop by their paths: ``contacts.1.stiffness``, ``gaps.0``."""
+"""The parameters of a drop by their paths, such as ``gaps.0``, and as arrays for the engine.
+
+Those of many drops are checked and make columns, one row for each drop.
+"""
 
 import functools
+import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, get_type_hints
+from typing import Any, TypeAlias, get_type_hints
 
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.engine.records import Drops
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
-from stackbounce.model import Ball, ContactLaw, Drop
+from stackbounce.model import STANDARD_GRAVITY, Ball, ContactLaw, Drop
+from stackbounce.model.laws import contact_numbers
 from stackbounce.units import unit_of
 
 _SEVERAL = ("balls", "contacts", "gaps", "velocities")  # fields of a drop with many numbers
@@ -41,6 +50,10 @@ class Number:
     index: int
     field: str
     unit: str
+
+
+Rows: TypeAlias = Mapping[Number, NDArray[np.float64]]
+"""The numbers that vary, in SI units: arrays that broadcast with each other."""
 
 
 def numbers_of(drop: Drop) -> dict[str, Number]:
@@ -157,3 +170,138 @@ def _units(kind: Any) -> dict[str, str]:
     hints = get_type_hints(kind, include_extras=True)
     found = {name: unit_of(hint) for name, hint in hints.items() if name not in _SEVERAL}
     return {name: unit.symbol for name, unit in found.items() if unit is not None}
+
+
+def base_rows(drop: Drop, count: int) -> Drops:
+    """Return the parameters of ``count`` equal drops, as arrays (count, balls) and (count,)."""
+    return Drops._make(
+        np.full((count, *np.shape(numbers)), numbers) for numbers in drop_numbers(drop)
+    )
+
+
+def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
+    """Replace the parameters that vary, in drops that are copies of a base drop.
+
+    Parameters
+    ----------
+    drops : Drops
+        Arrays (..., balls), and (...,) gravity, with the parameters of the base drop; changed.
+    drop : Drop
+        The base drop.
+    rows : mapping
+        The values of the parameters that vary, by `Number`. They broadcast to (...,).
+    """
+    laws: dict[int, dict[str, Any]] = {}
+    for number, values in rows.items():
+        if number.part == "gaps":
+            drops.gap[..., number.index + 1] = values
+        elif number.part == "velocities":
+            drops.velocity[..., number.index] = values
+        elif number.field == "gravity":
+            drops.gravity[...] = values
+        elif number.field == "impact_speed":
+            drops.velocity[...] = -values[..., None]
+        elif number.field == "mass":
+            drops.mass[..., number.index] = values
+        elif number.part == "contacts":
+            laws.setdefault(number.index, {})[number.field] = values
+    for i, varied in laws.items():
+        _, first, second, third, fourth = contact_numbers(drop.contacts[i], varied)
+        drops.first[..., i], drops.second[..., i] = first, second
+        drops.third[..., i], drops.fourth[..., i] = third, fourth
+    if drop.height is not None:
+        height = next((v for n, v in rows.items() if n.field == "height"), drop.height)
+        pull = np.where(drops.gravity > 0.0, drops.gravity, STANDARD_GRAVITY)
+        drops.velocity[...] = -np.sqrt(2.0 * pull * height)[..., None]
+
+
+def incidence(
+    drop: Drop, rows: Rows, count: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the impact speeds in m/s and gravity in m/s**2 of some drops, (count,) each."""
+    drops = base_rows(drop, count)
+    fill(drops, drop, rows)
+    return np.max(np.abs(drops.velocity), axis=1), drops.gravity
+
+
+def check(drop: Drop, rows: Rows, where: Callable[[tuple[int, ...]], str]) -> None:
+    """Raise an error for the first row of parameters with which the drop is not valid.
+
+    The valid values of a parameter are an interval. One end of it may depend on another parameter
+    of the same ball or contact. All rows are therefore valid if all combinations of the smallest
+    and the largest values are valid, which is tested first.
+
+    Parameters
+    ----------
+    drop : Drop
+        The base drop.
+    rows : mapping
+        The values of the parameters that vary, by `Number`.
+    where : callable
+        From the index of a row to the words that locate it in the error message.
+
+    Raises
+    ------
+    InvalidValue, InvalidType
+        As `Drop` does; the message ends with the words from `where`.
+    """
+    shape = np.broadcast_shapes(*(values.shape for values in rows.values()))
+    if 0 in shape or (_corners_hold(drop, rows) and _all_move(drop, rows)):
+        return
+    wide = {number: np.broadcast_to(values, shape) for number, values in rows.items()}
+    for index in np.ndindex(shape):
+        try:
+            drop_at(drop, {number: float(values[index]) for number, values in wide.items()})
+        except (InvalidValue, InvalidType) as error:
+            raise type(error)(f"{error} {where(index)}") from error
+
+
+def _corners_hold(drop: Drop, rows: Rows) -> bool:
+    """Return whether all combinations of smallest and largest values are valid for each part."""
+    parts: dict[tuple[str, int], dict[Number, tuple[float, float]]] = {}
+    for number, values in rows.items():
+        ends = float(np.min(values)), float(np.max(values))
+        if not (math.isfinite(ends[0]) and math.isfinite(ends[1])):
+            return False
+        if number.part != "velocities":
+            parts.setdefault((number.part, number.index), {})[number] = ends
+    for ranges in parts.values():
+        for corner in itertools.product(*ranges.values()):
+            try:
+                drop_at(drop, dict(zip(ranges, corner, strict=True)))
+            except (InvalidValue, InvalidType):
+                return False
+    return True
+
+
+def _all_move(drop: Drop, rows: Rows) -> bool:
+    """Return whether some ball moves in each row."""
+    if drop.velocities is None:
+        return True
+    varied = {n.index: values for n, values in rows.items() if n.part == "velocities"}
+    still: Any = True
+    for i, velocity in enumerate(drop.velocities):
+        still = still & np.equal(varied.get(i, velocity), 0.0)
+    return not np.any(still)
+
+
+def drop_numbers(drop: Drop) -> Drops:
+    """Return the parameters of a drop in the form that `prepare` takes, as lists."""
+    rows = zip(*map(contact_numbers, drop.contacts), strict=True)
+    form, first, second, third, fourth = map(list, rows)
+    return Drops(
+        mass=[ball.mass for ball in drop.balls],
+        form=form,
+        first=first,
+        second=second,
+        third=third,
+        fourth=fourth,
+        gap=[0.0, *drop.gaps],
+        velocity=list(drop.start_velocities),
+        gravity=drop.gravity,
+    )
+
+
+def drop_pieces(drop: Drop) -> list[list[float]]:
+    """Return the pieces of the curves of each contact; none of one that is not a table."""
+    return [[] if law is None else law.pieces() for law in drop.contacts]

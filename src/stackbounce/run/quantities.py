@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from stackbounce.engine.records import Outcomes
 from stackbounce.model import STANDARD_GRAVITY, Drop
 from stackbounce.run.batch import solve
-from stackbounce.run.columns import Rows, incidence
 from stackbounce.run.options import Options
+from stackbounce.run.paths import Rows, incidence
 from stackbounce.run.result import Status
 
 Array: TypeAlias = NDArray[np.float64]

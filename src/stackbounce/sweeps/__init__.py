@@ -3,19 +3,16 @@
 If the values are dask arrays, the Dataset is lazy and computed in chunks.
 
 ======== ==========================================================================
-dataset  in memory: the parameters that vary become the dimensions of a Dataset
-store    a sweep larger than memory, written block by block to a file; resumable
-progress which process writes it
+dataset  in memory: parameters that vary, also texts of ``--over``, become dimensions
+store    a sweep larger than memory, written block by block to a file by one process; resumable
 files    the Zarr store
-axes     reads texts such as those of ``--over``: a parameter and its values
 draws    tables of draws, each row a drop
 ======== ==========================================================================
 
 The drops of a sweep are run by `stackbounce.run.batch`.
 """
 
-from stackbounce.sweeps.axes import grid
-from stackbounce.sweeps.dataset import sweep
+from stackbounce.sweeps.dataset import grid, sweep
 from stackbounce.sweeps.files import opened
 from stackbounce.sweeps.store import write
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.extras import need
 from stackbounce.files import write_files
-from stackbounce.run.blocks import Block, blocks
+from stackbounce.run.batch import Block, blocks
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -1,37 +1,42 @@
 """A sweep larger than memory, written to a file block by block; it can be stopped and resumed.
 
 Until it is complete the file is called ``NAME.partial``, and ``NAME.begun`` until all but the
-results is there. ``NAME.progress`` beside it says who writes it (`progress`): one process writes at
-a time. The final bytes do not depend on how often
-the sweep was stopped. A file that is complete has all its blocks, and each can be read; those that
-cannot are computed again.
+results is there. ``NAME.progress`` beside it says who writes it: one process writes at a time. It
+is locked for as long as a process writes to ``NAME.partial``, and removed then. The system ends the
+lock with the process, however that ends; a file that is left has no meaning. The final bytes do not
+depend on how often the sweep was stopped. A file that is complete has all its blocks, and each can
+be read; those that cannot are computed again.
 """
 
 import contextlib
 import math
+import os
+import platform
 import re
 import shutil
+import stat
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
+from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import FileError, InvalidValue
+from stackbounce.errors import FileError, InvalidValue, shown
 from stackbounce.model import Drop
-from stackbounce.run.blocks import Block, sides, size
+from stackbounce.run.batch import Block, sides, size
 from stackbounce.sweeps import files
 from stackbounce.sweeps.dataset import check_along, read_values, sweep
 from stackbounce.sweeps.files import Form
-from stackbounce.sweeps.progress import only_writer
 
 if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
 
+_WRITER = b"# process "
 BLOCK = 2**16
 """Drops in a block, at most."""
 
@@ -39,6 +44,85 @@ _TOGETHER = 4  # blocks submitted to a cluster at a time, for each of its thread
 _DIMENSION = re.compile(r"\w[\w.-]*")  # a name that all kinds of file can have
 _Axes: TypeAlias = Mapping[str, tuple[str, NDArray[np.float64]]]  # dimension and values, by path
 _Done: TypeAlias = Iterator[tuple[Block, "xr.Dataset"]]
+
+
+@contextlib.contextmanager
+def only_writer(out: Path) -> Iterator[bool]:
+    """Be the only process that writes a sweep, and yield whether an earlier one was killed.
+
+    Raises
+    ------
+    FileError
+        If another process writes it, or the file of that name is not of this program.
+    """
+    path = out.with_name(f"{out.name}.progress")
+    with _opened(path, out) as file:
+        content = file.read(100)
+        if content[: len(_WRITER)] != _WRITER[: len(content)]:
+            raise FileError(
+                f"{path} is damaged, it has {shown(content[:40])}: remove it or choose another name"
+            )
+        now = datetime.now().astimezone().isoformat(" ", "seconds")
+        host = platform.node() or "this machine"
+        file.seek(0)
+        file.truncate()
+        file.write(_WRITER + f"{os.getpid()} on {host} since {now}\n".encode("ascii", "replace"))
+        try:
+            yield bool(content)
+        finally:
+            with contextlib.suppress(PermissionError):  # of Windows, while it is open
+                path.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def _opened(path: Path, out: Path) -> Iterator[BinaryIO]:
+    """Open and lock a file that a writer that ends may remove at any time."""
+    while True:
+        with os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+b", buffering=0) as file:
+            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise FileError(f"{path} is no ordinary file: remove it")
+            if not _locked(file):
+                raise FileError(
+                    f"{out} is being written by {_writer(path)}: wait until it has ended"
+                )
+            if _is_at(path, file):
+                yield file
+                return
+
+
+def _is_at(path: Path, file: BinaryIO) -> bool:
+    """Return whether an open file still has its name."""
+    try:
+        return os.path.samestat(path.stat(), os.fstat(file.fileno()))
+    except FileNotFoundError:
+        return False
+
+
+def _locked(file: object) -> bool:
+    """Lock an open file unless another process has; return whether it is locked."""
+    number: int = file.fileno()  # type: ignore[attr-defined]
+    try:
+        if os.name == "nt":
+            import msvcrt
+
+            os.lseek(number, 2**30, os.SEEK_SET)  # beyond what is read by others
+            msvcrt.locking(number, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
+        else:
+            import fcntl
+
+            fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except (BlockingIOError, PermissionError):
+        return False
+    return True
+
+
+def _writer(path: Path) -> str:
+    """Return who writes a file that is locked, as it says."""
+    try:
+        line = path.read_text("ascii", "replace").strip()
+    except OSError:
+        line = ""
+    return line.removeprefix("# ") or "another process"
 
 
 def write(

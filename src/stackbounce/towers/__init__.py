@@ -1,9 +1,8 @@
 """Which balls, in which order, with which gaps and which masses, throw the top ball highest.
 
 ========== =======================================================================
-batch      drops with equal contact laws and different numbers, solved in one sweep
 separation the gap above which the collisions of a stack are separate
-masses     the inner masses that give the top ball the highest rebound
+masses     drops solved in one sweep; the inner masses that send the top ball highest
 ranking    all stacks of given balls, in the order of the top ball's rebound
 ========== =======================================================================
 """

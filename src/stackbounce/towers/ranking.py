@@ -22,8 +22,7 @@ from stackbounce.model import STANDARD_GRAVITY, Ball, ContactLaw, Drop, Hysteret
 from stackbounce.model.catalogue import BALLS, catalogue_ball
 from stackbounce.model.laws.series import between
 from stackbounce.run.calibration import calibrate
-from stackbounce.towers.batch import solve_drops
-from stackbounce.towers.masses import best_masses, geometric_means, mass_range
+from stackbounce.towers.masses import best_masses, geometric_means, mass_range, solve_drops
 from stackbounce.towers.separation import replace_gaps
 from stackbounce.version import __version__
 

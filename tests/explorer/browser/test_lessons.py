@@ -2,7 +2,7 @@
 
 import pytest
 
-from stackbounce.explorer.lessons import NAMES, read_lesson
+from stackbounce.explorer.lessons.lesson import NAMES, read_lesson
 
 pytestmark = pytest.mark.slow
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from stackbounce.cross2007.playable import link_figures
+from stackbounce.cross2007.cases import link_figures
 
 pytestmark = [pytest.mark.slow, pytest.mark.release]
 FORMS = ("served",)

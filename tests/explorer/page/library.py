@@ -5,10 +5,9 @@ import numpy as np
 import stackbounce as sb
 from stackbounce.errors import InvalidValue
 from stackbounce.explorer.answers.play import run_drop
-from stackbounce.explorer.page.catalogue import WORDS
-from stackbounce.explorer.page.data import MAP_RTOL
+from stackbounce.explorer.page.data import MAP_RTOL, WORDS
 from stackbounce.model import law_named
-from stackbounce.plots.impact_window import choose_window, sample_with_approach
+from stackbounce.plots.impact import choose_window, sample_with_approach
 from stackbounce.run.paths import drop_at, number_at, numbers_of
 
 RATIOS, OUTCOMES = WORDS["ratios"], WORDS["outcomes"]

@@ -9,7 +9,7 @@ import pytest
 import stackbounce as sb
 from explorer.page.library import at, outcome, varying
 from explorer.page.scenarios import drawn
-from stackbounce.cross2007.lines import list_lines
+from stackbounce.cross2007.cases import list_lines
 from stackbounce.errors import StackbounceError
 
 SEED = 7

@@ -15,11 +15,11 @@ from explorer.page.scenarios import drawn, scenarios
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.errors import StackbounceError
 from stackbounce.explorer.answers import play
-from stackbounce.explorer.answers.predictions import add_values
+from stackbounce.explorer.answers.play import add_values
 from stackbounce.explorer.schema import read_drop
 from stackbounce.json_values import plain
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS
-from stackbounce.model.schema import read_law
+from stackbounce.model.toml import read_law
 from stackbounce.prediction import write_scenario
 from stackbounce.prediction.inputs import read_inputs
 from stackbounce.run.paths import numbers_of

@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 WRITE = """import sys
-from stackbounce.explorer.page.one_file import one_file
+from stackbounce.explorer.page.folder import one_file
 sys.stdout.write(one_file())"""
 
 

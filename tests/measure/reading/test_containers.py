@@ -10,12 +10,9 @@ import pytest
 
 from measure import make_files as made
 from stackbounce.errors import FileError, InvalidValue, MissingExtra
-from stackbounce.measure.reading import sheets
+from stackbounce.measure.reading import tables
 
 TIMES = 0.01 * np.arange(8)
-
-
-# --- spreadsheets
 
 
 def xlsx(tables):
@@ -86,10 +83,10 @@ def test_what_a_spreadsheet_cannot_be(read, monkeypatch):
     ):
         with pytest.raises(FileError, match=message):
             read(wrong)
-    monkeypatch.setattr(sheets, "_CELLS", 50)
+    monkeypatch.setattr(tables, "_BOOK_CELLS", 50)
     with pytest.raises(FileError, match="more than 50 cells"):
         read(content)
-    monkeypatch.setattr(sheets, "_BYTES", 1000)
+    monkeypatch.setattr(tables, "_BOOK_BYTES", 1000)
     with pytest.raises(FileError, match="would unpack to more than"):
         read(content)
 
@@ -110,8 +107,6 @@ def test_a_missing_reader_is_named(read, monkeypatch):
     with pytest.raises(MissingExtra, match=words):
         read(content)
 
-
-# --- Tracker's own files
 
 POINTS = {4: (150.0, 300.0), 5: (155.0, 310.0), 7: (165.0, 340.0)}
 
@@ -187,12 +182,9 @@ def test_two_masses_and_no_scale(read):
     ("<Document><DataSet></DataSet></Document>", "Logger Pro without numbers"),
 ])  # fmt: skip
 def test_xml_that_is_refused(read, content, message, monkeypatch):
-    monkeypatch.setattr("stackbounce.measure.reading.projects._BYTES", 4000)
+    monkeypatch.setattr("stackbounce.measure.reading.tables._XML", 4000)
     with pytest.raises(FileError, match=message):
         read(content)
-
-
-# --- Logger Pro's own files
 
 
 def cmbl(runs):
@@ -215,9 +207,6 @@ def test_logger_pros_own_file(read):
     assert data.force.values.tolist() == [1.0, 2.5, 3.0]
     assert data["column"].values.tolist() == [3.0, 4.0, 5.0]  # it has no name and no unit
     assert read(content, run="Latest").force.values.tolist() == [7, 8]
-
-
-# --- NumPy
 
 
 def npy(array):

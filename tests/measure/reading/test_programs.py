@@ -106,11 +106,13 @@ def test_pasco_with_automatic_times_and_decimal_commas(read):
 
 
 def test_avimeca_with_its_line_of_units(read):
-    data = read("Pointages Aviméca\nt;x;y\n(ms);(cm);(cm)\n0;0;0,5\n40;4,5;0,25\n")
+    table = "\nt;x;y\n(ms);(cm);(cm)\n0;0;0,5\n40;4,5;0,25\n"
+    data = read("Pointages Aviméca" + table)
     assert (data.attrs["format"], data.attrs["holds"]) == ("AviMéca", "track")
     np.testing.assert_allclose(data.time.values, [0.0, 0.04])
     np.testing.assert_allclose(data.y.values[:, 0], [0.005, 0.0025])
     assert data.attrs["doubt"] == ""
+    np.testing.assert_allclose(read("Ball" + table).time.values, [0.0, 0.04])  # not Tracker's
 
 
 def test_sensor_logger_with_and_without_g_by_the_name_of_the_file(read):
@@ -189,11 +191,6 @@ def test_bare_columns_of_a_video_are_a_track(read):
     data = read(lines([times, times, 1.0 - times], form="{:.3f}", delimiter=" "))
     assert data.attrs["holds"] == "track"
     np.testing.assert_allclose(data.y.values[:, 0], 1.0 - times)
-
-
-def test_a_capital_s_is_a_second(read):
-    data = read("Time(S),Force(N)\n0,1\n1,2\n2,3\n")
-    assert (data.attrs["holds"], data.attrs["doubt"]) == ("waveform", "")
 
 
 def test_labels_of_audacity_are_knocks_and_times_of_kinovea_have_hours(read):

@@ -110,9 +110,6 @@ def test_even_times_of_a_million():
     assert np.diff(even_times(times, rounding_of(times)))[0] == pytest.approx(1 / 44100)
 
 
-# --- since 1970
-
-
 EPOCHS = {"nanoseconds": 10**9, "microseconds": 10**6, "milliseconds": 10**3, "seconds": 1}
 
 
@@ -131,9 +128,6 @@ def test_seconds_elapsed_are_taken_rather_than_those_since_1970(read):
     data = read("time,seconds_elapsed,F (N)", epoch, elapsed, noise(50))
     np.testing.assert_allclose(data.time, elapsed, rtol=1e-12)
     assert data.attrs["doubt"] == ""
-
-
-# --- a unit that nobody tells
 
 
 @pytest.mark.parametrize(
@@ -161,15 +155,17 @@ def test_steps_tell_the_unit_of_times(read, head, step, unit, factor):
 
 
 @pytest.mark.parametrize(
-    ("head", "options"), [("time (s),F (N)", {}), ("time,F (N)", {"units": {"time": "s"}})]
+    ("head", "options"),
+    [
+        ("time (s),F (N)", {}),
+        ("Time(S),Force(N)", {}),
+        ("time,F (N)", {"units": {"time": "s"}}),
+    ],
 )
 def test_a_unit_that_is_told_is_not_doubted(read, head, options):
     data = read(head, range(0, 6000, 100), noise(60), **options)
     assert float(data.time[-1]) == 5900.0
     assert data.attrs["doubt"] == ""
-
-
-# --- values
 
 
 def test_a_number_beyond_the_range_of_an_instrument_is_missing(read):

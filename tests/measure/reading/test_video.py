@@ -219,11 +219,14 @@ def test_points_whose_blank_cells_were_lost_are_put_together(read):
     bounces(data)
 
 
-def test_a_point_of_which_a_coordinate_is_missing_everywhere_is_left_out(read):
-    shifted = "0 1.0 2.0 5.0 *\n" * 3
-    data = read("Frame X1 Y1 Flag1 X2 Y2 Flag2\n" + shifted + rows("{k} {x:.3f} {y:.3f} 5.0"))
+def test_a_point_without_a_coordinate_is_left_out_and_a_falling_ball_followed_far(read):
+    """A ball may be further from its last place than a point may be from a path."""
+    fallen = 5.0 * np.arange(15.0) ** 2
+    points = "".join(f"{k} 10.0 {y} 5.0\n" for k, y in enumerate(fallen))
+    data = read("Frame X1 Y1 Flag1 X2 Y2 Flag2\n" + "0 1.0 2.0 5.0 *\n" * 3 + points)
     assert "blank cells were lost" in data.attrs["doubt"]
     assert data.track.values.tolist() == ["track 1"]
+    np.testing.assert_allclose(data.y.values[-15:, 0], fallen)
 
 
 def test_manual_tracking(read):

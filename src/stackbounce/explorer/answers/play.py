@@ -1,17 +1,23 @@
-"""The motion of a drop at each moment, and the textbook's separate collisions beside it."""
+"""The motion of a drop at each moment, and the textbook's separate collisions beside it.
+
+Of a drop whose numbers have errors: numbers with errors, and bands of curves.
+"""
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import StackbounceError
+from stackbounce.errors import InvalidValue, StackbounceError
 from stackbounce.explorer.limits import LIMITS
 from stackbounce.json_values import as_json
 from stackbounce.model import STANDARD_GRAVITY, Drop
-from stackbounce.plots.impact_window import choose_window, sample_with_approach
+from stackbounce.plots.impact import choose_window, sample_with_approach
+from stackbounce.prediction import predict
+from stackbounce.prediction.inputs import add_value
 from stackbounce.run.collision import separate
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
@@ -24,6 +30,8 @@ _Times = NDArray[np.float64]
 
 _INTERVALS = 60  # most contact intervals that get frames of their own
 _DIGITS = 9  # of a frame's largest number
+_TIMES = 300  # of a band
+_DRAWS = 300  # where derivatives do not do: each is a run, for its curves
 
 
 def run_drop(drop: Drop, until: float | None) -> Result:
@@ -135,4 +143,56 @@ def _play_separate(drop: Drop, until: float | None, times: _Times) -> dict[str, 
     return _list_numbers(result) | {
         "restitutions": [None if law is None else law.restitution for law in laws],
         "position": _round(place),
+    }
+
+
+def predict_drop(drop: Drop, errors: Mapping[str, float | str], until: float | None) -> str:
+    """Carry the errors of a drop's numbers forward; return numbers and curves with errors, as JSON.
+
+    Parameters
+    ----------
+    drop : Drop
+        The drop, with the values of the numbers.
+    errors : mapping
+        The errors of some of its numbers by path, in SI units or as texts with a unit.
+    until : float or None
+        End of the run in s, with falls and flights; None for the impact alone.
+
+    Returns
+    -------
+    str
+        JSON with what `Prediction.as_dict` has but for the shares, and `band`: `time` in s, and the
+        lower and the upper ends of one standard deviation of `position` and `force`.
+    """
+    if not 0 < len(errors) <= LIMITS.varied:
+        raise InvalidValue(f"errors must be of 1 to {LIMITS.varied} numbers, got {len(errors)}")
+    found = predict(
+        drop,
+        add_values(drop, errors),
+        until=until,
+        rtol=RTOL,
+        event_limit=LIMITS.events,
+        draws=_DRAWS,
+    )
+    times = choose_times(found.result, until, _TIMES)
+    times = times[times >= 0.0]
+    names = ["position"] if drop.rigid else ["position", "force"]  # a rigid contact's is infinite
+    answer = found.as_dict()
+    del answer["shares"]
+    bands = {name: found.band(times, name) for name in names}
+    return as_json({"stackbounce": __version__, **answer, "band": {"time": times, **bands}})
+
+
+def add_values(drop: Drop, errors: Mapping[str, float | str]) -> dict[str, tuple[float, float]]:
+    """Return numbers of a drop with their errors by path, in SI units; see `predict_drop`.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(0.057)], [sb.Spring(2e4)], height=0.63)
+    >>> add_values(drop, {"height": "1 cm"})
+    {'height': (0.63, 0.01)}
+    """
+    return {
+        path: add_value(drop, path, error, f"error of {path}") for path, error in errors.items()
     }

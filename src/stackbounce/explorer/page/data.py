@@ -1,21 +1,37 @@
-"""What the page knows of the package, as JSON: `model.json`."""
+"""What the page knows of the package, as JSON: `model.json`.
+
+Balls, contact laws, examples, the paper's lines, lessons and units, with the numbers that each
+check lets through, found by asking it. The page reads units as `stackbounce.units.quantity` does,
+which asks pint.
+"""
 
 import dataclasses
 import functools
 import itertools
+import re
+import sys
+import tomllib
+from collections.abc import Callable
+from importlib.resources import files
 from typing import Any
 
-from stackbounce.cross2007.lines import list_lines
+from stackbounce.cross2007.cases import list_cases, list_lines
+from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.explorer.answers import play
-from stackbounce.explorer.page.catalogue import WORDS, list_choices
-from stackbounce.explorer.page.lessons import list_lessons
-from stackbounce.explorer.page.units import list_units
+from stackbounce.explorer.examples import list_examples
+from stackbounce.explorer.lessons.lesson import list_lessons
+from stackbounce.explorer.limits import LIMITS
 from stackbounce.json_values import as_json
-from stackbounce.model import STANDARD_GRAVITY, STEEPEST
+from stackbounce.model import LAWS, STANDARD_GRAVITY, STEEPEST, ContactLaw, Hysteretic
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stack
 from stackbounce.run.result import Cause, Status
 from stackbounce.units import examples
+from stackbounce.version import __version__
 
+WORDS: dict[str, Any] = tomllib.loads((files(__package__) / "words.toml").read_text("utf-8"))
+"""What the page calls numbers of laws, what maps show, and the ratios that they vary."""
+
+_LOSSY = Hysteretic  # the paper's own way to lose energy
 MAP_RTOL = 1e-8
 """The tolerance of nonlinear contacts in maps and lines, far finer than their colours."""
 
@@ -23,6 +39,112 @@ _ENERGY = ("kinetic energy retained", "")
 _USUAL = {"contact_time": 5e-3, "exponent": 1.5, "restitution": 0.8}
 """What a law takes over from one that has none of it: in s a tennis ball's, of a solid ball, of a
 floor where there was none."""
+_NAME = re.compile(r"[^\W\d_]+")
+
+
+def list_choices() -> dict[str, Any]:
+    """Return balls, contact laws, examples and the limits of a request."""
+    cases = (*list_examples(), *list_cases())
+    return {
+        "stackbounce": __version__,
+        "balls": [entry.to_mapping() for entry in (*BALLS, *CLASS_BALLS)],
+        "laws": [_describe_law(kind) for kind in LAWS.values()],
+        "lossy_law": _LOSSY.__name__,
+        "presets": [vars(case) | {"drop": case.drop.to_mapping()} for case in cases],
+        "limits": LIMITS,
+    }
+
+
+def _describe_law(kind: type[ContactLaw]) -> dict[str, Any]:
+    """Return what the page shows of a law and computes with, and what it is in the engine."""
+    return {
+        "law": kind.__name__,
+        "says": kind.says,
+        "formula": kind.formula,
+        "source": kind.source,
+        "fields": [_describe_number(kind, name) for name in kind.quantities()],
+        "form": kind.form,
+        "parameters": (kind.third_number, kind.fourth_number),
+        "rigid": kind.rigid,
+        "exact": kind.exact,
+        "loss": kind.loss,
+        "loss_fields": list(kind.loss_fields()),
+        "constant_loss": not kind.loss_depends_on,
+        "least_restitution": kind.least_restitution,
+        "exponent": kind.fixed_exponent(),
+        "usual_exponent": kind.default_exponent(),
+        "needs": {"linear": kind.calibration_needs(1.0), "other": kind.calibration_needs(2.0)},
+    }
+
+
+def _describe_number(kind: type[ContactLaw], name: str) -> dict[str, Any]:
+    """Return a number of a law: words, unit, limits, slider, where a search starts, usual value."""
+    number, words = kind.quantities()[name], name.replace("_", " ")
+    initial, low, high = number.slider
+    usual = getattr(kind, name, None)
+    return {
+        "name": name,
+        "unit": number.symbol,
+        "required": not hasattr(kind, name),
+        "default": initial if usual is None else usual,
+        "low": low,
+        "high": high,
+        "start": low if name == kind.loss else initial,
+        "says": words,
+        "words": words,
+        "explains": "",
+        **WORDS["numbers"].get(name, {}),
+        **limits_of(number.check),
+        **({"usual": usual} if hasattr(kind, name) else {}),
+    }
+
+
+def limits_of(check: Callable[[str, object], float]) -> dict[str, Any]:
+    """Return the least and the largest number that a check lets through, and its words.
+
+    The numbers that a check lets through are an interval. Its ends are found by bisection, to the
+    last bit.
+
+    Examples
+    --------
+    >>> from stackbounce.errors import fraction
+    >>> limits_of(fraction)
+    {'right': 'a number from 0 to 1', 'least': 0.0, 'most': 1.0}
+    """
+    right = ""
+    try:
+        check("x", None)
+    except InvalidType as error:
+        right = str(error).removeprefix("x must be ").removesuffix(", got None")
+
+    def holds(value: float) -> bool:
+        try:
+            check("x", value)
+        except InvalidValue:
+            return False
+        return True
+
+    inside = next(value for value in (1.0, 0.5, 2.0, -1.0, 0.0, 1e3, 1e-3) if holds(value))
+    return {
+        "right": right,
+        "least": _last(holds, inside, -sys.float_info.max),
+        "most": _last(holds, inside, sys.float_info.max),
+    }
+
+
+def _last(holds: Callable[[float], bool], inside: float, outside: float) -> float:
+    """Return the last number from `inside` towards `outside` for which something holds."""
+    if holds(outside):
+        return outside
+    near, far = inside, outside
+    middle = 0.5 * (near + far)
+    while middle not in (near, far):
+        if holds(middle):
+            near = middle
+        else:
+            far = middle
+        middle = 0.5 * (near + far)
+    return near
 
 
 @functools.cache
@@ -98,3 +220,37 @@ def _list_stacks() -> dict[str, Any]:
             pair["gap"] = two.gaps[0], two.gap_sources[0]
         found[f"{lower} {upper}"] = pair
     return found
+
+
+def list_units() -> dict[str, Any]:
+    """Return the names of units with factor and dimensions, the prefixes, and the dimensions.
+
+    A unit that is no multiple of an SI unit, such as a degree Celsius, has the factor None.
+
+    Examples
+    --------
+    >>> units = list_units()
+    >>> factor, place = units["names"]["inch"]
+    >>> round(factor, 4), units["dimensions"][place]
+    (0.0254, {'[length]': 1})
+    """
+    import pint
+
+    registry: Any = pint.UnitRegistry()
+    dimensions: list[dict[str, float]] = []
+    names: dict[str, tuple[float | None, int]] = {}
+    for name in sorted(filter(_NAME.fullmatch, registry._units)):  # pint's order varies
+        if not registry._units[name].is_multiplicative:
+            names[name] = None, 0
+            continue
+        size = registry.Quantity(1.0, name).to_base_units()
+        own = dict(sorted(size.dimensionality.items()))
+        if own not in dimensions:
+            dimensions.append(own)
+        names[name] = float(size.magnitude), dimensions.index(own)
+    prefixes = [
+        (prefix, float(one.value))
+        for prefix, one in registry._prefixes.items()
+        if _NAME.fullmatch(prefix)
+    ]
+    return {"names": names, "prefixes": prefixes, "dimensions": dimensions}

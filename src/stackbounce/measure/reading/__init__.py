@@ -2,25 +2,17 @@
 
 ========== ====================================================================
 reader     `read`: a path -> a Dataset
-options    the options of `read`, and their effect on columns
+options    the options of `read`, their effect on columns, the part that is read
 limits     limits on what is read: size, folders, other kinds of file
 text       bytes -> text -> delimiter, decimal mark, the cells of the first lines
-numbers    the rows below -> an array, by pandas where they are plain
-headings   "Run 1: Time (ms)" -> name, unit, run
-roles      names and units -> what a column is
-layouts    which program wrote a table, and where its columns are
-formats/   a function for each program whose tables are recognised
-bare       columns without names -> what their numbers look like
+numbers    the rows below -> an array, by pandas where they are plain; arrays of NumPy
+roles      "Run 1: Time (ms)" -> name, unit and run of a column, and what it is
+layouts    where a table's columns are; without names, what their numbers look like
+formats    which program wrote a table: a function for each
 video      frames as times, pixels as lengths, one row for each frame
 dataset    columns -> the Dataset of what they hold
-clock      what a column of times counts: since when, in which unit
-part       what lies between two times, frames or rows
-series     the rows in time: runs, gaps, repeats, and times that were rounded
-tables     the tables of a file with several, or in a packing of its own, as bytes
-zipped     a zip archive
-sheets     spreadsheets of Excel
-projects   own files of Tracker and Logger Pro
-arrays     arrays of NumPy
+series     times: since when, in which unit; runs, gaps, repeats, and rounded ones
+tables     the tables in a zip archive, a spreadsheet of Excel, own files of programs
 wav        sound, decoded by scipy
 ========== ====================================================================
 """

@@ -12,9 +12,8 @@ from stackbounce.measure.kind import Kind
 from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading.clock import on_the_clock
 from stackbounce.measure.reading.roles import ACCELERATIONS, ARBITRARY, FRAME, ROLES, Column
-from stackbounce.measure.reading.series import in_time, step_of
+from stackbounce.measure.reading.series import in_time, on_the_clock, step_of
 from stackbounce.measure.reading.video import rows_by_frame
 
 if TYPE_CHECKING:

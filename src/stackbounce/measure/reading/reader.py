@@ -13,18 +13,15 @@ from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
 from stackbounce.files import content_of
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading import arrays, projects, sheets, wav, zipped
-from stackbounce.measure.reading.bare import NOT_NAMED
-from stackbounce.measure.reading.clock import without_counts
+from stackbounce.measure.reading import numbers, wav
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
-from stackbounce.measure.reading.layouts import Layout
+from stackbounce.measure.reading.layouts import NOT_NAMED, Layout
 from stackbounce.measure.reading.limits import BYTES, refuse_others
-from stackbounce.measure.reading.numbers import Table, rows_of
-from stackbounce.measure.reading.options import ReadOptions, apply_options, of_run
-from stackbounce.measure.reading.part import part_of
+from stackbounce.measure.reading.options import ReadOptions, apply_options, of_run, part_of
 from stackbounce.measure.reading.roles import Column
-from stackbounce.measure.reading.tables import Tables, chosen
+from stackbounce.measure.reading.series import without_counts
+from stackbounce.measure.reading.tables import Tables, chosen, from_project, tables_in
 from stackbounce.measure.reading.text import decode, tabulate
 from stackbounce.measure.reading.video import on_frames
 
@@ -183,22 +180,13 @@ def _read(name: str, content: bytearray, options: ReadOptions) -> "xr.Dataset":
             wrong = f": the file is a sound, got {shown(options.holds)}"
             raise InvalidValue(about_option("holds", wrong))
         return _signed(data, "WAV", why, "sound", doubts)
-    tables = _tables_in(content)
+    tables = tables_in(content)
     if tables is not None:
         return _from_tables(tables, options)
     if options.table is not None:
         alone = ": there is one only, as it is no zip archive or spreadsheet"
         raise InvalidValue(about_option("table", alone))
     return _from_table(name, content, options)
-
-
-def _tables_in(content: bytearray) -> Tables | None:
-    """Return the tables in a packing of its own, each as a program writes it; None if it is one."""
-    if content.startswith((b"PK\x03\x04", b"PK\x05\x06")):
-        return sheets.from_xlsx(content) if zipped.is_xlsx(content) else zipped.members(content)
-    if content.startswith(b"\xd0\xcf\x11\xe0"):
-        raise FileError("it is an old Excel file (.xls): save it as .xlsx or CSV")
-    return projects.tables(content)
 
 
 def _from_tables(tables: Tables, options: ReadOptions) -> "xr.Dataset":
@@ -211,7 +199,7 @@ def _from_tables(tables: Tables, options: ReadOptions) -> "xr.Dataset":
     for name in names:
         try:
             content = bytearray(tables.members.pop(name))
-            inner = projects.tables(content)  # one of Tracker in a zip archive
+            inner = from_project(content)  # one of Tracker in a zip archive
             own = _from_tables(inner, options) if inner else _from_table(name, content, options)
             read.append((name, own))
         except StackbounceError as error:
@@ -250,29 +238,29 @@ def _from_table(name: str, content: bytearray, options: ReadOptions) -> "xr.Data
 
 def _table(
     name: str, content: bytearray, options: ReadOptions
-) -> tuple[Layout, list[Column], Table, list[str], bool]:
+) -> tuple[Layout, list[Column], numbers.Table, list[str], bool]:
     """Return the layout of a table, its columns, numbers and doubts, and whether it has runs.
 
     The text is freed on return, as it may be larger than all of these.
     """
-    numbers: Callable[[Sequence[int]], Table]
-    if arrays.is_array(content):
-        array = arrays.array_in(content)
-        layout, doubts = arrays.layout_of_array(array), []
-        numbers = partial(arrays.rows_of_array, array)
+    rows_in: Callable[[Sequence[int]], numbers.Table]
+    if numbers.is_array(content):
+        array = numbers.array_in(content)
+        layout, doubts = numbers.layout_of_array(array), []
+        rows_in = partial(numbers.rows_of_array, array)
     else:
         refuse_others(content)
         text = tabulate(decode(content), options.decimal, Path(name).name)
         layout = layout_of(text)
         if layout.end is not None:
             text = replace(text, content=text.content[: layout.end])
-        numbers, doubts = partial(rows_of, text, layout.first), list(text.doubts)
+        rows_in, doubts = partial(numbers.rows_of, text, layout.first), list(text.doubts)
     named, unsure = _meant(layout, options)
     columns = apply_options(named, options)
     doubts += () if options.names else unsure
     columns, runs = of_run(columns, options.run, doubts)
     places = [column.index for column in columns if column.index >= 0]
-    table = numbers(places)
+    table = rows_in(places)
     if options.holds in (None, "track"):
         by_place = dict(zip(places, table.values.T, strict=True))
         columns, more = on_frames(columns, options.frame_rate, options.scale, by_place)
@@ -290,7 +278,7 @@ def _meant(layout: Layout, options: ReadOptions) -> tuple[Sequence[Column], Sequ
     return columns, (doubt,)
 
 
-def _count(layout: Layout, columns: Sequence[Column], table: Table) -> None:
+def _count(layout: Layout, columns: Sequence[Column], table: numbers.Table) -> None:
     """Put in the numbers of a column that counts rows, and the times of a clock."""
     at = next((k for k, column in enumerate(columns) if column.index < 0), None)
     if at is not None:
@@ -311,7 +299,7 @@ def _signed(
     return data
 
 
-def _flaws(table: Table) -> list[str]:
+def _flaws(table: numbers.Table) -> list[str]:
     rows = len(table.values)
     strange = int(table.strange.sum()) if table.strange.max() <= rows / 2 else 0
     first, word = shown(table.first), shown(table.word)
@@ -325,7 +313,7 @@ def _flaws(table: Table) -> list[str]:
     return [f"{count} {words}" for count, words in flaws if count]
 
 
-def _numeric(columns: Sequence[Column], table: Table) -> tuple[list[Column], Array]:
+def _numeric(columns: Sequence[Column], table: numbers.Table) -> tuple[list[Column], Array]:
     """Return the columns that have numbers, and their numbers."""
     there = np.isfinite(table.values).any(axis=0) & (table.strange <= len(table.values) / 2)
     if not there.any():

@@ -10,8 +10,7 @@ import numpy as np
 
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading.headings import heading
-from stackbounce.measure.reading.roles import FRAME, PIXEL, POINT, Column, column
+from stackbounce.measure.reading.roles import FRAME, PIXEL, POINT, Column, column, heading
 
 _Tracks: TypeAlias = tuple[list[Column], Array, list[str]]
 """Columns with their numbers, and what is unsure."""

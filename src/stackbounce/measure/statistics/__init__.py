@@ -1,1 +1,1 @@
-"""Statistics of several kinds: regression, AR noise, change points, error propagation."""
+"""Statistics of several kinds: regression, AR noise, change points."""

@@ -16,9 +16,7 @@ larger. With the shares f and 1 - f, ``f = k_b/(k_a + k_b)``, it returns
 measurement: a ball on a ball is taken to give way as it does on the floor.
 """
 
-from stackbounce.model.catalogue.balls import BALLS, CLASS_BALLS
-from stackbounce.model.catalogue.entry import KINDS, CatalogueBall
-from stackbounce.model.catalogue.pairs import PAIRS, Pair
+from stackbounce.model.catalogue.balls import BALLS, CLASS_BALLS, KINDS, PAIRS, CatalogueBall, Pair
 from stackbounce.model.catalogue.stacking import Stack, catalogue_ball, pressed, stack
 
 __all__ = [

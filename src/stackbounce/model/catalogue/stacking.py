@@ -6,9 +6,7 @@ from dataclasses import dataclass
 
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model.ball import Ball
-from stackbounce.model.catalogue.balls import BALLS, CLASS_BALLS
-from stackbounce.model.catalogue.entry import CatalogueBall
-from stackbounce.model.catalogue.pairs import PAIRS, Pair
+from stackbounce.model.catalogue.balls import BALLS, CLASS_BALLS, PAIRS, CatalogueBall, Pair
 from stackbounce.model.laws import ContactLaw, Spring
 
 

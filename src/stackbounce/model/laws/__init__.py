@@ -1,19 +1,17 @@
 """The contact laws: the force between two balls, or ball and floor, while they are compressed.
 
-Each law is a frozen dataclass in a file of its own, with all its formulas. A force never pulls:
-where the formula is negative, the force is 0. The formula is evaluated further, so that the force
-may become positive again. A contact ends when its force is zero for good. While the compression c
-is above 0, ``k c**(p + 1)/(p + 1)`` counts as stored energy. `StandardLinearSolid` alone has a
-state besides: a contact ends when its force is zero, with a surface that recovers.
+Each law is a frozen dataclass in a file of its own or of its family, with all its formulas. A
+force never pulls: where the formula is negative, the force is 0. The formula is evaluated further,
+so that the force may become positive again. A contact ends when its force is zero for good. While
+the compression c is above 0, ``k c**(p + 1)/(p + 1)`` counts as stored energy.
+`StandardLinearSolid` alone has a state besides: a contact ends when its force is zero, with a
+surface that recovers.
 """
 
 # The laws are imported in the order in which people are shown them: each registers itself.
 # isort: off
-from stackbounce.model.laws.rigid import Rigid
-from stackbounce.model.laws.rigid_by_speed import RigidBySpeed, RigidLossBySpeed
-from stackbounce.model.laws.spring import Spring
-from stackbounce.model.laws.hertz import Hertz
-from stackbounce.model.laws.power_law import PowerLaw
+from stackbounce.model.laws.rigid import Rigid, RigidBySpeed, RigidLossBySpeed
+from stackbounce.model.laws.elastic import Spring, Hertz, PowerLaw
 from stackbounce.model.laws.dashpot import Dashpot
 from stackbounce.model.laws.standard_linear_solid import StandardLinearSolid
 from stackbounce.model.laws.viscoelastic import Viscoelastic

@@ -24,8 +24,7 @@ from typing import Annotated, ClassVar, Self
 
 from stackbounce.errors import non_negative
 from stackbounce.model.collision import elastic
-from stackbounce.model.collision.quadrature import integral
-from stackbounce.model.collision.roots import root
+from stackbounce.model.collision.roots import integral, root
 from stackbounce.model.laws.law import (
     EXPONENT,
     ContactLaw,

@@ -17,14 +17,7 @@ from typing import Annotated, Any, ClassVar, Self
 
 from stackbounce.engine.codes import FORMS
 from stackbounce.errors import InvalidValue, finite, listed
-from stackbounce.model.laws.law import (
-    RESTITUTION,
-    ContactLaw,
-    EngineNumbers,
-    Flank,
-    Flanks,
-    Given,
-)
+from stackbounce.model.laws.law import RESTITUTION, ContactLaw, EngineNumbers, Flank, Flanks, Given
 from stackbounce.model.laws.registry import register
 from stackbounce.units import Unit
 

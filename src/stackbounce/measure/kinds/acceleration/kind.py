@@ -2,8 +2,7 @@
 
 from typing import Any
 
-from stackbounce.measure.kinds.acceleration.analysis import accelerometer
-from stackbounce.measure.kinds.acceleration.result import Accelerometer
+from stackbounce.measure.kinds.acceleration.analysis import Accelerometer, accelerometer
 from stackbounce.measure.setup import Setup
 
 

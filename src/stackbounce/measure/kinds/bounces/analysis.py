@@ -18,7 +18,7 @@ from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 _MOST_BOUNCES = 200  # of one drop
-_ROUNDING = 1e-5  # of an interval: a clock in single precision makes equal ones differ by less
+_ROUNDING = 5e-3  # of an interval: rounding makes equal ones differ by less, and a ball loses more
 _INSTANT = 1e-6  # s: no ball bounces twice in so short a time
 
 
@@ -315,20 +315,22 @@ def _with_scatter(
 ) -> tuple[_Found, Any, Any, float]:
     """Return what was found, the mean restitution, its laws and its excess scatter.
 
-    Where the scatter is the timing's, the errors of the times are those that explain it. Errors
-    that are estimated from the scatter include an excess scatter already.
+    Where the scatter is or may be the timing's, the errors of the times are those that explain it.
+    The mean and the laws allow for both causes where it is unknown. Errors that are estimated from
+    the scatter include an excess scatter already.
     """
     from uncertainties import ufloat
 
-    if any(not restitution.std_dev > 0.0 for restitution in found.kept):
-        return found, *laws_of(found.speeds, found.kept)
     mean, laws, scatter = laws_of(found.speeds, found.kept, **({} if known else {"most": 0.0}))
+    if not laws:
+        return found, mean, laws, scatter
     meant = scatter_of(found.speeds, found.kept)
     notes.extend(meaning_of(scatter, meant))
-    if scatter and meant is not None and meant.cause == "timing":
+    if scatter and meant.cause != "floor or spin":
         times = [ufloat(time.n, meant.factor * time.s) for time in found.moments]
         found = found_at(times)
-        mean, laws, scatter = laws_of(found.speeds, found.kept, most=0.0)
+        if meant.cause == "timing":
+            mean, laws, scatter = laws_of(found.speeds, found.kept, most=0.0)
     return found, mean, laws, scatter
 
 

@@ -7,10 +7,10 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from stackbounce.measure.quantities import Array, nominal
-from stackbounce.measure.statistics.regression import covariance_of, least_squares
+from stackbounce.measure.statistics.regression import covariance_of, least_squares, widening
 
 # Set by hand on the drops of `tests/synthetic/falls.py` with errors of the times or uneven floors.
-_FEWEST = 6  # restitutions that tell anything
+_FEWEST = 6  # restitutions that tell a cause
 _CLEAR = 2.0  # standard deviations, or log-likelihood, by which a cause is told
 _EXPLAINED = 1.5  # times their errors: then the times may be the only cause
 _NOTABLE = 2e-3  # scatter of restitutions that is worth a note
@@ -22,7 +22,7 @@ class Scatter(NamedTuple):
 
     `size` is its standard deviation and `lag_one` its autocorrelation from bounce to bounce.
     `cause` is what it means. `factor` is by how much the errors of the times would have to be
-    larger to be the cause.
+    larger to be the cause; where that is unknown, it includes the error of the scatter itself.
     """
 
     size: float
@@ -31,24 +31,25 @@ class Scatter(NamedTuple):
     factor: float
 
 
-def scatter_of(speeds: Sequence[Any], kept: Sequence[Any]) -> Scatter | None:
-    """Return the scatter of restitutions and its cause, or None for fewer than six.
+def scatter_of(speeds: Sequence[Any], kept: Sequence[Any]) -> Scatter:
+    """Return the scatter of restitutions and its cause.
 
     The error of a time makes one flight longer and the next one shorter. The restitutions then
     alternate: their lag-1 autocorrelation is about -2/3. An uneven floor or spin changes each
     bounce by itself, which gives about 0. The cause is timing if the autocorrelation is two
     standard deviations below that of independent scatter, or if errors of the times explain the
     scatter clearly better. It is the floor or spin if these explain it clearly better. Few bounces
-    leave it unknown.
+    leave it unknown, and fewer than six always do.
 
     Parameters
     ----------
     speeds, kept : sequence of ufloat
-        Impact speeds and restitutions of successive bounces, as functions of the same times.
+        Impact speeds and restitutions of three and more successive bounces, as functions of the
+        same times.
 
     Returns
     -------
-    Scatter or None
+    Scatter
 
     Notes
     -----
@@ -66,8 +67,6 @@ def scatter_of(speeds: Sequence[Any], kept: Sequence[Any]) -> Scatter | None:
     ('timing', True, True)
     """
     count = len(kept)
-    if count < _FEWEST:
-        return None
     values = np.array([restitution.nominal_value for restitution in kept])
     x = np.array([nominal(speed) for speed in speeds])
     design = np.stack([np.ones(count), x], axis=1)
@@ -85,10 +84,13 @@ def scatter_of(speeds: Sequence[Any], kept: Sequence[Any]) -> Scatter | None:
         totals = (covariance + q**2 * np.eye(count) for q in _SCATTERS)
         alone = max(_likelihood(design, values, total) for total in totals)
     cause: Literal["timing", "floor or spin", "unknown"] = "unknown"
-    if lag_one < mean - _CLEAR * deviation or (lag_one < mean and timing > alone + _CLEAR):
-        cause = "timing"
-    elif alone > timing + _CLEAR:
-        cause = "floor or spin"
+    if count >= _FEWEST:
+        if lag_one < mean - _CLEAR * deviation or (lag_one < mean and timing > alone + _CLEAR):
+            cause = "timing"
+        elif alone > timing + _CLEAR:
+            cause = "floor or spin"
+    if cause == "unknown":
+        factor *= widening(count - 2)
     return Scatter(size, lag_one, cause, factor)
 
 
@@ -113,10 +115,10 @@ def _expected(covariance: Array) -> tuple[float, float]:
     total = float(np.trace(covariance))
     mean = float(np.trace(covariance @ lag)) / total
     about = covariance @ (lag - mean * np.eye(count))
-    return mean, math.sqrt(2.0 * np.trace(about @ about)) / total
+    return mean, math.sqrt(max(2.0 * np.trace(about @ about), 0.0)) / total
 
 
-def meaning_of(excess: float, found: Scatter | None) -> list[str]:
+def meaning_of(excess: float, found: Scatter) -> list[str]:
     """Return a note on what the scatter of restitutions means, or none where it means nothing.
 
     `excess` is the part of it that the errors of the times do not explain.
@@ -130,14 +132,15 @@ the fits allow for it.
     >>> print(*meaning_of(0.0, Scatter(0.012, -0.62, "timing", 1.1)))
     Restitution differs by 0.012 from bounce to bounce and alternates (lag-1 autocorrelation \
 -0.62): timing.
-    >>> meaning_of(0.0, None)
+    >>> meaning_of(0.0, Scatter(0.012, -0.2, "unknown", 1.2))
     []
     """
-    if found is None or found.cause == "unknown":
+    if found.cause == "unknown":
         note = (
             f"Restitution differs by {excess:.2g} from bounce to bounce, more than the errors of "
             "the times: an uneven floor or a spinning ball, or the timing, which these bounces do "
-            "not tell apart; the mean and the fits allow for it."
+            f"not tell apart; these errors are taken to be {found.factor:.2g} times larger, as if "
+            "it were the timing, and the mean and the fits allow for either."
         )
         return [note] if excess else []
     lag = f"(lag-1 autocorrelation {found.lag_one:.2f})"

@@ -9,14 +9,21 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds import KINDS
-from stackbounce.measure.kinds.heights.analysis import heights
-from stackbounce.measure.kinds.heights.result import Heights
+from stackbounce.measure.kinds.bounces.knocks import SHRINKS
+from stackbounce.measure.kinds.heights.analysis import Heights, heights
 from stackbounce.measure.messages import Message, OptionHint
+from stackbounce.measure.quantities import Array
 from stackbounce.measure.setup import Setup
 
 _MANY = 100  # heights of one drop
 _LISTED = 6  # columns that are described
-_PLACE = re.compile(r"(?i)(pos|heigh|höhe|altu|altit|haut|alte).*(?<!x)$|^[pc]?[yz]$|[ _][yz]$|^h$")
+_PLACE = re.compile(
+    r"(?i)(pos|heigh|höhe|altu|altit|haut|alte|level|niveau).*(?<!x)$"
+    r"|^[pc]?[yz](_?pix\w*)?$|[ _][yz]$|^h$"
+)
+_NAMELESS = re.compile(r"column \d+")
+_LONGEST_SAMPLE, _LONGEST_FRAME = 1e-3, 0.2  # s, the steps of a sensor and of a video
+_FEWEST_STEPS = 10  # of a track that has a fall and a bounce
 
 
 def analyse(data: Any, setup: Setup) -> Heights:
@@ -83,28 +90,49 @@ def _unrecognised(data: Any) -> Message:
 
 
 def _hint(data: Any, columns: Sequence[Any]) -> tuple[str, OptionHint | None]:
-    """Return the kind and the call that names and units leave possible, if there is one."""
-    bare = [c for c in columns if not (c.attrs["units"] or c.attrs["unit_in_file"])]
-    unitless = [c.name for c in bare]
-    times = [c for c in columns if c.name == "time" or c.attrs.get("units") == "s"]
-    times += [c for c in bare if (np.diff(c.values) > 0.0).all()]
-    if not times:
+    """Return the kind and the call that names, units and times leave possible, if there is one."""
+    clock = next(filter(_is_clock, sorted(columns, key=_is_bare)), None)
+    if clock is None:
         return "", None
-    clock = times[0]
-    others = [c for c in columns if c is not clock]
-    lengths = [c for c in others if c.attrs.get("units") in ("m", "px") or c.name in unitless]
-    places = [c for c in lengths if _PLACE.search(re.split(r"\s*[(\[/]", c.attrs["long_name"])[0])]
     steps = np.diff(clock.values)
-    uneven = 1 < len(steps) < _MANY and np.ptp(steps) > np.min(steps) > 0.0
-    if uneven and not places and len(others) < 2:
+    in_seconds = clock.attrs["units"] == "s"
+    slow = in_seconds and np.median(steps) > _LONGEST_FRAME
+    others = [c for c in columns if c is not clock]
+    lengths = [c for c in others if c.attrs["units"] in ("m", "px") or _is_bare(c)]
+    places = [c for c in lengths if _PLACE.search(re.split(r"\s*[(\[/]", c.attrs["long_name"])[0])]
+    if not places and len(others) == 1 and np.median(steps) > _LONGEST_SAMPLE:
+        places = [
+            c for c in lengths if c.attrs["units"] or _NAMELESS.fullmatch(c.attrs["long_name"])
+        ]
+    if (in_seconds or clock.name == "time") and not places and len(others) < 2 and _faster(steps):
         what, names = "knocks", {clock.attrs["column"]: "knock_time"}
-    elif places or len(lengths) == len(others) == 1:
-        place = (places or lengths)[0]
-        what, names = "track", {clock.attrs["column"]: "time", place.attrs["column"]: "y"}
+    elif places and not slow and len(steps) >= _FEWEST_STEPS:
+        what, names = "track", {clock.attrs["column"]: "time", places[0].attrs["column"]: "y"}
     else:
         return "", None
     file = str(data.attrs.get("source", "FILE"))
     return what, OptionHint({"holds": what, "names": names}, file)
+
+
+def _is_clock(column: Any) -> bool:
+    """Return whether a column can be times: it rises, and its name, unit or steps say so."""
+    steps = np.diff(column.values)
+    if not ((steps >= 0.0).all() and steps.any()):
+        return False
+    told = column.attrs["units"] == "s" or column.name in ("time", "frame")
+    return told or (_is_bare(column) and np.ptp(steps) < np.median(steps) <= _LONGEST_FRAME)
+
+
+def _faster(steps: Array) -> bool:
+    """Return whether intervals are those of a ball, whose bounces come faster and faster."""
+    if not 1 < len(steps) < _MANY or not np.ptp(steps) > np.min(steps) > 0.0:
+        return False
+    return bool((steps[1:] < SHRINKS[1] * steps[:-1]).all())
+
+
+def _is_bare(column: Any) -> bool:
+    """Return whether a column has no unit, not even one that is unknown."""
+    return not (column.attrs["units"] or column.attrs["unit_in_file"])
 
 
 def _described(column: Any) -> str:
@@ -112,5 +140,5 @@ def _described(column: Any) -> str:
     values = np.asarray(column.values, dtype=np.float64).ravel()
     first = ", ".join(f"{value:.5g}" for value in values[np.isfinite(values)][:3])
     name = str(column.attrs.get("long_name", column.name))
-    shown = name if re.fullmatch(r"column \d+", name) else f"{name[:40]!r}"
+    shown = name if _NAMELESS.fullmatch(name) else f"{name[:40]!r}"
     return f"{shown} ({first})"

@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.errors import InvalidType, InvalidValue, non_negative, shown, whole
+from stackbounce.measure.drag import with_difference
 from stackbounce.measure.kinds.press.cycle import result_of
 from stackbounce.measure.kinds.press.record import cycles, record_of
 from stackbounce.measure.kinds.press.result import Press
@@ -89,13 +90,8 @@ def press(
     if soft.std_dev == 0.0:
         return found
     moved = _press(data, at + float(soft.std_dev), cycle)
-    unit = (soft - at) / soft.std_dev
-    changes = {
-        name: value + (getattr(moved, name).nominal_value - value.nominal_value) * unit
-        for name, value in vars(found).items()
-        if hasattr(value, "std_dev") and getattr(moved, name) is not None
-    }
-    return replace(found, **changes)
+    uncertain: Press = with_difference(found, found, moved, off=(soft - at) / soft.std_dev)
+    return uncertain
 
 
 def _press(data: Any, compliance: float, number: int | None) -> Press:

@@ -108,8 +108,8 @@ def cycles(record: Record) -> list[Cycle]:
     path = record.compression
     low, high = float(path.min()), float(path.max())
     deep = max(_LEAST_REVERSAL * (high - low), 8.0 * record.jitter)
-    padded = np.concatenate([[low - 1.0], path, [low - 1.0]])
-    padded[[0, -1]] -= 10.0 * (high - low)  # an end of the record can be a peak
+    # an end of the record can be a peak
+    padded = np.pad(path, 1, constant_values=low - 10.0 * (high - low))
     peaks = find_peaks(padded, prominence=min(deep, 0.9 * (high - low)))[0] - 1
     if not len(peaks):  # a plateau over the whole of it
         peaks = np.array([int(path.argmax())])

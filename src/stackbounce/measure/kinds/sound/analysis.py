@@ -118,7 +118,7 @@ def knocks(
     if not len(rises.times):
         raise InvalidValue(
             "sound must hold a knock that rises above what precedes it, got none: "
-            "lower threshold, or record closer to the ball"
+            "record closer to the ball, or give a lower threshold in Python"
         )
     rises, doubles = _merged(rises, dead)
     chain = find_chain(rises, dead)

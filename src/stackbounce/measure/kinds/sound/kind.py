@@ -1,5 +1,6 @@
 """Sound as a kind of measurement."""
 
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -24,5 +25,6 @@ def analyse(data: Any, setup: Setup) -> tuple[Finding, ...]:
     # A restitution needs two known flights in a row; the drop is one if its height is known.
     known = [height is not None, *(not lost for lost in heard.missed)]
     if any(before and after for before, after in pairwise(known)):
-        return bounces(heard, drop_height=height, gravity=gravity, drag=drag), heard
+        told = bounces(heard, drop_height=height, gravity=gravity, drag=drag)
+        return told, replace(heard, times=told.times)  # whose errors the restitutions may correct
     return few_bounces(heard, gravity=gravity, drag=drag), heard

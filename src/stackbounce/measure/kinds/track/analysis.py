@@ -11,17 +11,10 @@ from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.drag import Drag, with_difference, with_error_of_drag
 from stackbounce.measure.kinds.track import motion
 from stackbounce.measure.kinds.track.free_flight import comparable, no_flight, no_gain, what_is_seen
-from stackbounce.measure.kinds.track.notes import notes_of, stays_long
+from stackbounce.measure.kinds.track.motion import shape_of
 from stackbounce.measure.kinds.track.parabolas import Parabolas
-from stackbounce.measure.kinds.track.paths import (
-    Columns,
-    Upward,
-    flights_of,
-    positions_of,
-    upward,
-)
-from stackbounce.measure.kinds.track.result import Track, Tracks
-from stackbounce.measure.kinds.track.shape import shape_of
+from stackbounce.measure.kinds.track.paths import Columns, Upward, flights_of, positions_of, upward
+from stackbounce.measure.kinds.track.result import Track, Tracks, notes_of, stays_long
 from stackbounce.measure.kinds.track.steadiness import (
     Turn,
     acceleration_angle,
@@ -172,11 +165,8 @@ def track(
     base = check_time_base(_common_gravity(balls), gravity, rate, units)
     notes.extend([base.note] * (not base.agrees))
     ratios = _rebound_ratios(balls, notes)
-    gained = (
-        {}
-        if ratios
-        else {ball.name: no_gain(ball.restitutions, ball.impact_times) for ball in balls}
-    )
+    alone = [] if ratios else balls
+    gained = {ball.name: no_gain(ball.restitutions, ball.impact_times) for ball in alone}
     notes.extend(
         f"{name}: it is left out, as it shows {why}." for name, why in gained.items() if why
     )

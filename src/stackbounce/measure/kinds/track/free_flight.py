@@ -11,9 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.measure.kinds.track.flights import Flight
-from stackbounce.measure.kinds.track.parabolas import Parabolas
-from stackbounce.measure.kinds.track.shape import curvatures, shape_of
+from stackbounce.measure.kinds.track.motion import curvatures, shape_of
+from stackbounce.measure.kinds.track.parabolas import Flight, Parabolas
 from stackbounce.measure.kinds.track.time_base import is_usual
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array

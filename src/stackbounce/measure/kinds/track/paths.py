@@ -7,9 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
-from stackbounce.measure.kinds.track.flights import Flight, find_flights, unexplained
-from stackbounce.measure.kinds.track.parabolas import Parabolas
-from stackbounce.measure.kinds.track.shape import curvatures, own_noise
+from stackbounce.measure.kinds.track.motion import curvatures, own_noise
+from stackbounce.measure.kinds.track.parabolas import Flight, Parabolas, find_flights, unexplained
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns, resolution
 

@@ -18,18 +18,28 @@ from stackbounce.measure.kinds.waveform.intervals import (
     smoothed,
     which_sign,
 )
+from stackbounce.measure.kinds.waveform.peaks import flat_top
 from stackbounce.measure.kinds.waveform.record import Record, read_record, undrooped
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
+from stackbounce.measure.kinds.waveform.ringing import ringing_of
 from stackbounce.measure.kinds.waveform.sensor import sensitivity_of
 from stackbounce.measure.kinds.waveform.shapes import UNTOLD, Ends, ends_of
 from stackbounce.measure.messages import Message, OptionHint
-from stackbounce.measure.quantities import Array, known_to, measured_if_given
+from stackbounce.measure.quantities import Array, known_to, measured_if_given, nominal
+from stackbounce.measure.samples import runs
 from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
+_HIGH = 0.25  # of the largest value, below which only hum and noise are sought at first
+_SMOOTHED = 1e-4  # s of averages, so that noise does not break high parts into short ones
+_HIGH_MARGIN = 0.5  # of a high part's length, on each side
+_MANY_EQUAL, _EQUAL = 5, 0.02  # pulses, and the share by which their peaks differ at most
+_FULL = (
+    0.8  # of peak times duration: the impulse of a square pulse with slow edges; a sine has 0.64
+)
 _ROUNDS = 4  # of finding baseline and contacts by each other; later ones change nothing
 _MOST_CONTACTS = 120  # of a record of bounces
 _FEW_SAMPLES = 6  # of a contact, below which a note says so
@@ -124,10 +134,15 @@ def waveform(
     v = measured_if_given("impact_speed", impact_speed, "m/s")
     record = read_record(data)
     raw = record.values
+    ringing = ringing_of(record)
+    if ringing is not None:
+        record, inner = ringing.force(record)
+        raw = raw[inner]
     seen = _see(record, raw, threshold, sign)
     if time_constant is not None:
         record = _undrooped(record, seen, time_constant)
         seen = _see(record, raw, threshold, sign)
+    seen = seen._replace(ringing=ringing)
     if len(seen.stretches) > _MOST_CONTACTS:
         got = (
             f"data must hold the contacts of a bounce or of a few, up to {_MOST_CONTACTS}, got "
@@ -135,8 +150,10 @@ def waveform(
             "which the bounces are a part? "
         )
         raise InvalidValue(Message(got, OptionHint({"start": None, "stop": None}), " choose it"))
-    unlike = sum(no_contact(seen.signal[part.first : part.last + 1]) for part in seen.stretches)
+    unlike = len(seen.stretches) - len(_alike(seen))
     seen, contacts = _contacts(seen, ends)
+    if _are_square(contacts):
+        unlike, contacts = unlike + len(contacts), ()
     notes = [*record.notes, *_notes(record.unit, seen, contacts, m, unlike)]
     if time_constant is None:
         notes += _droops(seen, record.step)
@@ -168,6 +185,11 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
     """Find baseline and contacts by iteration, as each depends on the other."""
     quiet = np.zeros(len(record.times), dtype=bool)
     zero = quiet_parts(record, quiet, hum=False)
+    width = 2 * int(0.5 * _SMOOTHED / record.step) + 1
+    bare = smoothed(np.abs(record.values - zero.baseline), width)
+    high = [Stretch(int(a), int(b)) for a, b in zip(*runs(bare > _HIGH * bare.max()), strict=True)]
+    humming = quiet_parts(record, _outside(len(bare), high, _HIGH_MARGIN), hum=True)
+    zero = humming if humming.hum else zero
     stretches: list[Stretch] = []
     short, own = 0, sign or 1
     for k in range(_ROUNDS):
@@ -175,7 +197,7 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
         own = sign or which_sign(bare, zero.noise)
         stretches, short = find_stretches(own * bare, zero.noise, zero.density, threshold)
         quiet = _outside(len(bare), stretches)
-        zero = quiet_parts(record, quiet, hum=k > 0)
+        zero = quiet_parts(record, quiet, hum=k > 0 or bool(humming.hum))
     signal = own * (record.values - zero.baseline)
     times, quantum = record.times, record.quantum
     return Seen(times, signal, own * raw, quantum, zero, quiet, stretches, short, own)
@@ -183,9 +205,7 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
 
 def _contacts(seen: Seen, ends: Ends) -> tuple[Seen, tuple[Contact, ...]]:
     """Measure the contacts; those that begin before the one before them ends are one with it."""
-    kept = [
-        part for part in seen.stretches if not no_contact(seen.signal[part.first : part.last + 1])
-    ]
+    kept = _alike(seen)
     around = [None, *kept, None]
     contacts = tuple(
         measure_contact(seen, around[k], stretch, around[k + 2], ends)
@@ -202,13 +222,35 @@ def _contacts(seen: Seen, ends: Ends) -> tuple[Seen, tuple[Contact, ...]]:
     return (seen, contacts) if len(joined) == len(kept) else _contacts(seen, ends)
 
 
-def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
+def _alike(seen: Seen) -> list[Stretch]:
+    """Return the stretches that are like contacts of balls."""
+    noisy = seen.zero.noise > seen.quantum  # so that a flat top is a clipped one
+    parts = ((part, slice(part.first, part.last + 1)) for part in seen.stretches)
+    return [
+        part
+        for part, own in parts
+        if not no_contact(seen.signal[own], clipped=noisy and flat_top(seen.raw[own], seen.quantum))
+    ]
+
+
+def _are_square(contacts: tuple[Contact, ...]) -> bool:
+    """Return whether pulses are equally high and full, as those of a generator."""
+    whole = [contact for contact in contacts if contact.time is not None]
+    if len(whole) < _MANY_EQUAL or any(contact.clipped for contact in contacts):
+        return False
+    peaks = np.array([nominal(contact.peak_force) for contact in whole])
+    areas = [nominal(contact.impulse) / nominal(contact.time) for contact in whole]
+    equal = float(np.ptp(peaks)) < _EQUAL * peaks.max()
+    return equal and float(np.median(areas / peaks)) > _FULL
+
+
+def _outside(count: int, stretches: list[Stretch], share: float = _MARGIN) -> NDArray[np.bool_]:
     """Return which samples are outside all contacts, with a margin."""
     quiet = np.ones(count, dtype=bool)
     ends = [-1, *(stretch.last for stretch in stretches)]
     starts = [*(stretch.first for stretch in stretches), count]
     for k, one in enumerate(stretches):
-        margin = int(_MARGIN * len(one)) + 2
+        margin = int(share * len(one)) + 2
         before, after = (one.first - ends[k]) // 3, (starts[k + 1] - one.last) // 3
         quiet[one.first - min(margin, before) : one.last + min(margin, after) + 1] = False
     return quiet
@@ -230,6 +272,12 @@ def _notes(
     """Return the notes on a record."""
     notes = []
     of = f" {unit}" if unit else ""
+    if seen.ringing is not None:
+        notes.append(
+            f"the sensor rings at {seen.ringing.frequency:.0f} Hz with a damping ratio of "
+            f"{seen.ringing.damping:.2g}, as it shows after a contact: this was taken off at the "
+            "cost of accuracy; a stiffer sensor or mount rings above 5 / contact time"
+        )
     if unlike:
         notes.append(
             f"{unlike} of the stretches above the noise are no contacts of balls: they jump "

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.measure.kinds.waveform.hum import Base, find_hum, fit_quiet, leverage
 from stackbounce.measure.kinds.waveform.record import Record
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import quantisation_error
@@ -16,11 +17,6 @@ _FAR = 0.2  # of a record's range: a clipped level that differs more from the en
 _FIFTH = 0.2  # of normal deviates that are within `_WITHIN_FIFTH`
 _WITHIN_FIFTH = 0.2533  # standard deviations
 _WITHIN_ONE = 0.683  # share of normal deviates within one standard deviation
-_MAINS = (50.0, 60.0)  # Hz
-_BLOCK = 1e-3  # s, over which a hum hardly changes
-_LEAST_GAIN = 40.0  # decrease of chi squared that a hum must give
-_LEAST_PERIODS = 2.0  # of a hum, in a record that is long enough to tell it from a drift
-_LEAST_SAMPLES = 24  # quiet ones, for a fit with hum
 _LARGEST_LEVERAGE = 5.0  # of a sample over that of a typical quiet one
 _CLIPPED_BEYOND = 4.0  # standard deviations, in sigma clipping
 _CLIPPING_ROUNDS = 4  # of sigma clipping
@@ -41,6 +37,8 @@ class Quiet:
         these: `noise` times the root of `correlation_factor`.
     error : float
         Of the baseline's level, one standard deviation.
+    hum_error : ndarray
+        (n,) of the baseline with hum at each sample; 0 where there is none.
     hum : float
         Amplitude of the hum; 0 where there is none.
     mains : float
@@ -51,6 +49,7 @@ class Quiet:
     noise: float
     density: float
     error: float
+    hum_error: Array
     hum: float
     mains: float
 
@@ -99,26 +98,23 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet
     """
     if quiet.sum() < 3:
         level, noise = first_guess(record)
-        return Quiet(np.full(len(quiet), level), noise, noise, noise, 0.0, 0.0)
+        flat = np.full(len(quiet), level)
+        return Quiet(flat, noise, noise, noise, np.zeros(len(quiet)), 0.0, 0.0)
     times = record.times - record.times[0]
     span = max(float(times[-1]), record.step)
     line = np.stack([np.ones_like(times), times / span - 0.5], axis=1)
     if not _holds(line, quiet):
         line = line[:, :1]
-    best, base = line, fit_quiet(line, record.values, quiet)
-    height = mains = 0.0
-    if hum and quiet.sum() >= _LEAST_SAMPLES:
-        tone = _tone(times, record, quiet)
-        waves = np.concatenate([line, _waves(times, tone)], axis=1)
-        if tone and _holds(waves, quiet):
-            best, mains, base = waves, tone, fit_quiet(waves, record.values, quiet)
-            height = float(np.ptp(base - fit_quiet(line, base, quiet))) / 2.0
-    rest = (record.values - base)[quiet]
-    noise, density = scatter(rest, best.shape[1], record.quantum)
+    found = Base(fit_quiet(line, record.values, quiet), line.shape[1])
+    if hum:
+        found = find_hum(line, times, record, quiet) or found
+    rest = (record.values - found.values)[quiet]
+    noise, density = scatter(rest, found.fitted, record.quantum)
     floor = _floor(record)
     noise, density = max(noise, floor), max(density, floor)
     error = float(np.hypot(density / np.sqrt(len(rest)), quantisation_error(record.quantum, noise)))
-    return Quiet(base, noise, density, error, height, mains)
+    unsure = density * found.leverage * np.ones(len(times))
+    return Quiet(found.values, noise, density, error, unsure, found.height, found.frequency)
 
 
 def scatter(rest: Array, fitted: int, quantum: float) -> tuple[float, float]:
@@ -142,53 +138,10 @@ def scatter(rest: Array, fitted: int, quantum: float) -> tuple[float, float]:
     return float(noise), float(noise * np.sqrt(correlation_factor(rest)))
 
 
-def _tones(span: float, step: float) -> list[float]:
-    """Return the mains frequencies in Hz to try, in steps that the record resolves."""
-    if span < _LEAST_PERIODS / _MAINS[0] or step > 0.2 / _MAINS[1]:
-        return []
-    if span < 0.1:
-        return list(_MAINS)
-    fine = np.linspace(-0.3, 0.3, int(min(31, 3 + 12 * span)))
-    return [float(main + off) for main in _MAINS for off in fine]
-
-
-def _tone(times: Array, record: Record, quiet: NDArray[np.bool_]) -> float:
-    """Return the frequency in Hz of a significant hum, or 0."""
-    width = max(1, int(_BLOCK / record.step))
-    count = len(times) // width * width
-    calm = quiet[:count].reshape(-1, width).all(axis=1)
-    t, y = (array[:count].reshape(-1, width).mean(axis=1)[calm] for array in (times, record.values))
-    every = np.ones(len(t), dtype=bool)
-    line = np.stack([np.ones_like(t), t], axis=1)
-    if len(t) < _LEAST_SAMPLES:
-        return 0.0
-    found, least = 0.0, float(np.sum((y - fit_quiet(line, y, every)) ** 2))
-    least /= 1.0 + _LEAST_GAIN / len(t)
-    for tone in _tones(float(times[-1]), record.step):
-        columns = np.concatenate([line, _waves(t, tone)], axis=1)
-        left = float(np.sum((y - fit_quiet(columns, y, every)) ** 2))
-        if left < least:
-            found, least = tone, left
-    return found
-
-
 def _holds(columns: Array, quiet: NDArray[np.bool_]) -> bool:
     """Return whether each sample has a low leverage, so that the fit is well determined there."""
-    normal = columns[quiet].T @ columns[quiet] / quiet.sum()
-    some = columns[:: max(1, len(columns) // 500)]
-    errors = np.sum(some * (some @ np.linalg.pinv(normal, hermitian=True)), axis=1)
-    return bool(errors.max() < _LARGEST_LEVERAGE * columns.shape[1])
-
-
-def _waves(times: Array, tone: float) -> Array:
-    angle = 2.0 * np.pi * tone * times
-    return np.stack([np.sin(angle), np.cos(angle)], axis=1)
-
-
-def fit_quiet(columns: Array, values: Array, quiet: NDArray[np.bool_]) -> Array:
-    """Return the linear regression on columns at all samples, fitted to the quiet ones."""
-    weights = np.linalg.lstsq(columns[quiet], values[quiet], rcond=None)[0]
-    return np.asarray(columns @ weights)
+    some = leverage(columns[:: max(1, len(columns) // 500)], columns[quiet])
+    return bool(some.max() ** 2 * quiet.sum() < _LARGEST_LEVERAGE * columns.shape[1])
 
 
 def _robust(rest: Array, quantum: float) -> float:

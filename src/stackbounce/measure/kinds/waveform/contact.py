@@ -6,11 +6,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.measure.kinds.waveform.baseline import Quiet, fit_quiet, scatter
+from stackbounce.measure.kinds.waveform.baseline import Quiet, scatter
 from stackbounce.measure.kinds.waveform.flanks import Part, fit_flank
+from stackbounce.measure.kinds.waveform.hum import fit_quiet
 from stackbounce.measure.kinds.waveform.intervals import Stretch
 from stackbounce.measure.kinds.waveform.peaks import find_peaks, flat_top, impulse_of
 from stackbounce.measure.kinds.waveform.result import Contact
+from stackbounce.measure.kinds.waveform.ringing import OWN_NOISE, Ringing
 from stackbounce.measure.kinds.waveform.shapes import Ends
 from stackbounce.measure.quantities import Array, known_to
 from stackbounce.measure.samples import quantisation_error
@@ -43,6 +45,8 @@ class Seen(NamedTuple):
         How many peaks were too short to be contacts.
     sign : int
         -1 where contacts go down in the record.
+    ringing : Ringing or None
+        Of the sensor; its effect is taken off the signal.
     """
 
     times: Array
@@ -54,6 +58,7 @@ class Seen(NamedTuple):
     stretches: list[Stretch]
     short: int
     sign: int
+    ringing: Ringing | None = None
 
 
 def measure_contact(
@@ -77,18 +82,22 @@ def measure_contact(
     part = _part(seen, before, one, after)
     pad = len(one) // 20 + 2
     inner = slice(max(0, part.first - pad), part.last + pad + 1)
-    peaks = find_peaks(part.times[inner], part.values[inner], part.noise, part.density)
+    ringing, density = seen.ringing, part.density
+    peaks = find_peaks(part.times[inner], part.values[inner], part.noise, density)
     rise = fit_flank(part, peaks[0], ends.touch, forward=True) if one.first > 1 else None
     whole = one.last < len(seen.times) - 2
     fall = fit_flank(part, peaks[-1], ends.release, forward=False) if whole else None
     start, end = (flank.time if flank else None for flank in (rise, fall))
+    if ringing is not None:
+        start, end, density = ringing.end(start, 1.0), ringing.end(end, -1.0), ringing.level_density
     inside = (
         part.times[part.first] if start is None else start.nominal_value,
         part.times[part.last] if end is None else end.nominal_value,
     )
-    area = impulse_of(part.times, part.values, part.density, part.offset, inside)
-    times = [known_to(peak.time, peak.time_error) for peak in peaks]
-    forces = [known_to(peak.force, hypot(peak.force_error, part.offset)) for peak in peaks]
+    area = impulse_of(part.times, part.values, density, part.offset, inside)
+    own = 1.0 if ringing is None else OWN_NOISE
+    times = [known_to(peak.time, own * peak.time_error) for peak in peaks]
+    forces = [known_to(peak.force, hypot(own * peak.force_error, part.offset)) for peak in peaks]
     return Contact(
         start=start,
         end=end,
@@ -127,6 +136,8 @@ def _part(seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | Non
         if sum(sides) >= _NOISE_SAMPLES:
             noise, density = scatter(values[quiet], columns.shape[1], seen.quantum)
             density = max(density, 1e-6 * float(np.ptp(values)))
-        own = density / np.sqrt(sum(sides))
+        level = density if seen.ringing is None else seen.ringing.level_density
+        own = level / np.sqrt(sum(sides))
         offset = float(np.hypot(own, quantisation_error(seen.quantum, noise)))
+    offset = float(np.hypot(offset, seen.zero.hum_error[(one.first + one.last) // 2]))
     return Part(times, values, one.first - low, one.last - low, offset, noise, density)

@@ -15,9 +15,12 @@ _LEAST_SAMPLES = 3  # of the shortest contact
 # Of contacts, half sines to very lossy ones, and of square waves and exponentials, by hand:
 _LEAST_JUDGED = 40  # samples of a stretch whose shape is judged
 _BETWEEN = 0.04  # share of samples from 1/4 to 3/4 of the height; half a sine has 0.38
+_EDGES = 3  # samples from 1/4 to 3/4 of the height, at least, of a contact that is clipped
 _JUMP = 0.05  # of the fall's length, the longest rise of a jump
 _FADED = 0.1  # of its height, to which a fall is followed
-_CONVEX = 0.42  # mean of a fall over its height; an exponential has 0.39, a straight line 0.55
+_CONVEX = 0.4  # mean of a fall over its height; at 0.5 % noise an exponential has up to 0.3985, the
+# dashpot of restitution 0.1 mostly 0.402 to 0.415, and a straight line 0.55
+_FALL_AVERAGES = 50  # moving averages over the samples of a fall
 _MOST_SAMPLES = 20_001  # of a contact, as far as they set the width of the averages
 
 
@@ -57,8 +60,10 @@ def which_sign(signal: Array, noise: float) -> int:
     return -1 if down > up else 1
 
 
-def no_contact(force: Array) -> bool:
+def no_contact(force: Array, *, clipped: bool = False) -> bool:
     """Return whether a stretch is no contact of a ball: a square wave, or a jump that fades out.
+
+    A contact that is clipped low is nearly square, but its flanks have some samples.
 
     Examples
     --------
@@ -66,12 +71,16 @@ def no_contact(force: Array) -> bool:
     >>> no_contact(np.ones(200)), no_contact(np.exp(-phase)), no_contact(np.sin(phase))
     (True, True, False)
     """
-    top = int(np.argmax(force))
-    fall = force[top : int(np.flatnonzero(force >= _FADED * force[top])[-1]) + 1]
-    fades = top <= _JUMP * len(fall) and float(fall.mean()) < _CONVEX * force[top]
-    high = float(np.quantile(force, 0.9))
-    between = np.mean((force > 0.25 * high) & (force < 0.75 * high))
-    return len(force) >= _LEAST_JUDGED and bool(fades or between < _BETWEEN)
+    width = 2 * (int(np.sum(force > _FADED * force.max())) // _FALL_AVERAGES) + 1
+    even = smoothed(force[int(np.argmax(force > 0.5 * force.max())) :], width)  # after the rise
+    top = int(np.argmax(even))
+    fall = even[top : int(np.flatnonzero(even >= _FADED * even[top])[-1]) + 1]
+    mean = float(np.trapezoid(fall)) / max(len(fall) - 1, 1)
+    fades = top <= _JUMP * len(fall) and mean < _CONVEX * even[top]
+    level = float(np.quantile(force, 0.9))
+    between = int(np.sum((force > 0.25 * level) & (force < 0.75 * level)))
+    square = between < (_EDGES if clipped else _BETWEEN * len(force))
+    return len(force) >= _LEAST_JUDGED and bool(fades or square)
 
 
 def find_stretches(

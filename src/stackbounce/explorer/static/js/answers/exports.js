@@ -20,7 +20,7 @@ export function exportText(kind, mapping, until_, errors = {}) {
   return kind === "toml" ? writeToml(withErrors(drop, pairs)) : writePython(drop, until, pairs);
 }
 
-/** Return `{number, value, error}` of each error, in SI units: as add_values of stackbounce/explorer/answers/predictions.py. */
+/** Return `{number, value, error}` of each error, in SI units: as add_values of stackbounce/explorer/answers/play.py. */
 function addValues(drop, errors) {
   const all = numbersOf(drop);
   return Object.entries(errors).map(([path, error]) => {
@@ -32,7 +32,7 @@ function addValues(drop, errors) {
   });
 }
 
-/** Return a drop as plain values, numbers with errors as texts: as stackbounce/prediction/scenario.py. */
+/** Return a drop as plain values, numbers with errors as texts: as stackbounce/prediction/prediction.py. */
 function withErrors(drop, pairs) {
   const mapping = dropAt(drop, pairs.map(({ number, value }) => [number, value])).toMapping();
   for (const { number, value, error } of pairs.filter((pair) => pair.error > 0)) {

@@ -1,4 +1,4 @@
-/** Reads a drop from what somebody gave, as stackbounce/model/schema.py does: same numbers, same words. */
+/** Reads a drop from what somebody gave, as stackbounce/model/toml.py does: same numbers, same words. */
 
 import { Drop } from "./drop.js";
 import { InvalidValue, Wrong, between, nearest, shown, shownAsGiven, writeFloat } from "./errors.js";

@@ -17,8 +17,7 @@ from stackbounce.errors import InvalidValue, fraction, shown
 from stackbounce.measure.finding import Finding, Listed, force_channels
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.result import Waveform
-from stackbounce.measure.quantities import Number, measured, measured_if_given
-from stackbounce.measure.statistics.propagation import propagate
+from stackbounce.measure.quantities import Number, measured, measured_if_given, propagate
 from stackbounce.model import Ball, Drop
 from stackbounce.run.driver import simulate
 
