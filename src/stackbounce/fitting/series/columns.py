@@ -5,7 +5,7 @@ import tomllib
 from dataclasses import dataclass
 from importlib.resources import files
 
-from stackbounce.measure.reading.headings import heading
+from stackbounce.measure.reading.roles import heading
 from stackbounce.units import in_si
 
 _KNOWN = tomllib.loads((files(__package__) / "columns.toml").read_text("utf-8"))

@@ -13,7 +13,7 @@ from stackbounce.errors import InvalidValue
 from stackbounce.fitting.rows import Row, decimal_comma
 from stackbounce.fitting.series.columns import UNITS, Column, columns_of
 from stackbounce.measure.quantities import quantity_with_error
-from stackbounce.measure.reading.headings import is_unit
+from stackbounce.measure.reading.roles import is_unit
 from stackbounce.measure.reading.text import MISSING
 from stackbounce.run.quantities import Array
 from stackbounce.units import handy, quantity
