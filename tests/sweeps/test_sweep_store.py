@@ -7,6 +7,8 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import dask.array as da
@@ -307,6 +309,20 @@ def test_a_writer_is_named(out):
     with only_writer(out), pytest.raises(sb.StackbounceError, match=words):
         write(out, DROP, VALUES, block=64)
     assert not list(out.parent.iterdir())
+
+
+def test_a_writer_that_has_not_said_yet_who_it_is_is_waited_for(out):
+    with only_writer(out), ThreadPoolExecutor(1) as pool:
+        said = log_of(out).read_bytes()
+        os.truncate(log_of(out), 0)
+        other = pool.submit(write, out, DROP, VALUES, block=64)
+        time.sleep(0.1)
+        log_of(out).write_bytes(said)
+        with pytest.raises(FileError, match=rf"is being written by process {os.getpid()} on "):
+            other.result()
+        os.truncate(log_of(out), 0)
+        with pytest.raises(FileError, match="is being written by another process: wait until"):
+            write(out, DROP, VALUES, block=64)
 
 
 @pytest.mark.parametrize("junk", [b"my own notes", b"3 2\n", b"# w\nready\n7\n", b"\0\xff\n", None])

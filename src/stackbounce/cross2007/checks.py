@@ -69,7 +69,7 @@ class Row:
 
     @property
     def explained(self) -> bool:
-        """Whether the number agrees, or has a reason and a reading that agrees."""
+        """Return whether the number agrees, or has a reason and a reading that agrees."""
         if self.verdict != DIFFERS:
             return True
         return bool(self.attempts) and any(attempt.verdict != DIFFERS for attempt in self.attempts)

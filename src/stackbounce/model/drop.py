@@ -151,7 +151,7 @@ class Drop:
 
     @property
     def rigid(self) -> bool:
-        """Whether every contact is `Rigid`, so that the drop is a sequence of collisions."""
+        """Return whether every contact is `Rigid`, so that the drop is a sequence of collisions."""
         return all(law.rigid for law in self.contacts if law is not None)
 
     @classmethod

@@ -9,12 +9,14 @@ be read; those that cannot are computed again.
 """
 
 import contextlib
+import itertools
 import math
 import os
 import platform
 import re
 import shutil
 import stat
+import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
@@ -37,6 +39,7 @@ if TYPE_CHECKING:
     from distributed import Client
 
 _WRITER = b"# process "
+_ATTEMPTS, _PAUSE = 100, 0.01  # s: as long is waited for a writer to say who it is
 BLOCK = 2**16
 """Drops in a block, at most."""
 
@@ -76,16 +79,23 @@ def only_writer(out: Path) -> Iterator[bool]:
 
 @contextlib.contextmanager
 def _opened(path: Path, out: Path) -> Iterator[BinaryIO]:
-    """Open and lock a file that a writer that ends may remove at any time."""
-    while True:
+    """Open and lock a file that a writer that ends may remove at any time.
+
+    One that has just locked it has not said yet who it is, and is waited for.
+    """
+    for attempt in itertools.count():
         with os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+b", buffering=0) as file:
             if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
                 raise FileError(f"{path} is no ordinary file: remove it")
             if not _locked(file):
-                raise FileError(
-                    f"{out} is being written by {_writer(path)}: wait until it has ended"
-                )
-            if _is_at(path, file):
+                writer = _writer(path)
+                if writer or attempt == _ATTEMPTS:
+                    raise FileError(
+                        f"{out} is being written by {writer or 'another process'}: wait until it "
+                        "has ended"
+                    )
+                time.sleep(_PAUSE)
+            elif _is_at(path, file):
                 yield file
                 return
 
@@ -117,12 +127,11 @@ def _locked(file: object) -> bool:
 
 
 def _writer(path: Path) -> str:
-    """Return who writes a file that is locked, as it says."""
+    """Return who writes a file that is locked, as it says; "" if it does not, or is gone."""
     try:
-        line = path.read_text("ascii", "replace").strip()
+        return path.read_text("ascii", "replace").strip().removeprefix("# ")
     except OSError:
-        line = ""
-    return line.removeprefix("# ") or "another process"
+        return ""
 
 
 def write(

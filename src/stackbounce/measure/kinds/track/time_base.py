@@ -36,7 +36,7 @@ class TrackUnits(NamedTuple):
 
     @property
     def known(self) -> bool:
-        """Whether they are those of SI, so that gravity can check them."""
+        """Return whether they are those of SI, so that gravity can check them."""
         return self == SI
 
     @property

@@ -69,7 +69,7 @@ class Shape:
 
     @property
     def known(self) -> bool:
-        """Whether the lead has no unknown."""
+        """Return whether the lead has no unknown."""
         return self.least == self.most
 
     def grid(self) -> Array:
