@@ -5,8 +5,8 @@ import re
 
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.files import content_of
-from stackbounce.measure.reading import tables
 from stackbounce.measure.reading.limits import BYTES, COLUMNS, LINE, refuse_others
+from stackbounce.measure.reading.tables import from_xlsx
 from stackbounce.measure.reading.text import decode, split
 
 Row = tuple[int, list[str]]
@@ -42,8 +42,8 @@ def rows_of(path: str | os.PathLike[str]) -> tuple[str, list[Row]]:
     """
     name, content = content_of(path, BYTES)
     try:
-        if content.startswith(b"PK\x03\x04") and tables.is_xlsx(content):
-            content = bytearray(next(iter(tables.from_xlsx(content).members.values())))
+        if content.startswith(b"PK\x03\x04"):
+            content = bytearray(next(iter(from_xlsx(content).members.values())))
         refuse_others(content)
         return name, _split(decode(content))
     except FileError as error:
