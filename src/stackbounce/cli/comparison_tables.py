@@ -45,8 +45,9 @@ def print_comparison(console: Console, done: Comparison, speed: float) -> None:
         "hopeless. The last number says how well each measurement is predicted from all others, if "
         "it is left out: more is better."
     )
-    for model, reason in done.refused.items():
-        console.print(f"Not fitted: {model}: {reason}.")
+    for remark in done.remarks:
+        if remark.startswith("Not"):
+            console.print(remark)
     first = done.scores[0].model
     for note in done[first].notes:
         console.print(f"Note on {first}: {note}.")

@@ -14,6 +14,7 @@ from stackbounce.extras import need
 if TYPE_CHECKING:
     from stackbounce.cli.fit_tables import Fitted
     from stackbounce.fitting import Comparison, FitProblem
+    from stackbounce.fitting.series import StackTable
 
 
 def run(
@@ -22,20 +23,25 @@ def run(
     """Fit parameters of a drop to measured values, with errors."""
     need("fit", "stackbounce fit")
     output.check_picture(plot, overwrite)
-    if series.is_series(what):
+    table = series.is_series(what)
+    stack = series.stack_of(what[0], given) if table else None
+    if table and stack is None:
         series.fit_series(what[0], plot, overwrite, as_json, given)
         return
-    _check_of_drop(given)
+    _check_of_drop(given, () if stack is None else ("error",))
     from stackbounce.cli import comparison_tables, fit_files, fit_tables
     from stackbounce.fitting.question import build_problem
-    from stackbounce.fitting.standard import calibration_speed
+    from stackbounce.fitting.standard import calibration_speed, usual_model
 
     save, draws, corner = given["save"], given["draws"], given["corner"]
     output.check_picture(corner, overwrite, "--corner")
     _check_together(given)
-    parts = fit_files.read_parts_of(what, {name: given[name] for name in DROP})
+    parts = fit_files.read_parts_of(what, {name: given[name] for name in DROP}, stack)
     question = {name: given[name] for name in ("data", "measured", "vary", "tie")}
-    problem = build_problem(parts, **question, compared=given["compare"])
+    usual = stack is not None and not given["vary"]
+    problem = build_problem(parts, **question, compared=given["compare"] or usual)
+    if usual and not given["compare"]:
+        problem = usual_model(problem)
     if given["compare"]:
         compared, speed = _compare(problem, given), calibration_speed(problem.drops)
         output.draw_picture(plot, overwrite, "compared", compared)
@@ -43,7 +49,7 @@ def run(
             output.print_json(comparison_tables.comparison_as_dict(compared, speed))
         else:
             comparison_tables.print_comparison(output.console(), compared, speed)
-            output.print_files(plot)
+            _print_end(compared, stack, given, plot)
         return
     fit_files.check_save(save, overwrite, problem, what)
     fit_files.check_save(draws, overwrite, problem, what, "--draws", ".csv")
@@ -60,13 +66,23 @@ def run(
         typer.echo(f"Fitted: {save}; now: stackbounce simulate {saved[0]}")
     if drawn:
         typer.echo(f"Draws: {draws}; now: stackbounce sweep … --draws {drawn[0]}")
-    output.print_files(plot, corner)
+    _print_end(done.fit, stack, given, plot, corner)
 
 
-def _check_of_drop(given: Mapping[str, Any]) -> None:
+def _print_end(
+    found: Any, stack: "StackTable | None", given: Mapping[str, Any], *pictures: Path | None
+) -> None:
+    """Print the notes on a stack's table, the files of pictures, and how to cite what was found."""
+    for note in stack.notes if stack else ():
+        output.console().print(f"Note: {note}")
+    output.print_files(*pictures)
+    output.print_citation(given["cite"], found)
+
+
+def _check_of_drop(given: Mapping[str, Any], allowed: Sequence[str]) -> None:
     """Refuse options that are of a table of bounces."""
     for name in ("error", "mass", "diameter", "out"):
-        if given[name] is not None:
+        if given[name] is not None and name not in allowed:
             raise InvalidValue(f"--{name} is of a table of bounces, such as heights.csv")
 
 

@@ -11,11 +11,17 @@ from stackbounce.errors import FileError, InvalidValue
 from stackbounce.files import check_own, check_place, write_file
 from stackbounce.fitting import Fit, FitProblem, Posterior
 from stackbounce.fitting.files import Parts, read_parts
+from stackbounce.fitting.series import StackTable
 from stackbounce.sweeps.draws import draws_text
 
 
-def read_parts_of(what: Sequence[str], changes: Mapping[str, Any]) -> Parts:
-    """Return the parts of a fit problem: from a data set, from a file, or a drop without data."""
+def read_parts_of(
+    what: Sequence[str], changes: Mapping[str, Any], stack: StackTable | None = None
+) -> Parts:
+    """Return the parts of a fit problem: from a table, a data set, a file, or a drop alone."""
+    if stack is not None:
+        drops = {key: scenario.change(drop, **changes) for key, drop in stack.drops.items()}
+        return Parts(drops, dict(stack.data), {}, {})
     if len(what) == 1 and what[0].startswith(PREFIX) and not Path(what[0]).exists():
         drop, data, vary, _ = load_dataset(what[0])
         return Parts({"": scenario.change(drop, **changes)}, {"": data}, vary, {})

@@ -8,9 +8,9 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from stackbounce.cli.tables import new_table, number
+from stackbounce.cli.tables import new_table
 from stackbounce.fitting import Fit, Interval, Posterior
-from stackbounce.fitting.notes import describe_freedom
+from stackbounce.fitting.notes import describe_goodness
 from stackbounce.units import handy, rounded
 
 _STRONG = 0.5  # a correlation above it is printed
@@ -76,7 +76,7 @@ def print_fit(console: Console, done: Fitted) -> None:
     for record in found.records:
         words = f"{len(record.times)} samples scatter by {record.scatter:.3g} of their error"
         console.print(f"  {record.label}: {words} around the fitted curve")
-    console.print(f"\n{_describe_goodness(found)}")
+    console.print(f"\n{describe_goodness(found)}")
     matrix, names = found.correlations.values, found.names
     strong = [
         f"{names[i]} and {names[j]} {matrix[i, j]:+.2f}"
@@ -129,14 +129,3 @@ def _tabulate_residuals(found: Fit) -> Table:
         numbers = [factor * value for value in (row.measured, row.error, row.fitted)]
         table.add_row(row.label, *rounded(numbers, factor * row.error), f"{row.pull:+.2f}", unit)
     return table
-
-
-def _describe_goodness(found: Fit) -> str:
-    """Return chi squared in words."""
-    count = found.degrees_of_freedom
-    words = f"Chi squared: {number(found.chi_squared)} for {describe_freedom(count)}"
-    if not count:
-        return f"{words}: too few data to tell whether the model is right."
-    share = 100.0 * found.probability
-    often = f"{share:.2g} %" if share >= 0.01 else "less than 0.01 %"
-    return f"{words}; were the model right, it would be larger in {often} of all cases."

@@ -16,7 +16,7 @@ from stackbounce.units import quantity
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from stackbounce.fitting.series import Comparison, SeriesFit
+    from stackbounce.fitting.series import Comparison, SeriesFit, StackTable
 
 PREFIX = "dataset:"
 _TABLES = (".csv", ".tsv", ".txt", ".dat", ".xlsx")
@@ -39,6 +39,13 @@ def is_series(what: Sequence[str]) -> bool:
     suffix = path.suffix.lower()
     named = what[0].startswith(PREFIX) or suffix in _TABLES
     return len(what) == 1 and (named or (suffix != ".toml" and path.is_file()))
+
+
+def stack_of(what: str, given: Mapping[str, Any]) -> "StackTable | None":
+    """Return the drops of a table with a column for each ball of a stack; None if it is none."""
+    from stackbounce.fitting.series import read_stack
+
+    return None if what.startswith(PREFIX) else read_stack(what, given["error"] or ())
 
 
 def fit_series(
@@ -83,6 +90,7 @@ def fit_series(
     output.print_files(plot)
     if given["out"]:
         typer.echo(f"Open {Path(given['out']) / 'index.html'}")
+    output.print_citation(given["cite"], done)
 
 
 def _held(file: str) -> str:

@@ -14,9 +14,11 @@ from stackbounce.fitting.least_squares import find_minima
 from stackbounce.fitting.problem import FitProblem, TooFewData
 from stackbounce.fitting.result import Fit
 from stackbounce.run.quantities import Array
+from stackbounce.shown import Shown
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray as xr
 
 _DRAWS = 256  # of the parameters, for the spread of a prediction
@@ -64,8 +66,8 @@ class Prediction(NamedTuple):
         return (self.predicted - self.measured) / math.hypot(self.error, self.predicted_error)
 
 
-@dataclass(frozen=True, eq=False)
-class Comparison:
+@dataclass(frozen=True, eq=False, repr=False)
+class Comparison(Shown):
     """Several models of the same data; made by `compare`.
 
     Parameters
@@ -130,6 +132,27 @@ class Comparison:
             )
             for best, names in same.items()
         ]
+
+    @property
+    def table(self) -> "pd.DataFrame":
+        """The scores, a row for each model."""
+        import pandas as pd
+
+        return pd.DataFrame(self.scores).set_index("model").drop(columns="same_as")
+
+    @property
+    def remarks(self) -> tuple[str, ...]:  # type: ignore[override]
+        """Which models are not told apart, and which were not fitted."""
+        same = [
+            f"{score.model} has the same best fit as {', '.join(score.same_as)}."
+            for score in self.scores
+            if score.same_as
+        ]
+        reasons = {
+            why: ", ".join(name for name, other in self.refused.items() if other == why)
+            for why in self.refused.values()
+        }
+        return (*same, *(f"Not fitted: {names}: {why}." for why, names in reasons.items()))
 
     @functools.cached_property
     def pulls(self) -> "xr.DataArray":

@@ -13,6 +13,7 @@ from stackbounce.run.quantities import Array
 if TYPE_CHECKING:
     from stackbounce.fitting.result import Fit
 
+_ROUND_OFF = 1e-9  # chi squared below it is none
 _CLOSE = 4.0  # chi squared above the best up to which another minimum is worth a note
 _UNLIKELY = 1e-3  # probability of chi squared below which the model is doubted
 _BAD = 0.05  # probability of chi squared below which an outlier is looked for
@@ -31,6 +32,18 @@ def describe_freedom(count: int) -> str:
     ('1 degree of freedom', '2 degrees of freedom')
     """
     return f"{count} degree{'' if count == 1 else 's'} of freedom"
+
+
+def describe_goodness(fit: "Fit") -> str:
+    """Return chi squared in words."""
+    count = fit.degrees_of_freedom
+    size = 0.0 if fit.chi_squared < _ROUND_OFF else fit.chi_squared
+    words = f"Chi squared: {size:.4g} for {describe_freedom(count)}"
+    if not count:
+        return f"{words}: too few data to tell whether the model is right."
+    share = 100.0 * fit.probability
+    often = f"{share:.2g} %" if share >= 0.01 else "less than 0.01 %"
+    return f"{words}; were the model right, it would be larger in {often} of all cases."
 
 
 def describe_undetermined(names: Sequence[str], sizes: Array, directions: Array) -> tuple[str, ...]:

@@ -13,6 +13,7 @@ from stackbounce.run.options import check_room
 from stackbounce.run.quantities import Array
 
 if TYPE_CHECKING:
+    import xarray as xr
     from uncertainties import UFloat
 
     from stackbounce.fitting.result import Fit
@@ -103,6 +104,20 @@ class Posterior:
         if name not in self.names:
             raise InvalidValue(f"{shown(name)} was not varied; {nearest(name, self.names)}")
         return np.asarray(self.chain[:, :, self.names.index(name)].ravel())
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return the draws (chain, draw) of each parameter in SI units, and `lp`, as ArviZ reads.
+
+        ``arviz.convert_to_inference_data(posterior.to_dataset())`` has diagnostics and pictures.
+        """
+        import xarray as xr
+
+        dims = ("chain", "draw")
+        columns = {
+            name: (dims, self.chain[:, :, k].T, {"units": self.units[name]})
+            for k, name in enumerate(self.names)
+        }
+        return xr.Dataset({**columns, "lp": (dims, self.log_probability.T)})
 
     def quantiles(self, name: str, at: Any = (0.159, 0.5, 0.841)) -> Array:
         """Return quantiles of a parameter, by default the median and one sigma on both sides.

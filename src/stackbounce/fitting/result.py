@@ -20,19 +20,25 @@ from stackbounce.fitting.residuals import Record, Residual, list_records, list_r
 from stackbounce.model import Drop
 from stackbounce.prediction import Prediction, predict
 from stackbounce.prediction.draws import Progress
-from stackbounce.run.quantities import Array
+from stackbounce.run.options import run_options
+from stackbounce.run.paths import Number
+from stackbounce.run.quantities import Array, solve_quantities
+from stackbounce.shown import Shown
+from stackbounce.units import handy, rounded
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray as xr
     from uncertainties import UFloat
 
 _LINEARISED = 60  # evaluations with derivatives for an interval, about
+_EVENTS = 10_000  # limit for one drop of `along`
 _GOODNESS = ("chi_squared", "degrees_of_freedom", "probability", "aicc", "bic")
 
 
-@dataclass(frozen=True, eq=False)
-class Fit:
+@dataclass(frozen=True, eq=False, repr=False)
+class Fit(Shown):
     """The result of a fit; made by `stackbounce.fit` and `FitProblem.fit`.
 
     Parameters
@@ -53,9 +59,9 @@ class Fit:
     (2.238+/-0.090)e+04 N/m
     """
 
-    objective: Objective = field(repr=False)
-    minima: list[Minimum] = field(repr=False)
-    unsolved: Mapping[str, int] = field(repr=False, default_factory=dict)
+    objective: Objective
+    minima: list[Minimum]
+    unsolved: Mapping[str, int] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> "UFloat":
         """The best value of a parameter with its error, in SI units."""
@@ -195,6 +201,23 @@ class Fit:
     def undetermined(self) -> tuple[str, ...]:
         """What the data cannot determine, a sentence each; empty if they determine everything."""
         return notes.describe_undetermined(self.names, *self.directions)
+
+    @property
+    def table(self) -> "pd.DataFrame":
+        """The best values with their errors, in handy units."""
+        import pandas as pd
+
+        rows = {}
+        for name, own in self.values.items():
+            unit, factor = handy(abs(own.nominal_value), self.units[name])
+            both = (factor * own.nominal_value, factor * own.std_dev)
+            rows[name] = [*rounded(both, both[1]), unit]
+        return pd.DataFrame.from_dict(rows, orient="index", columns=["value", "error", "unit"])
+
+    @property
+    def remarks(self) -> tuple[str, ...]:  # type: ignore[override]
+        """Chi squared in words, and the notes."""
+        return (notes.describe_goodness(self), *(f"Note: {note}." for note in self.notes))
 
     def intervals(
         self, *, sigma: float = 1.0, progress: Progress | None = None
@@ -348,6 +371,47 @@ class Fit:
         ]
         rows = self.objective.rows(self._key(drop), np.stack(columns, axis=1))
         return {number.path: column for number, column in rows.items()}
+
+    def along(
+        self, number: Number, values: Array, drop: str | None = None
+    ) -> tuple[dict[str, Array], dict[str, Array]]:
+        """Return what the fit predicts of a drop at other values of one of its numbers.
+
+        Parameters
+        ----------
+        number : Number
+            From `stackbounce.run.paths.number_at`; it is not varied by the fit.
+        values : ndarray
+            (n,) in SI units.
+        drop : str, optional
+            The name of the drop; by default the first one.
+
+        Returns
+        -------
+        best, deviations : dict of str to ndarray
+            (n, parts) each quantity by name, and its standard deviation, by the derivatives by the
+            parameters.
+        """
+        key, objective, count = (
+            drop or next(iter(self.objective.drops)),
+            self.objective,
+            len(values),
+        )
+        trials = objective.neighbours(self.x)
+        rows = {
+            own: np.repeat(column, count) for own, column in objective.rows(key, trials).items()
+        }
+        rows[number] = np.tile(values, len(trials))
+        options = run_options(objective.drops[key], None, objective.rtol, _EVENTS)
+        solved = solve_quantities(objective.drops[key], rows, len(rows[number]), options).tables
+        moved = np.diag(differences(np.array(list(objective.values(trials).values())).T))
+        best, deviations = {}, {}
+        for quantity, table in solved.items():
+            of_trials = table.reshape(len(trials), count, -1)
+            slopes = differences(of_trials) / moved[:, None, None]
+            variance = np.einsum("i...,ij,j...->...", slopes, self.covariance.values, slopes)
+            best[quantity], deviations[quantity] = of_trials[-1], np.sqrt(np.maximum(variance, 0.0))
+        return best, deviations
 
     def _key(self, drop: str | None) -> str:
         """Return the name of a drop, None for the only one; raise if there is none of that name."""

@@ -80,6 +80,14 @@ def standard_models(
     return models
 
 
+def usual_model(problem: FitProblem) -> FitProblem:
+    """Return a problem with the model of a stack that the paper ends with, `Hysteretic`.
+
+    It varies the ratio of the stiffnesses, the gaps, and one restitution of all contacts.
+    """
+    return replace(standard_models(problem.drops)["Hysteretic"], data=problem.data)
+
+
 def calibration_speed(drops: Mapping[str, Drop]) -> float:
     """Return the geometric mean of the drops' impact speeds in m/s.
 

@@ -2,7 +2,7 @@
 
 from stackbounce.extras import need
 from stackbounce.plots.by_speed import restitutions
-from stackbounce.plots.fit_result import corner, fitted
+from stackbounce.plots.fit_result import corner, fit, fitted
 from stackbounce.plots.impact import bounce
 from stackbounce.plots.measurement import measured
 from stackbounce.plots.model_comparison import compared
@@ -12,6 +12,7 @@ __all__ = [
     "bounce",
     "compared",
     "corner",
+    "fit",
     "fitted",
     "heatmap",
     "highest",

@@ -6,6 +6,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.plots.by_number import draw_by_number, draw_into, find_number, panels_of
+from stackbounce.plots.by_speed import restitutions
+from stackbounce.plots.model_comparison import compared
 from stackbounce.plots.scales import Scale, label
 from stackbounce.plots.style import COLORS, styled_figure
 from stackbounce.units import handy, rounded
@@ -165,18 +168,53 @@ def _draw_minima(axes: "Axes", fit: Any) -> None:
         axes.plot(*place, "s", color=_OTHER, markeredgecolor="black", markersize=6, zorder=3)
 
 
-def fitted(fit: Any) -> "Figure":
-    """Draw the pulls of a fit, its force records, and chi squared around the minimum.
+def fit(found: Any, axes: Any = None) -> "Figure":
+    """Draw what a fit found, as its kind asks: by `restitutions`, `fitted`, `compared` or `corner`.
+
+    Parameters
+    ----------
+    found : SeriesFit, Fit, Comparison or Posterior
+        From `stackbounce.fit_series`, `fit`, `compare` or `Fit.sample`.
+    axes : matplotlib.axes.Axes or sequence of them, optional
+        Where to draw, if it is no `Posterior`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown and not saved.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> from stackbounce import plots
+    >>> found = sb.fit_series("dataset:golf-marble-heights", laws=["Rigid"])
+    >>> [axes.get_ylabel() for axes in plots.fit(found).axes]
+    ['restitution', 'less the best law']
+    """
+    draw: Any = {"SeriesFit": restitutions, "Fit": fitted, "Comparison": compared}.get(
+        type(found).__name__, corner
+    )
+    drawn: Figure = draw(found) if axes is None else draw(found, axes)
+    return drawn
+
+
+def fitted(fit: Any, axes: Any = None) -> "Figure":
+    """Draw what was measured with the fitted curves, and chi squared around the minimum.
 
     Parameters
     ----------
     fit : Fit
         From `stackbounce.fit`.
+    axes : matplotlib.axes.Axes or sequence of them, optional
+        Where to draw what was measured against the one number in which the drops differ: one or
+        two for each measured quantity. By default a new figure has all.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Not shown and not saved. The pulls: fitted minus measured numbers in standard errors. Force
+        Not shown and not saved. If the drops differ in one number, such as the height: what was
+        measured against it, the fitted curve with a band of one standard deviation, and the pulls,
+        fitted minus measured numbers in standard errors; else the pulls alone. Force
         records with the fitted curves. Below, chi squared: a curve for one parameter, a map with
         the profile of each for two. Dotted lines are kinks, where the number of contact intervals
         changes. With force records chi squared is not drawn, because each trial takes long.
@@ -190,14 +228,18 @@ def fitted(fit: Any) -> "Figure":
     >>> [axes.get_xlabel() for axes in plots.fitted(found).axes]
     ['fitted − measured (errors)', 'contacts.0.stiffness (N/m)']
     """
+    if axes is not None:
+        return draw_into(axes, {"": fit})
     residuals, records = fit.residuals[:_MOST_PULLS], fit.records[:_MOST_RECORDS]
-    count = 0 if records else len(fit.names)
-    heights = [0.9 + _ROW * len(residuals)] if residuals else []
+    count, number = 0 if records else len(fit.names), find_number(fit)
+    heights = [4.4 if number else 0.9 + _ROW * len(residuals)] if residuals else []
     heights += [2.4] * len(records) + ([3.0] if count == 1 else [5.6] if count == 2 else [])
     with styled_figure(_WIDE, sum(heights) + 0.3) as figure:
         parts = figure.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0]
         figure.suptitle(_title(fit), x=0.01, ha="left", fontsize=10)
-        if residuals:
+        if number:
+            draw_by_number(panels_of(parts[0], fit), {"": fit}, number)
+        elif residuals:
             _draw_pulls(parts[0].subplots(), residuals, len(fit.residuals))
         for part, record in zip(parts[bool(residuals) :], records, strict=False):
             _draw_record(part.subplots(), record)

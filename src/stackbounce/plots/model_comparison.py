@@ -4,6 +4,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from stackbounce.plots.by_number import (
+    draw_by_number,
+    draw_into,
+    find_number,
+    list_quantities,
+    panels_of,
+)
 from stackbounce.plots.style import COLORS, styled_figure
 
 if TYPE_CHECKING:
@@ -12,22 +19,28 @@ if TYPE_CHECKING:
 
 _NAMES = {"aicc": "AICc", "bic": "BIC"}
 _MOST = 4.0  # errors: the strongest colour of a pull
+_FEW = 4  # models whose curves are drawn
+_SCORES, _PANEL = 5.8, 4.6  # inches: the width of the scores, and of a measured quantity
 _WIDEST = 40  # for more data, the pulls are not written into the cells
 
 
-def compared(comparison: Any) -> "Figure":
+def compared(comparison: Any, axes: Any = None) -> "Figure":
     """Draw the information criterion and the pulls of each model, the best model on top.
 
     Parameters
     ----------
     comparison : Comparison
         What `stackbounce.compare` returned.
+    axes : matplotlib.axes.Axes or sequence of them, optional
+        Where to draw what was measured and the curves alone, as `fitted` takes them.
 
     Returns
     -------
     matplotlib.figure.Figure
         Not shown and not saved. On the left the AICc or BIC of each model minus that of the best
-        one. On the right the pulls: fitted minus measured value of each datum, in standard errors.
+        one. On the right what was measured with the curves of the best models, if the drops differ
+        in one number, as `fitted` draws it; else the pulls: fitted minus measured value of each
+        datum, in standard errors.
 
     Examples
     --------
@@ -39,13 +52,26 @@ def compared(comparison: Any) -> "Figure":
     3
     """
     names = [score.model for score in comparison.scores]
+    lines = sum(1 + len(score.same_as) for score in comparison.scores)
+    best = {name: comparison[name] for name in names[:_FEW]}
+    if axes is not None:
+        return draw_into(axes, best)
+    number = find_number(comparison[names[0]])
     pulls = comparison.pulls.sel(model=names)
     wide = 5.0 + 0.55 * min(pulls.sizes["datum"], _WIDEST)
-    lines = sum(1 + len(score.same_as) for score in comparison.scores)
-    with styled_figure(max(8.0, wide), 1.9 + 0.42 * lines) as figure:
-        left, right = figure.subplots(1, 2, sharey=True, width_ratios=(2.2, wide - 3.0))
+    if number:
+        wide = _SCORES + _PANEL * len(list_quantities(comparison[names[0]]))
+    with styled_figure(max(8.0, wide), max(4.4 if number else 0.0, 1.9 + 0.42 * lines)) as figure:
+        if number:
+            ratios: Any = {"width_ratios": (_SCORES, wide - _SCORES)}
+            beside, others = np.ravel(figure.subfigures(1, 2, **ratios))
+            left = beside.subplots()
+            left.invert_yaxis()
+            draw_by_number(panels_of(others, comparison[names[0]]), best, number)
+        else:
+            left, right = figure.subplots(1, 2, sharey=True, width_ratios=(2.2, wide - 3.0))
+            _draw_pulls(figure, right, pulls)
         _draw_scores(left, comparison)
-        _draw_pulls(figure, right, pulls)
         left.set_yticks(np.arange(len(names)), [score.title for score in comparison.scores])
     return figure
 

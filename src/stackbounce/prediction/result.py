@@ -3,7 +3,7 @@
 import functools
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -51,7 +51,7 @@ class Apex(NamedTuple):
     share: float
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Prediction:
     """What follows of a drop whose numbers have errors, with errors; made by `predict`.
 
@@ -90,15 +90,19 @@ class Prediction:
     ('derivatives', '4.93+/-0.05')
     """
 
-    inputs: Inputs = field(repr=False)
-    options: Options = field(repr=False)
+    inputs: Inputs
+    options: Options
     reason: str
     difference: float
-    slopes: Slopes = field(repr=False)
-    drawn: Array = field(repr=False)
-    solved: Solved = field(repr=False)
-    refused: str = field(repr=False)
-    asked: int = field(repr=False)
+    slopes: Slopes
+    drawn: Array
+    solved: Solved
+    refused: str
+    asked: int
+
+    def __repr__(self) -> str:
+        """All numbers with their errors, and how these were found."""
+        return f"{self.table()}\n{self.how}"
 
     @property
     def drop(self) -> Drop:

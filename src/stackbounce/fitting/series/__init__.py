@@ -2,6 +2,7 @@
 
 - `columns.py`: what a column of a table of bounces holds
 - `table.py`: a table of bounces as data sets, one for each ball
+- `stack.py`: a table with a column for each ball of a stack, as drops with data
 - `series.py`: a data set as restitutions at several speeds, with their covariance
 - `family.py`: the laws of a class that a calibration at one speed gives
 - `comparison.py`: χ² and p of each law for a series, also with half and twice the assumed errors
@@ -11,6 +12,7 @@
 from stackbounce.fitting.series.comparison import Comparison, Outcome
 from stackbounce.fitting.series.results import PREFIX, SeriesFit, fit_series, write
 from stackbounce.fitting.series.series import Series
+from stackbounce.fitting.series.stack import StackTable, read_stack
 from stackbounce.fitting.series.table import Table, read_table
 
 __all__ = [
@@ -19,8 +21,10 @@ __all__ = [
     "Outcome",
     "Series",
     "SeriesFit",
+    "StackTable",
     "Table",
     "fit_series",
+    "read_stack",
     "read_table",
     "write",
 ]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from importlib.resources import files
 
 from stackbounce.measure.reading.roles import heading
+from stackbounce.model.catalogue import BALLS, CLASS_BALLS
 from stackbounce.units import in_si
 
 _KNOWN = tomllib.loads((files(__package__) / "columns.toml").read_text("utf-8"))
@@ -28,6 +29,7 @@ _ERRORS = re.compile(
     r"|incerteza|error|errore|incertezza|delta|d(?=h\b|v\b|e\b))(?:\b|$)|Δ"
 )
 _READING = re.compile(rf"(.* )?({_KNOWN['reading']['words']})")
+_RATIO = re.compile(r"ratio|v ?/ ?v|verhältnis|rapport|relación|rapporto")  # of speeds
 _MEAN = re.compile(
     r"^(average|mean|avg\.?|mittelwert|mittlere|durchschnitt\w*|moyenne|media|promedio|média)\b ?"
 )
@@ -54,6 +56,8 @@ class Column:
         Of a bounce or of a reading; of an error: the index of the column that has it.
     error : str
         The error of all its numbers, as ``± 0.5 cm`` in the heading tells it; empty for none.
+    ball : str
+        The ball of the catalogue that its heading names; empty if it names none.
     """
 
     index: int
@@ -62,6 +66,7 @@ class Column:
     unit: str = ""
     number: int = 0
     error: str = ""
+    ball: str = ""
 
 
 def columns_of(headings: list[str]) -> list[Column]:
@@ -89,8 +94,19 @@ def columns_of(headings: list[str]) -> list[Column]:
         name, unit = said.name.casefold(), said.unit or (error[2] if error else "")
         bare = _MEAN.sub("", name)
         role, number = _role(bare, unit) if bare else ("reading", 0)
-        found.append(Column(index, text, role, unit, number, told))
+        ball = "" if role else _ball(bare)
+        if ball:
+            role = "rebound_ratio" if _RATIO.search(bare) else "rebound_height"
+        found.append(Column(index, text, role, unit, number, told, ball))
     return found
+
+
+def _ball(name: str) -> str:
+    """Return the ball of the catalogue that a name begins with; empty if there is none."""
+    balls = [str(entry.ball.name) for entry in (*BALLS, *CLASS_BALLS)]
+    plain = name.replace("-", " ")
+    named = (ball for ball in balls if re.match(rf"{re.escape(ball.casefold())}\b", plain))
+    return max(named, key=len, default="")
 
 
 def role_of(name: str) -> str:

@@ -45,14 +45,9 @@ def readings_of(rows: Sequence[Row]) -> "tuple[pd.DataFrame, str, list[str]]":
     import pandas as pd
 
     notes: list[str] = []
-    head, body = _headed(rows)
+    head, body = headed(rows)
     columns, words = _resolved(columns_of(head), body, notes)
-    numbers = {column.index: _numbers(column, columns, body) for column in columns}
-    for column in columns:
-        if column.role == "error" and column.number in numbers:
-            told = numbers[column.number]
-            errors = np.where(np.isnan(told.errors), numbers[column.index].values, told.errors)
-            numbers[column.number] = told._replace(errors=errors)
+    numbers = numbers_in(columns, body)
     groups = [", ".join(filter(None, (_cell(cells, k) for k in words))) for _, cells in body]
     lines = [line for line, _ in body]
     counted = next((column for column in columns if column.role == "bounce_number"), None)
@@ -65,7 +60,7 @@ def readings_of(rows: Sequence[Row]) -> "tuple[pd.DataFrame, str, list[str]]":
     return readings, measured, notes
 
 
-def _headed(rows: Sequence[Row]) -> tuple[list[str], Sequence[Row]]:
+def headed(rows: Sequence[Row]) -> tuple[list[str], Sequence[Row]]:
     """Return the headings and the rows below them; what stands above is a title."""
     counts = [sum(bool(_NUMBER.fullmatch(cell)) for cell in cells) for _, cells in rows]
     first = next((k for k, count in enumerate(counts) if count > 1), None)
@@ -118,7 +113,7 @@ def _resolved(
     return used, words
 
 
-class _Numbers(NamedTuple):
+class Numbers(NamedTuple):
     """The numbers of a column in SI, their errors, NaN if unknown, and the step of reading."""
 
     values: Array
@@ -126,7 +121,18 @@ class _Numbers(NamedTuple):
     digit: float
 
 
-def _numbers(column: Column, columns: Sequence[Column], body: Sequence[Row]) -> _Numbers:
+def numbers_in(columns: Sequence[Column], body: Sequence[Row]) -> dict[int, Numbers]:
+    """Return the numbers of each column by its index, with the errors that other columns tell."""
+    numbers = {column.index: _numbers(column, columns, body) for column in columns}
+    for column in columns:
+        if column.role == "error" and column.number in numbers:
+            told = numbers[column.number]
+            errors = np.where(np.isnan(told.errors), numbers[column.index].values, told.errors)
+            numbers[column.number] = told._replace(errors=errors)
+    return numbers
+
+
+def _numbers(column: Column, columns: Sequence[Column], body: Sequence[Row]) -> Numbers:
     """Read the cells of a column."""
     whose = next((c for c in columns if c.index == column.number), column)
     of = whose if column.role == "error" else column
@@ -153,7 +159,7 @@ def _numbers(column: Column, columns: Sequence[Column], body: Sequence[Row]) -> 
         (len(found[1]) for cell in cells if (found := _DECIMALS.search(cell))), default=0
     )
     one = quantity(f"1 {written}".strip(), unit, column.text)
-    return _Numbers(values, errors, _step(values, one * 10.0**-decimals))
+    return Numbers(values, errors, _step(values, one * 10.0**-decimals))
 
 
 def _step(values: Array, digit: float) -> float:
@@ -180,7 +186,7 @@ _Found = tuple[list[dict[str, Any]], str]  # readings, and what was read
 
 def _by_drop(
     columns: Sequence[Column],
-    numbers: dict[int, _Numbers],
+    numbers: dict[int, Numbers],
     lines: Sequence[int],
     groups: Sequence[str],
     notes: list[str],
@@ -221,7 +227,7 @@ def _by_drop(
     return found, measured
 
 
-def _in_turn(read: Sequence[Column], numbers: dict[int, _Numbers], start: Column) -> bool:
+def _in_turn(read: Sequence[Column], numbers: dict[int, Numbers], start: Column) -> bool:
     """Return whether several columns of heights are those of bounces in turn, not readings of one.
 
     Bounces in turn fall by about the same ratio each; readings are about equal.
@@ -236,7 +242,7 @@ def _in_turn(read: Sequence[Column], numbers: dict[int, _Numbers], start: Column
 
 def _by_bounce(
     columns: Sequence[Column],
-    numbers: dict[int, _Numbers],
+    numbers: dict[int, Numbers],
     lines: Sequence[int],
     groups: Sequence[str],
     notes: list[str],

@@ -27,6 +27,7 @@ from stackbounce.fitting.series.series import make_series, why_not
 from stackbounce.fitting.series.table import read_table
 from stackbounce.json_values import plain
 from stackbounce.model.laws import LAWS, law_named
+from stackbounce.shown import Shown
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ _OF_COMPARISON = ("skipped", "tells_apart", "steady", "summary")
 
 
 @dataclass(frozen=True, repr=False)
-class SeriesFit:
+class SeriesFit(Shown):
     """What restitutions at several speeds say of the contact laws; made by `fit_series`.
 
     Parameters
@@ -93,13 +94,10 @@ class SeriesFit:
         ]  # fmt: skip
         return pd.DataFrame(rows).set_index(["ball", "law"]) if rows else pd.DataFrame()
 
-    def __repr__(self) -> str:
-        """The table and the notes, as text."""
-        return "\n".join([self.table.to_string(float_format="{:.4g}".format), *self.notes])
-
-    def _repr_html_(self) -> str:
-        """The table, for a notebook."""
-        return str(self.table.to_html(float_format="{:.4g}".format))
+    @property
+    def remarks(self) -> tuple[str, ...]:  # type: ignore[override]
+        """The notes."""
+        return self.notes
 
     def as_dict(self) -> dict[str, Any]:
         """Return everything as plain values, for JSON."""

@@ -86,7 +86,7 @@ def read_table(
     """
     name, rows = rows_of(path)
     try:
-        told = _told(errors)
+        told = told_errors(errors)
         known = {
             key: positive(key, value, unit)
             for key, value, unit in (("mass", mass, "kg"), ("diameter", diameter, "m"))
@@ -103,7 +103,7 @@ def read_table(
     return Table(Path(name).name, groups, tuple(dict.fromkeys(notes)))
 
 
-def _told(errors: Sequence[str]) -> dict[str, float]:
+def told_errors(errors: Sequence[str]) -> dict[str, float]:
     """Return the errors that are told beside the table, by role; ``""`` is what was measured."""
     found: dict[str, float] = {}
     for text in errors:

@@ -1,0 +1,81 @@
+"""A paragraph for the methods section of a paper that used a fit, and what it cites, as BibTeX."""
+
+from collections.abc import Iterable
+from typing import Any
+
+from stackbounce.fitting.comparison import Comparison
+from stackbounce.fitting.notes import describe_freedom
+from stackbounce.fitting.result import Fit
+from stackbounce.fitting.series import SeriesFit
+from stackbounce.model.laws import LAWS, ContactLaw
+from stackbounce.version import __version__
+
+_ENTRIES = """\
+@software{{stackbounce,
+  author  = {{{{The stackbounce developers}}}},
+  title   = {{stackbounce: bounces of stacked balls}},
+  version = {{{version}}}
+}}
+@article{{cross2007,
+  author  = {{Cross, Rod}},
+  title   = {{Vertical bounce of two vertically aligned balls}},
+  journal = {{American Journal of Physics}},
+  volume  = {{75}},
+  number  = {{11}},
+  pages   = {{1009--1016}},
+  year    = {{2007}},
+  doi     = {{10.1119/1.2772286}}
+}}"""
+
+
+def cite(found: Fit | Comparison | SeriesFit) -> str:
+    """Return what was fitted, by which program and from which laws, and the entries for BibTeX.
+
+    Parameters
+    ----------
+    found : Fit, Comparison or SeriesFit
+        What was fitted.
+
+    Examples
+    --------
+    >>> from stackbounce.fitting import fit_series
+    >>> print(cite(fit_series("dataset:golf-marble-heights", laws=["Rigid"]))[:65])
+    Contact laws were fitted to 11 restitutions of 1 ball by weighted
+    """
+    if isinstance(found, SeriesFit):
+        series = [compared.series for compared in found.comparisons]
+        numbers = sum(own.values.size for own in series)
+        data = f"{numbers} restitutions of {_count(len(series), 'ball')}"
+        names = [law for own in found.comparisons for row in own.outcomes for law in row.laws]
+        laws: Iterable[Any] = [LAWS[name] for name in dict.fromkeys(names)]
+        result = "The goodness of each is told by chi squared and its probability p."
+    else:
+        fits = found.fits if isinstance(found, Comparison) else {"": found}
+        one = next(iter(fits.values()))
+        drops = one.objective.measured
+        data = f"{_count(one.objective.size, 'number')} of {_count(len(drops), 'drop')}"
+        laws = [
+            law for own in fits.values() for drop in own.drops.values() for law in drop.contacts
+        ]
+        if isinstance(found, Comparison):
+            result = f"The models are compared by {found.criterion.upper()}."
+        else:
+            freedom = describe_freedom(found.degrees_of_freedom)
+            varied = ", ".join(
+                f"{name} = {found[name]:.1uS} {unit}".rstrip() for name, unit in found.units.items()
+            )
+            result = f"Best values: {varied}; chi squared is {found.chi_squared:.3g} for {freedom}."
+    sources = {(law if isinstance(law, type) else type(law)) for law in laws if law is not None}
+    listed = "; ".join(_source(law) for law in sorted(sources, key=lambda law: law.__name__))
+    return (
+        f"Contact laws were fitted to {data} by weighted least squares with stackbounce "
+        f"{__version__}. {result} Laws: {listed}.\n\n{_ENTRIES.format(version=__version__)}"
+    )
+
+
+def _source(law: type[ContactLaw]) -> str:
+    return f"{law.__name__}, {law.formula} ({law.source})"
+
+
+def _count(count: int, what: str) -> str:
+    return f"{count} {what}{'' if count == 1 else 's'}"

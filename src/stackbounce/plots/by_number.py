@@ -1,0 +1,168 @@
+"""What was measured of several drops, with fitted curves, against the number they differ in."""
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from stackbounce.errors import InvalidValue
+from stackbounce.plots.scales import Scale, label, show_in_handy_unit
+from stackbounce.plots.style import COLORS, written
+from stackbounce.run.paths import Number, numbers_of, value_in
+from stackbounce.run.quantities import QUANTITIES, Array
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
+
+_POINTS = 80  # of a curve
+_BEYOND = 0.05  # of the range: a curve goes on beyond the points
+_MARKERS = ("o", "s", "^", "D", "v", "P")
+_STYLES = ("-", "--", "-.", ":")
+_NAMES = {"height": "drop height", "impact_speed": "impact speed"}
+_RATIOS = (3.0, 1.3)  # the heights of the two panels of a quantity
+
+
+def find_number(fit: Any) -> Number | None:
+    """Return the one number in which the drops of a fit differ, besides what it varies; or None.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drops = {name: sb.Drop([sb.Ball(1.0)], [sb.Rigid(0.8)], height=height)
+    ...     for name, height in (("low", 0.5), ("high", 1.0))}
+    >>> data = {name: {"rebound_ratios.0": "0.8 ± 0.1"} for name in drops}
+    >>> find_number(sb.fit(drops, data, ["contacts.0.restitution"])).path
+    'height'
+    """
+    objective = fit.objective
+    drops = [fit.drops[key] for key in objective.measured]
+    known = [numbers_of(drop) for drop in drops]
+    if any(own.keys() != known[0].keys() for own in known) or fit.records:
+        return None
+    differ = [
+        number
+        for number in known[0].values()
+        if len({value_in(drop, number) for drop in drops}) > 1
+    ]
+    own = any(objective.own(key) for key in objective.drops)
+    return differ[0] if len(differ) == 1 and not own else None
+
+
+def list_quantities(fit: Any) -> list[str]:
+    """Return the names of the measured quantities of a fit, each once.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Rigid(0.8)], height=1.0)
+    >>> data = {"rebound_ratios.0": "0.8 ± 0.1"}
+    >>> list_quantities(sb.fit(drop, data, ["contacts.0.restitution"]))
+    ['rebound_ratios']
+    """
+    data = (datum for own in fit.objective.measured.values() for datum in own.data)
+    return list(dict.fromkeys(datum.quantity for datum in data))
+
+
+def panels_of(figure: "Figure | SubFigure", fit: Any) -> "list[list[Axes]]":
+    """Return a pair of panels for each measured quantity of a fit, side by side."""
+    count = len(list_quantities(fit))
+    look: Any = {"sharex": "col", "height_ratios": _RATIOS, "squeeze": False}
+    panels: list[list[Axes]] = figure.subplots(2, count, **look).T.tolist()
+    return panels
+
+
+def draw_into(axes: Any, fits: Mapping[str, Any]) -> "Figure":
+    """Draw fits as `draw_by_number` does into one's own axes, and return their figure.
+
+    Raises
+    ------
+    InvalidValue
+        If the drops do not differ in one number, or there are not one or two axes for each
+        measured quantity.
+    """
+    first, own = next(iter(fits.values())), np.ravel(np.asarray(axes, dtype=object))
+    number, count = find_number(first), len(list_quantities(first))
+    if number is None:
+        raise InvalidValue("axes can be given where drops differ in one number, such as the height")
+    if len(own) not in (count, 2 * count):
+        raise InvalidValue(f"axes must be {count} or {2 * count}, got {len(own)}")
+    draw_by_number(own.reshape(-1, count).T.tolist(), fits, number)
+    figure: Figure = own[0].figure
+    return figure
+
+
+def draw_by_number(
+    panels: "Sequence[Sequence[Axes]]", fits: Mapping[str, Any], number: Number
+) -> None:
+    """Draw each measured quantity in a pair of panels: the data with curves, and the pulls.
+
+    Parameters
+    ----------
+    panels : sequence of pairs of matplotlib.axes.Axes
+        A pair for each of `list_quantities`; of a pair with one axes only the data are drawn.
+    fits : mapping of str to Fit
+        By the names of their models, the best first. The band is one standard deviation of the
+        first.
+    number : Number
+        The number in which the drops differ.
+    """
+    first = next(iter(fits.values()))
+    places = _places(first, number)
+    reach = _BEYOND * np.ptp(places)
+    values = np.linspace(max(places.min() - reach, 0.0), places.max() + reach, _POINTS)
+    curves = {name: fit.along(number, values) for name, fit in fits.items()}
+    for quantity, (above, *below) in zip(list_quantities(first), panels, strict=True):
+        data = _data(first, quantity, number)
+        for k, (part, (at, measured, errors, _)) in enumerate(data.items()):
+            color = COLORS[k % len(COLORS)] if len(fits) == 1 else "black"
+            look: Any = {"fmt": _MARKERS[k % len(_MARKERS)], "color": color, "markersize": 4.5}
+            several = len(data) > 1
+            name = _part_name(first, quantity, part) if several else "measured"
+            above.errorbar(at, measured, errors, **look, label=name, capsize=2.0, zorder=4)
+            for j, (model, (tables, deviations)) in enumerate(curves.items()):
+                own = color if len(fits) == 1 else COLORS[j % len(COLORS)]
+                title: Any = {"label": written(model)} if len(fits) > 1 and k == 0 else {}
+                curve, band = tables[quantity][:, part], deviations[quantity][:, part]
+                above.plot(values, curve, _STYLES[j % len(_STYLES)], color=own, **title)
+                if j == 0:
+                    sides = (curve - band, curve + band)
+                    above.fill_between(values, *sides, color=own, alpha=0.18, linewidth=0)
+                for axes in below:
+                    pulls = _data(fits[model], quantity, number)[part][3]
+                    axes.plot(at, pulls, look["fmt"], color=own, markersize=4.5)
+        words = quantity.replace("_", " ").removesuffix("s")
+        unit, _ = show_in_handy_unit(above.yaxis, above.get_yticks(), QUANTITIES[quantity].unit)
+        above.set_ylabel(f"{words} ({unit})" if unit else words)
+        if len(data) > 1 or len(fits) > 1:
+            above.legend(frameon=False, fontsize=8.5)
+        for axes in below:
+            axes.axhspan(-1.0, 1.0, color=COLORS[0], alpha=0.12, linewidth=0)
+            axes.axhline(0.0, color="#808080", linewidth=0.8)
+            axes.set_ylabel("fitted − measured\n(errors)")
+        name = _NAMES.get(number.path, "gap" if number.part == "gaps" else number.path)
+        label((above, *below)[-1], "x", name, Scale(values, False, [], number.unit))
+
+
+def _places(fit: Any, number: Number) -> Array:
+    return np.array([value_in(fit.drops[key], number) for key in fit.objective.measured])
+
+
+def _data(fit: Any, quantity: str, number: Number) -> dict[int, Array]:
+    """Return (4, n) numbers of each ball or contact: place, measured value, its error, and pull."""
+    found: dict[int, list[tuple[float, ...]]] = {}
+    rows = iter(fit.residuals)
+    for key, measured in fit.objective.measured.items():
+        at = value_in(fit.drops[key], number)
+        for datum, row in zip(measured.data, rows, strict=False):
+            if datum.quantity == quantity:
+                found.setdefault(datum.index, []).append((at, row.measured, row.error, row.pull))
+    return {part: np.array(own).T for part, own in sorted(found.items())}
+
+
+def _part_name(fit: Any, quantity: str, index: int) -> str:
+    """Return the name of a ball, counted from 1 if it has none, or of the contact below it."""
+    drop = next(iter(fit.drops.values()))
+    if QUANTITIES[quantity].part == "contact":
+        return f"contact {index + 1}"
+    return written(drop.balls[index].name or f"ball {index + 1}")
