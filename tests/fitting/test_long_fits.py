@@ -1,4 +1,4 @@
-"""Fits that take long say so, are shown on the way, and leave the best so far at Ctrl+C."""
+"""Fits that take long are shown on the way, and leave the best so far at Ctrl+C."""
 
 import os
 
@@ -8,7 +8,6 @@ import pytest
 import stackbounce as sb
 from stackbounce.errors import InvalidValue
 from stackbounce.fitting import Interrupted
-from stackbounce.fitting.course import announce
 
 DROP = sb.Drop([sb.Ball(0.15), sb.Ball(0.057)], [sb.Hertz(1e6), sb.Hertz(1e6)], height=0.63)
 DATA = {"rebound_ratios.1": "1.64 ± 0.02", "first_touch.1": "1 ± 0.2 ms"}
@@ -41,13 +40,6 @@ def test_progress_ends_with_all_trials_done():
     fit = sb.fit(DROP, DATA, VARY, progress=lambda done, every: seen.append((done, every)))
     assert all(done <= every for done, every in seen)
     assert seen[-1] == (fit.objective.course.trials,) * 2
-
-
-def test_a_fit_that_takes_long_says_so_and_one_that_takes_days_is_refused():
-    with pytest.warns(UserWarning, match=r"a fit of 60 numbers will take about 2 h: fix some, or"):
-        announce("a fit of 60 numbers", 2 * 3600 * 5e7, "fix some")
-    with pytest.raises(InvalidValue, match=r"would take about 2 days: fix some$"):
-        announce("a fit of 60 numbers", 2 * 86_400 * 5e7, "fix some")
 
 
 @pytest.mark.skipif(os.name != "posix", reason="the size of the memory is not known elsewhere")

@@ -53,7 +53,7 @@ class Objective:
         The number of runs so far that did not finish, by the name of their `Status`. All residuals
         of such a run are `ABSENT`.
     course : Course
-        What the trials so far cost, and the best one.
+        The trials so far, and the best one.
 
     Examples
     --------
@@ -197,7 +197,6 @@ class Objective:
         drop = self.drops[key]
         options = Options(math.inf, self.rtol, _EVENTS, _WORK * max(_FEW, len(drop.balls)))
         solved = solve_quantities(drop, self.rows(key, x), len(x), options)
-        self.course.work += int(np.sum(solved.work))
         bad = solved.status[~np.isin(solved.status, _DONE)]
         self.unsolved.update(Status(code).name for code in bad)
         return solved.tables
@@ -217,8 +216,7 @@ class Objective:
         )
         times = stamps - start
         forces = np.zeros((len(drop.balls), len(times)))
-        status, work, forces[:, times >= 0.0] = forces_at(drop, times[times >= 0.0], self.rtol)
-        self.course.work += work
+        status, _, forces[:, times >= 0.0] = forces_at(drop, times[times >= 0.0], self.rtol)
         if status not in _DONE:
             self.unsolved[status.name] += 1
             forces[:] = np.nan

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, shown, whole
-from stackbounce.fitting.course import announce
 from stackbounce.fitting.objective import Objective
 from stackbounce.run.options import check_room
 from stackbounce.run.quantities import Array
@@ -187,7 +186,7 @@ def sample(fit: "Fit", draws: int, *, seed: int = 0, progress: Any = None) -> Po
     Raises
     ------
     InvalidValue
-        If the draws are too few, do not fit into memory, or would take more than a day.
+        If the draws are too few, or do not fit into memory.
     InvalidType
         If a number is not a whole one.
     """
@@ -198,7 +197,6 @@ def sample(fit: "Fit", draws: int, *, seed: int = 0, progress: Any = None) -> Po
     walkers = max(least, 2 * (whole("draws", draws, 20 * least, _MOST_DRAWS) // (2 * _STEPS)))
     steps = draws // walkers
     check_room(_NUMBERS * (size + 1) * draws, f"{draws} draws", "take fewer")
-    announce(f"{draws} draws", objective.course.cost(draws), "take fewer")
     random = np.random.RandomState(whole("seed", seed, 0, 2**32 - 1))
     before = objective.unsolved.total()
     sampler = emcee.EnsembleSampler(

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, between, nearest, shown, whole
-from stackbounce.fitting.course import announce
-from stackbounce.fitting.least_squares import Minimum, expected_trials, find_minima, spread
+from stackbounce.fitting.least_squares import Minimum, expected_trials, find_minima
 from stackbounce.fitting.measurements import Measured, read_measured
 from stackbounce.fitting.objective import Objective, touch_name
 from stackbounce.fitting.parameters import Parameter, find_numbers, read_parameters
@@ -18,11 +17,9 @@ from stackbounce.fitting.ties import read_ties
 from stackbounce.model import Drop
 from stackbounce.prediction.draws import Progress
 from stackbounce.run.paths import value_in
-from stackbounce.run.quantities import Array
 
 _MOST_STARTS = 1_000_000
 _RTOL = 1e-9
-_PROBES = 7  # trials besides the first one, by which it is known how long a search takes
 
 
 class TooFewData(InvalidValue):
@@ -159,8 +156,6 @@ class FitProblem:
     ) -> Fit:
         """Fit what is varied to the data, by least squares.
 
-        A warning says how long it takes if that is more than a minute.
-
         Parameters
         ----------
         starts : int, optional
@@ -178,8 +173,6 @@ class FitProblem:
 
         Raises
         ------
-        InvalidValue
-            If it would take more than a day.
         Interrupted
             After Ctrl+C; it has the best values so far.
         """
@@ -188,7 +181,6 @@ class FitProblem:
         count = None if starts is None else whole("starts", starts, 1, _MOST_STARTS)
         first, start = _first_trial(objective), whole("seed", seed, 0)
         expected = expected_trials(objective, count)
-        _announce(objective, first, expected)
         course = objective.course
         try:
             with course.reported(progress, expected):
@@ -279,7 +271,7 @@ def fit(
     ------
     InvalidValue
         If a name is unknown, a number has no error, bounds are not possible, or there is more to
-        vary than was measured, or if the fit would take more than a day.
+        vary than was measured,
     InvalidType
         If something has the wrong type.
     Interrupted
@@ -347,17 +339,6 @@ def _first_trial(objective: Objective) -> Any:
         inside = parameter.low <= value <= parameter.high
         found.append(parameter.coordinate(value) if inside else 0.5 * sum(parameter.span))
     return np.array(found)
-
-
-def _announce(objective: Objective, first: Array, expected: int) -> None:
-    """Say how long a search takes, by the costs of some trials."""
-    objective.residuals(np.concatenate([first[None], spread(objective.spans, _PROBES, 0)]))
-    objective.unsolved.clear()
-    announce(
-        f"a fit of {_count(len(objective.parameters), 'number')}",
-        objective.course.cost(expected),
-        "fix some, or take fewer balls or a larger rtol",
-    )
 
 
 def _is_empty(given: object) -> bool:

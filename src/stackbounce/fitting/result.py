@@ -10,7 +10,6 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, positive, shown, unmasked
 from stackbounce.fitting import notes, posterior
-from stackbounce.fitting.course import announce
 from stackbounce.fitting.covariance import estimate_covariance, find_directions
 from stackbounce.fitting.least_squares import Minimum
 from stackbounce.fitting.objective import Objective, differences
@@ -243,11 +242,10 @@ class Fit(Shown):
         Raises
         ------
         InvalidValue
-            If `sigma` is not above 0, or it would take more than a day.
+            If `sigma` is not above 0.
         """
         reach, count = positive("sigma", sigma), len(self.names)
         course, expected = self.objective.course, _LINEARISED * count * (2 * count + 1)
-        announce(f"intervals of {count} numbers", course.cost(expected), "fit fewer numbers")
         with course.reported(progress, expected):
             return {name: Profile(self, k).interval(reach) for k, name in enumerate(self.names)}
 
