@@ -1,6 +1,7 @@
 """Tables of bounces as people type them: columns, errors, groups, and what is refused."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,8 @@ from stackbounce.fitting.series.family import Family
 from stackbounce.fitting.series.series import make_series
 from stackbounce.model import LAWS
 from stackbounce.model.drop import STANDARD_GRAVITY
+
+HEIGHTS = Path(__file__).parents[2] / "docs" / "fit" / "heights.csv"
 
 
 @pytest.fixture
@@ -245,7 +248,7 @@ def test_the_command_prints_draws_and_writes_a_page(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["heights.csv", "--vary", "gaps.0"], "--vary is of a drop; heights.csv is a table"),
+        ([str(HEIGHTS), "--vary", "gaps.0"], "--vary is of a drop; "),
         (["basketball", "--error", "5mm"], "--error is of a table of bounces"),
         (["dataset:golf", "--compare"], "name must be that of a dataset, got 'golf'"),
         (["dataset:golf-marble-heights", "--error", "1mm"], "has errors, mass and diameter of its"),

@@ -4,7 +4,7 @@ from typing import Any
 
 from rich.console import Console
 
-from stackbounce.cli.tables import new_table, number, percent
+from stackbounce.cli.tables import number, table_of
 from stackbounce.fitting import Comparison
 
 _CRITERIA = {"aicc": "AICc", "bic": "BIC"}
@@ -25,29 +25,18 @@ def comparison_as_dict(done: Comparison, speed: float) -> dict[str, Any]:
 def print_comparison(console: Console, done: Comparison, speed: float) -> None:
     """Print a comparison of models that were calibrated at a speed in m/s."""
     name = _CRITERIA[done.criterion]
-    scores = ("\np", f"{name}\nabove", "\nweight", "left\nout")
-    headings = ("\nnumbers", "chi\nsquared", "for\ndegrees", *scores)
-    table = new_table(None, ["\nModel"], headings)
-    best = getattr(done.scores[0], done.criterion)
-    for score in done.scores:
-        fitted = (score.parameters, number(score.chi_squared), score.degrees_of_freedom)
-        above = number(getattr(score, done.criterion) - best)
-        worth = (percent(score.probability), above, percent(score.weight))
-        left_out = number(done.predictive(score.model))
-        table.add_row(score.title, *map(str, fitted), *worth, left_out)
-    console.print(table)
+    left_out = [done.predictive(score.model) for score in done.scores]
+    console.print(table_of(done.table.assign(left_out=left_out)))
     console.print(
         "\nEach model has the same contacts in all drops. The search began with contacts that last "
-        f"as long as yours at {number(speed)} m/s, the geometric mean of the impact speeds. A "
-        "model after = has the best fit of the one above it, to a hundredth of an error: they are "
-        "not told apart. p is the probability of a larger chi squared if the model is right. "
+        f"as long as yours at {number(speed)} m/s, the geometric mean of the impact speeds. The "
+        "probability is that of a larger chi squared if the model is right. "
         f"{name} is chi squared plus a penalty for each fitted number: 10 above the best is "
         "hopeless. The last number says how well each measurement is predicted from all others, if "
         "it is left out: more is better."
     )
     for remark in done.remarks:
-        if remark.startswith("Not"):
-            console.print(remark)
+        console.print(remark)
     first = done.scores[0].model
     for note in done[first].notes:
         console.print(f"Note on {first}: {note}.")

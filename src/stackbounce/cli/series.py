@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from stackbounce.cli import output
-from stackbounce.cli.tables import new_table
+from stackbounce.cli.tables import table_of
 from stackbounce.errors import FileError, InvalidValue, StackbounceError, a_or_an
 from stackbounce.model.laws import LAWS
 from stackbounce.units import quantity
@@ -16,7 +16,7 @@ from stackbounce.units import quantity
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from stackbounce.fitting.series import Comparison, SeriesFit, StackTable
+    from stackbounce.fitting.series import SeriesFit, StackTable
 
 PREFIX = "dataset:"
 _TABLES = (".csv", ".tsv", ".txt", ".dat", ".xlsx")
@@ -111,7 +111,9 @@ def _progress(line: str) -> None:
 def _print(console: "Console", done: "SeriesFit", *, compared: bool) -> None:
     """Print the laws of each ball, what follows, and what was assumed."""
     for found in done.comparisons:
-        console.print(_table(found))
+        speeds = f"from {found.series.speeds.min():.3g} to {found.series.speeds.max():.3g} m/s"
+        title = f"{found.series.title}: {found.series.values.size} restitutions {speeds}"
+        console.print(table_of(found.table.drop(columns="verdict"), title))
         console.print()
         if compared:
             console.print(found.summary)
@@ -127,34 +129,3 @@ def _print(console: "Console", done: "SeriesFit", *, compared: bool) -> None:
 
 
 _DOUBTFUL = 0.05  # p below which --compare is proposed
-
-
-def _table(found: "Comparison") -> Any:
-    """Return the table of one ball: each law with its restitution, χ² and p."""
-    from stackbounce.fitting.series.comparison import format_p
-
-    series = found.series
-    low, high = float(series.speeds.min()), float(series.speeds.max())
-    title = f"{series.title}: {series.values.size} restitutions from {low:.3g} to {high:.3g} m/s"
-    headings = (
-        f"restitution\nat {high:.3g} m/s",
-        "68.3 %\ninterval",
-        "\nχ²",
-        "for\ndegrees",
-        "\np",
-    )
-    table = new_table(title, ["\nLaw"], headings)
-    for law in found.outcomes:
-        limits = law.interval()
-        digits = max(2, _decimals(limits[1] - limits[0]))
-        interval = " to ".join(f"{limit:.{digits}f}" for limit in limits)
-        numbers = (f"{law.value:.{digits}f}", interval, f"{law.chi_squared:.3g}", str(law.freedom))
-        table.add_row(", ".join(law.laws), *numbers, format_p(law.p))
-    return table
-
-
-def _decimals(width: float) -> int:
-    """Return the decimals with which an interval's width has two digits."""
-    from math import floor, log10
-
-    return 1 - floor(log10(width)) if width > 0.0 else 4

@@ -2,10 +2,13 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich import box
 from rich.table import Table
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 def new_table(title: str | None, texts: Iterable[str], numbers: Iterable[str] = ()) -> Table:
@@ -73,6 +76,16 @@ def with_error(value: Any) -> str:
     if value is None or not math.isfinite(value.nominal_value):
         return "–"
     return f"{value:.2uS}" if value.std_dev > 0.0 else number(value.nominal_value)
+
+
+def table_of(frame: "pd.DataFrame", title: str | None = None) -> Table:
+    """Return a table of pandas, each number with four digits."""
+    headings = [str(name).replace("_", "\n") for name in frame.columns]
+    table = new_table(title, [str(frame.index.name or "").capitalize()], headings)
+    for name, row in zip(frame.index, frame.itertuples(index=False), strict=True):
+        cells = (number(cell) if isinstance(cell, float) else str(cell) for cell in row)
+        table.add_row(str(name), *cells)
+    return table
 
 
 def table_of_rows(rows: Sequence[Any]) -> Table:

@@ -42,9 +42,9 @@ def standard_models(
         The rigid laws with one restitution and with one for each contact, then the `usual_models`
         of all laws: first those without loss, then those with a rate-independent loss, then the
         others. Rigid laws whose restitution depends on the speed also vary its power.
-        Models of finite contacts vary stiffnesses and gaps. Lossy ones also vary one loss parameter
-        that all contacts share. A model with nothing to vary is left out, such as `Spring` for a
-        ball alone without times.
+        Models of finite contacts vary stiffnesses, and gaps unless the drops differ in them. Lossy
+        ones also vary one loss parameter that all contacts share. A model with nothing to vary is
+        left out, such as `Spring` for a ball alone without times.
 
     Raises
     ------
@@ -64,7 +64,8 @@ def standard_models(
     stack, speed = _whole_stack(drops), calibration_speed(drops)
     known = [_measured(stack, i, speed) for i in range(len(stack.contacts))]
     widest = _FLIGHTS * speed * max(contact["contact_time"] for contact in known)
-    gaps = {f"gaps.{i}": (0.0, widest) for i in range(len(stack.gaps))}
+    known_gaps = len({drop.gaps for drop in drops.values() if len(drop.gaps) == len(stack.gaps)})
+    gaps = {f"gaps.{i}": (0.0, widest) for i in range(len(stack.gaps)) if known_gaps == 1}
     models: dict[str, FitProblem] = {}
     for name, law_class, numbers, shared in _usual(len(known)):
         given = {"restitution": _LOSSY, **numbers} if law_class.loss else numbers

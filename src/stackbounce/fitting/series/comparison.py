@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +12,10 @@ from stackbounce.fitting.series.family import Family, families, reason_to_skip
 from stackbounce.fitting.series.series import Series
 from stackbounce.model.laws import LAWS
 from stackbounce.run.quantities import Array
+from stackbounce.shown import Shown
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 AGREES, DOUBTFUL, REFUTED = "agrees", "doubtful", "refuted"
 REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05
@@ -94,8 +99,8 @@ class Outcome:
         return all(verdict(p) == self.verdict for p in given)
 
 
-@dataclass(frozen=True)
-class Comparison:
+@dataclass(frozen=True, repr=False)
+class Comparison(Shown):
     """A series and all laws.
 
     Parameters
@@ -120,7 +125,25 @@ class Comparison:
     exponent: float
     exponent_error: float
     p_power: float | None
-    curves: dict[str, Family] = field(repr=False)
+    curves: dict[str, Family]
+
+    @property
+    def table(self) -> "pd.DataFrame":
+        """The laws, the best first: restitution at the highest speed with its interval, χ², p."""
+        import pandas as pd
+
+        rows = [
+            (law.value, *law.interval(), law.chi_squared, law.freedom, law.p, law.verdict)
+            for law in self.outcomes
+        ]
+        names = pd.Index([", ".join(law.laws) for law in self.outcomes], name="law")
+        columns = ["restitution", "from", "to", "χ²", "degrees", "p", "verdict"]
+        return pd.DataFrame(rows, names, columns)
+
+    @property
+    def remarks(self) -> tuple[str, ...]:  # type: ignore[override]
+        """What the series says of the laws."""
+        return (self.summary,)
 
     @property
     def tells_apart(self) -> bool:

@@ -1,7 +1,5 @@
 """Tables and data sets beside the contact laws, and the page that says so."""
 
-import csv
-import io
 import json
 import os
 import re
@@ -39,10 +37,6 @@ PREFIX = "dataset:"
 
 _NAMES = ("index.html", "laws.csv", "laws.json")
 _NO_WORD = re.compile(r"[^\w.-]+")  # in the name of a file
-_COLUMNS = (
-    "law", "verdict", "p", "p_calibrated", "p_half", "p_twice", "p_without_air", "steady",
-    "chi_squared", "freedom", "value", "error",
-)  # fmt: skip
 _OF_SERIES = ("name", "title", "ball", "drag", "speeds", "values")
 _OF_COMPARISON = ("skipped", "tells_apart", "steady", "summary")
 
@@ -73,8 +67,8 @@ class SeriesFit(Shown):
         count = len(self.comparisons)
         return (
             f"{count} series {'has' if count == 1 else 'have'} {verdicts} verdicts; if all laws "
-            f"were true, chance alone would refute {REFUTED_BELOW * verdicts:.1f} of them. {shaky} "
-            "of the series are not steady: half or twice the assumed errors change a verdict."
+            f"were true, chance alone would refute {REFUTED_BELOW * verdicts:.1f} of them. "
+            f"Half or twice the assumed errors change a verdict in {shaky} of the series."
         )
 
     @property
@@ -82,17 +76,8 @@ class SeriesFit(Shown):
         """The laws of each ball, the best first: restitution at the highest speed, χ², p."""
         import pandas as pd
 
-        rows = [
-            {
-                "ball": found.series.title, "speed (m/s)": found.series.speeds.max(),
-                "law": ", ".join(law.laws), "restitution": law.value,
-                "from": law.interval()[0], "to": law.interval()[1],
-                "χ²": law.chi_squared, "degrees": law.freedom, "p": law.p, "verdict": law.verdict,
-            }
-            for found in self.comparisons
-            for law in found.outcomes
-        ]  # fmt: skip
-        return pd.DataFrame(rows).set_index(["ball", "law"]) if rows else pd.DataFrame()
+        tables = {found.series.title: found.table for found in self.comparisons}
+        return pd.concat(tables, names=["ball"]) if tables else pd.DataFrame()
 
     @property
     def remarks(self) -> tuple[str, ...]:  # type: ignore[override]
@@ -254,14 +239,15 @@ def _law_as_dict(name: str, outcome: Outcome) -> dict[str, Any]:
 
 
 def _csv(done: SeriesFit) -> str:
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(("dataset", "ball", "quantity", *_COLUMNS))
-    for found in done.as_dict()["series"]:
-        for law in found["laws"]:
-            row = (law[key] for key in _COLUMNS)
-            writer.writerow((found["name"], found["ball"], found["quantity"], *row))
-    return stream.getvalue()
+    import pandas as pd
+
+    rows = [
+        {"dataset": found["name"], "ball": found["ball"], **law}
+        for found in done.as_dict()["series"]
+        for law in found["laws"]
+    ]
+    text: str = pd.DataFrame(rows).to_csv(index=False, lineterminator="\n")
+    return text
 
 
 def _page(done: SeriesFit, figures: dict[str, bytes]) -> str:

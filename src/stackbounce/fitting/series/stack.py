@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from stackbounce.errors import InvalidValue
+from stackbounce.fitting.notes import describe_freedom
 from stackbounce.fitting.rows import rows_of
 from stackbounce.fitting.series.columns import UNITS, columns_of
 from stackbounce.fitting.series.readings import headed, numbers_in, with_unit
@@ -135,7 +136,7 @@ def _errors(column: Any, own: Any, told: dict[str, float], at: Array, notes: lis
     estimate = 0.5 * own.digit
     why = "half of the step in which they were written"
     if freedom and (scatter := math.sqrt(float(np.sum(np.square(apart))) / freedom)) > estimate:
-        why = f"the scatter of repeated drops, with {freedom} degrees of freedom"
+        why = f"the scatter of repeated drops, with {describe_freedom(freedom)}"
         estimate = scatter
     notes.append(
         f"The error of {column.text!r} is {why}, {with_unit(estimate, unit)}; --error tells "
