@@ -26,11 +26,14 @@ def print_comparison(console: Console, done: Comparison, speed: float) -> None:
     """Print a comparison of models that were calibrated at a speed in m/s."""
     name = _CRITERIA[done.criterion]
     left_out = [done.predictive(score.model) for score in done.scores]
-    console.print(table_of(done.table.assign(left_out=left_out)))
+    other = "bic" if done.criterion == "aicc" else "aicc"
+    shorter = {"probability": "p", "degrees_of_freedom": "degrees", "parameters": "numbers"}
+    scores = done.table.drop(columns=other).rename(columns=shorter)
+    console.print(table_of(scores.assign(left_out=left_out)))
     console.print(
         "\nEach model has the same contacts in all drops. The search began with contacts that last "
-        f"as long as yours at {number(speed)} m/s, the geometric mean of the impact speeds. The "
-        "probability is that of a larger chi squared if the model is right. "
+        f"as long as yours at {number(speed)} m/s, the geometric mean of the impact speeds. "
+        "p is the probability of a larger chi squared if the model is right. "
         f"{name} is chi squared plus a penalty for each fitted number: 10 above the best is "
         "hopeless. The last number says how well each measurement is predicted from all others, if "
         "it is left out: more is better."

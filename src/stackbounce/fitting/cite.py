@@ -38,9 +38,9 @@ def cite(found: Fit | Comparison | SeriesFit) -> str:
 
     Examples
     --------
-    >>> from stackbounce.fitting import fit_series
-    >>> print(cite(fit_series("dataset:golf-marble-heights", laws=["Rigid"]))[:65])
-    Contact laws were fitted to 11 restitutions of 1 ball by weighted
+    >>> from stackbounce.fitting.series import fit_series
+    >>> print(cite(fit_series("dataset:golf-marble-heights", laws=["Rigid"]))[:64])
+    Contact laws were fitted to 4 restitutions of 1 ball by weighted
     """
     if isinstance(found, SeriesFit):
         series = [compared.series for compared in found.comparisons]
