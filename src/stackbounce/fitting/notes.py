@@ -42,7 +42,8 @@ def describe_goodness(fit: "Fit") -> str:
     if not count:
         return f"{words}: too few data to tell whether the model is right."
     share = 100.0 * fit.probability
-    often = f"{share:.2g} %" if share >= 0.01 else "less than 0.01 %"
+    digits = ".0f" if share >= 10.0 else ".2g"
+    often = f"{share:{digits}} %" if share >= 0.01 else "less than 0.01 %"
     return f"{words}; were the model right, it would be larger in {often} of all cases."
 
 

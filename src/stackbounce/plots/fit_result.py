@@ -1,6 +1,5 @@
 """Plots of a fit: pulls, force records, chi squared around its minimum, and its posterior."""
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -8,7 +7,7 @@ from numpy.typing import NDArray
 
 from stackbounce.plots.by_number import draw_by_number, draw_into, find_number, panels_of
 from stackbounce.plots.by_speed import restitutions
-from stackbounce.plots.model_comparison import compared
+from stackbounce.plots.model_comparison import compared, draw_pulls
 from stackbounce.plots.scales import Scale, label
 from stackbounce.plots.style import COLORS, styled_figure
 from stackbounce.units import handy, rounded
@@ -26,11 +25,9 @@ _TOP = 10.0  # upper end of a profile's axis
 _BANDS = (0.0, 1.0, 4.0, 9.0, 16.0, 25.0, 100.0)
 _CURVE, _BEST, _OTHER, _KINK = COLORS[0], COLORS[1], "white", "#202020"
 _MEASURED, _FITTED = "#4d4d4d", COLORS[1]
-_MOST_PULLS, _MOST_RECORDS = 40, 4
-_ROW = 0.26  # inches of a pull
+_MOST_RECORDS = 4
 _WIDE = 7.2  # inches
 _BESIDE = 0.25  # of the contact's duration: drawn before and after it
-_HELD = 5.0  # larger pulls are arrows at the edge
 _OWN_STYLE = {"axes.grid": False, "figure.constrained_layout.use": False, "lines.linewidth": 1.2}
 _SIDE = 2.5  # inches of a panel
 _MOST = 20_000  # draws; more are thinned evenly
@@ -230,9 +227,9 @@ def fitted(fit: Any, axes: Any = None) -> "Figure":
     """
     if axes is not None:
         return draw_into(axes, {"": fit})
-    residuals, records = fit.residuals[:_MOST_PULLS], fit.records[:_MOST_RECORDS]
+    residuals, records = fit.residuals, fit.records[:_MOST_RECORDS]
     count, number = 0 if records else len(fit.names), find_number(fit)
-    heights = [4.4 if number else 0.9 + _ROW * len(residuals)] if residuals else []
+    heights = [4.4 if number else 1.8] if residuals else []
     heights += [2.4] * len(records) + ([3.0] if count == 1 else [5.6] if count == 2 else [])
     with styled_figure(_WIDE, sum(heights) + 0.3) as figure:
         parts = figure.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0]
@@ -240,7 +237,8 @@ def fitted(fit: Any, axes: Any = None) -> "Figure":
         if number:
             draw_by_number(panels_of(parts[0], fit), {"": fit}, number)
         elif residuals:
-            _draw_pulls(parts[0].subplots(), residuals, len(fit.residuals))
+            pulls = {"": [residual.pull for residual in residuals]}
+            draw_pulls(parts[0].subplots(), pulls, [residual.label for residual in residuals])
         for part, record in zip(parts[bool(residuals) :], records, strict=False):
             _draw_record(part.subplots(), record)
         if count == 1:
@@ -255,42 +253,6 @@ def _title(fit: Any) -> str:
     words = f"{count} degree{'' if count == 1 else 's'} of freedom"
     chi_squared = 0.0 if fit.chi_squared < 1e-9 else fit.chi_squared
     return f"chi squared {chi_squared:.3g} for {words}"
-
-
-def _draw_pulls(axes: "Axes", residuals: Sequence[Any], count: int) -> None:
-    """Draw the pull of each measured number as a dot, the first one on top."""
-    places = np.arange(len(residuals))
-    pulls = np.array([residual.pull for residual in residuals])
-    wide = min(max(3.0, 1.15 * float(np.abs(pulls).max())), _HELD)
-    for reach, shade in ((2.0, 0.08), (1.0, 0.14)):
-        axes.axvspan(-reach, reach, color=COLORS[0], alpha=shade, linewidth=0)
-    axes.axvline(0.0, color="#808080", linewidth=0.8)
-    inside = np.abs(pulls) <= wide
-    look: Any = {"color": _FITTED, "zorder": 3, "clip_on": False}
-    axes.plot(pulls[inside], places[inside], "o", markersize=6, **look)
-    for place, pull in zip(places[~inside], pulls[~inside], strict=True):
-        side = np.sign(pull)
-        axes.plot(side * wide, place, ">" if side > 0 else "<", markersize=8, **look)
-    axes.set_xlim(-wide, wide)
-    axes.set_ylim(len(residuals) - 0.4, -0.6)
-    axes.set_yticks(places, [f"{residual.drop}  {residual.name}".strip() for residual in residuals])
-    axes.grid(visible=False, axis="y")
-    axes.tick_params(axis="y", length=0)
-    axes.set_xlabel("fitted − measured (errors)")
-    values = axes.secondary_yaxis("right")
-    values.set_yticks(places, [_both(residual) for residual in residuals])
-    values.tick_params(axis="y", length=0)
-    values.spines["right"].set_visible(False)
-    if count > len(residuals):
-        axes.set_title(f"the first {len(residuals)} of {count}", loc="left", fontsize=9)
-
-
-def _both(one: Any) -> str:
-    """Return the label ``measured ± error, fitted value``, all with the same decimals."""
-    unit, factor = handy(max(abs(one.measured), one.error), one.unit)
-    numbers = [factor * value for value in (one.measured, one.error, one.fitted)]
-    text = "{} ± {}, fitted {} ".format(*rounded(numbers, factor * one.error)) + unit
-    return text.rstrip().replace("-", "−")
 
 
 def _draw_record(axes: "Axes", record: Any) -> None:

@@ -1,5 +1,6 @@
 """The plot of a model comparison: information criterion and pulls of each model."""
 
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -70,7 +71,8 @@ def compared(comparison: Any, axes: Any = None) -> "Figure":
             draw_by_number(panels_of(others, comparison[names[0]]), best, number)
         else:
             left, right = figure.subplots(1, 2, sharey=True, width_ratios=(2.2, wide - 3.0))
-            _draw_pulls(figure, right, pulls)
+            rows = dict(zip(names, pulls.values, strict=True))
+            draw_pulls(right, rows, pulls.datum.values.tolist())
         _draw_scores(left, comparison)
         left.set_yticks(np.arange(len(names)), [score.title for score in comparison.scores])
     return figure
@@ -97,26 +99,25 @@ def _draw_scores(axes: "Axes", comparison: Any) -> None:
     axes.tick_params(axis="y", length=0)
 
 
-def _draw_pulls(figure: "Figure", axes: "Axes", pulls: Any) -> None:
-    """Draw the pulls of all models as a colored table, with the numbers in its cells."""
-    table = pulls.values
+def draw_pulls(axes: "Axes", pulls: Mapping[str, Sequence[float]], data: Sequence[str]) -> None:
+    """Draw pulls, a row for each model, as a colored table with the numbers in its cells."""
+    table = np.array(list(pulls.values()))
     shown = axes.imshow(table, cmap="RdBu_r", vmin=-_MOST, vmax=_MOST, aspect="auto")
-    if table.shape[1] <= _WIDEST:
-        for (row, column), pull in np.ndenumerate(table):
-            dark = abs(pull) > 0.6 * _MOST
-            axes.annotate(
-                _written(float(pull)),
-                (column, row),
-                ha="center",
-                va="center",
-                fontsize=7.5,
-                color="white" if dark else "black",
-            )
-    axes.set_xticks(np.arange(table.shape[1]), pulls.datum.values, rotation=40, ha="right")
+    for (row, column), pull in np.ndenumerate(table if len(data) <= _WIDEST else table[:, :0]):
+        axes.annotate(
+            _written(float(pull)),
+            (column, row),
+            ha="center",
+            va="center",
+            fontsize=7.5,
+            color="white" if abs(pull) > 0.6 * _MOST else "black",
+        )
+    axes.set_xticks(np.arange(len(data)), data, rotation=40, ha="right")
+    axes.set_yticks(np.arange(len(table)), list(pulls))
     axes.tick_params(axis="x", labelsize=8)
     axes.grid(visible=False)
-    bar = figure.colorbar(shown, ax=axes, extend="both", pad=0.015, fraction=0.05)
-    bar.set_label("fitted − measured, in errors")
+    bar = axes.figure.colorbar(shown, ax=axes, extend="both", pad=0.015, fraction=0.05)
+    bar.set_label("fitted − measured,\nin errors")
 
 
 def _written(pull: float) -> str:
