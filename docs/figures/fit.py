@@ -5,9 +5,10 @@ from shown import DOCS, show
 import stackbounce as sb
 from stackbounce import plots
 from stackbounce.cross2007.datasets import load_dataset
-from stackbounce.fitting import read_drops
+from stackbounce.fitting import FitProblem, read_drops
 from stackbounce.fitting.files import read_force_record
-from stackbounce.fitting.series import fit_series
+from stackbounce.fitting.series import fit_series, read_stack
+from stackbounce.fitting.standard import usual_model
 
 BASKETBALL, TENNIS = sb.Ball(0.150, name="basketball"), sb.Ball(0.057, name="tennis")
 
@@ -23,6 +24,12 @@ def heights():
     """A table of two balls."""
     found = fit_series(DOCS / "fit" / "heights.csv", errors=["drop height = 5 mm"])
     show(plots.restitutions, found)
+
+
+def stack():
+    """A table of a stack."""
+    table = read_stack(DOCS / "fit" / "stack.csv", ["1 cm"])
+    show(plots.fit, usual_model(FitProblem(table.drops, table.data)).fit())
 
 
 def force():

@@ -10,6 +10,7 @@ from pages.consoles import DOCS, read_page, run_all, steps
 from stackbounce.fitting.quantities import QUANTITIES
 
 TEXT = read_page("fit")
+PICTURES = ["draws", "force", "heights", "models", "stack", "valley"]
 
 
 @pytest.mark.slow
@@ -21,7 +22,7 @@ def test_the_commands_in_turn_print_what_is_shown(tmp_path, monkeypatch, capsys)
     commands = [command[0] for command, _ in steps(TEXT)]
     assert commands.count("fit") == TEXT.count("$ stackbounce fit")
     run_all(steps(TEXT), capsys)
-    for name in ("heights", "force", "valley", "draws", "models"):
+    for name in PICTURES:
         assert (tmp_path / f"{name}.png").stat().st_size > 10_000
     drop = sb.Drop.from_toml(tmp_path / "fitted" / "highest.toml")
     assert drop.contacts[1].stiffness == pytest.approx(1000.0, abs=3 * 21.0)  # what went in
@@ -31,7 +32,7 @@ def test_the_commands_in_turn_print_what_is_shown(tmp_path, monkeypatch, capsys)
 def test_every_picture_has_its_command():
     pictures = re.findall(r"^\.\. plot:: figures/fit.py (\w+)$", TEXT, re.MULTILINE)
     written = re.findall(r"^Picture: (\w+)\.png$", TEXT, re.MULTILINE)
-    assert sorted(pictures) == sorted(written) == ["draws", "force", "heights", "models", "valley"]
+    assert sorted(pictures) == sorted(written) == PICTURES
 
 
 def test_every_quantity_is_in_the_table():
