@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.errors import InvalidValue
+from stackbounce.plots.fitted_curves import Curve, Points, draw_fitted, spread_over
 from stackbounce.plots.scales import Scale, label, show_in_handy_unit
-from stackbounce.plots.style import COLORS, written
+from stackbounce.plots.style import written
 from stackbounce.run.paths import Number, numbers_of, value_in
 from stackbounce.run.quantities import QUANTITIES, Array
 
@@ -15,10 +16,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
 
-_POINTS = 80  # of a curve
-_BEYOND = 0.05  # of the range: a curve goes on beyond the points
-_MARKERS = ("o", "s", "^", "D", "v", "P")
-_STYLES = ("-", "--", "-.", ":")
 _NAMES = {"height": "drop height", "impact_speed": "impact speed"}
 _RATIOS = (3.0, 1.3)  # the heights of the two panels of a quantity
 
@@ -108,38 +105,24 @@ def draw_by_number(
         The number in which the drops differ.
     """
     first = next(iter(fits.values()))
-    places = _places(first, number)
-    reach = _BEYOND * np.ptp(places)
-    values = np.linspace(max(places.min() - reach, 0.0), places.max() + reach, _POINTS)
+    values = spread_over(_places(first, number))
     curves = {name: fit.along(number, values) for name, fit in fits.items()}
     for quantity, (above, *below) in zip(list_quantities(first), panels, strict=True):
-        data = _data(first, quantity, number)
-        for k, (part, (at, measured, errors, _)) in enumerate(data.items()):
-            color = COLORS[k % len(COLORS)] if len(fits) == 1 else "black"
-            look: Any = {"fmt": _MARKERS[k % len(_MARKERS)], "color": color, "markersize": 4.5}
-            several = len(data) > 1
-            name = _part_name(first, quantity, part) if several else "measured"
-            above.errorbar(at, measured, errors, **look, label=name, capsize=2.0, zorder=4)
-            for j, (model, (tables, deviations)) in enumerate(curves.items()):
-                own = color if len(fits) == 1 else COLORS[j % len(COLORS)]
-                title: Any = {"label": written(model)} if len(fits) > 1 and k == 0 else {}
+        measured = [_data(fit, quantity, number) for fit in fits.values()]
+        groups = []
+        for part, (at, data, errors, _) in measured[0].items():
+            name = _part_name(first, quantity, part)
+            own: list[Curve] = []
+            for model, (tables, deviations) in curves.items():
                 curve, band = tables[quantity][:, part], deviations[quantity][:, part]
-                above.plot(values, curve, _STYLES[j % len(_STYLES)], color=own, **title)
-                if j == 0:
-                    sides = (curve - band, curve + band)
-                    above.fill_between(values, *sides, color=own, alpha=0.18, linewidth=0)
-                for axes in below:
-                    pulls = _data(fits[model], quantity, number)[part][3]
-                    axes.plot(at, pulls, look["fmt"], color=own, markersize=4.5)
+                sides = None if own else (curve - band, curve + band)
+                own.append(Curve(model or name, values, curve, sides))
+            pulls = [other[part][3] for other in measured]
+            groups.append((Points(name, at, data, errors, pulls), own))
+        draw_fitted(above, below[0] if below else None, groups)
         words = quantity.replace("_", " ").removesuffix("s")
         unit, _ = show_in_handy_unit(above.yaxis, above.get_yticks(), QUANTITIES[quantity].unit)
         above.set_ylabel(f"{words} ({unit})" if unit else words)
-        if len(data) > 1 or len(fits) > 1:
-            above.legend(frameon=False, fontsize=8.5)
-        for axes in below:
-            axes.axhspan(-1.0, 1.0, color=COLORS[0], alpha=0.12, linewidth=0)
-            axes.axhline(0.0, color="#808080", linewidth=0.8)
-            axes.set_ylabel("fitted − measured\n(errors)")
         name = _NAMES.get(number.path, "gap" if number.part == "gaps" else number.path)
         label((above, *below)[-1], "x", name, Scale(values, False, [], number.unit))
 

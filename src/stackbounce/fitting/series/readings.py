@@ -215,16 +215,18 @@ def _by_drop(
         for number, column in enumerate(read if in_turn else there, 1):
             if column not in there:
                 break  # the bounces after one that is missing have no fall that is known
-            own = numbers[column.index]
-            found.append(
-                {
-                    "line": line, "group": groups[k], "drop": k, "start_role": start.role,
-                    "start": before.values[k], "start_error": before.errors[k],
-                    "number": number if in_turn else 1,
-                    "value": own.values[k], "error": own.errors[k], "digit": own.digit,
-                }
-            )  # fmt: skip
+            where = {"line": line, "group": groups[k], "drop": k, "start_role": start.role}
+            bounce = {"number": number if in_turn else 1}
+            found.append(where | bounce | _both(before, k, numbers[column.index], k))
     return found, measured
+
+
+def _both(start: Numbers, before: int, measured: Numbers, after: int) -> dict[str, float]:
+    """Return what was before the first bounce and after the one that was read, with errors."""
+    return {
+        "start": start.values[before], "start_error": start.errors[before],
+        "value": measured.values[after], "error": measured.errors[after], "digit": measured.digit,
+    }  # fmt: skip
 
 
 def _in_turn(read: Sequence[Column], numbers: dict[int, Numbers], start: Column) -> bool:
@@ -263,14 +265,9 @@ def _by_bounce(
         if number != last + 1.0 or groups[k] != groups[begin]:
             drop, begin = drop + 1, k
         else:
-            found.append(
-                {
-                    "line": lines[k], "group": groups[k], "drop": drop, "start_role": "drop_height",
-                    "start": own.values[begin], "start_error": own.errors[begin],
-                    "number": round(number - numbers[counted.index].values[begin]),
-                    "value": own.values[k], "error": own.errors[k], "digit": own.digit,
-                }
-            )  # fmt: skip
+            where = {"line": lines[k], "group": groups[k], "drop": drop}
+            where |= {"number": round(number - numbers[counted.index].values[begin])}
+            found.append(where | {"start_role": "drop_height"} | _both(own, begin, own, k))
         last = number
     return found, "rebound_height"
 
