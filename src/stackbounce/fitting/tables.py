@@ -127,7 +127,11 @@ def _drops(
                 row[column.kind][column.name] = _Cell(text, f"row {line}, {column.text}")
         name = row["name"]["name"].text if row["name"] else f"drop_{k}"
         check_name(f"row {line}, name", name, drops)
-        drops[name] = _drop(drop, row["number"], line)
+        units = _FALLS | {path: number.unit for path, number in numbers_of(drop).items()}
+        values = {
+            path: quantity(own.text, units[path], own.where) for path, own in row["number"].items()
+        }
+        drops[name] = drop_of(drop, values, line)
         data[name] = _data(row, folder)
         if not data[name]:
             raise InvalidValue(f"row {line} has nothing that was measured")
@@ -177,16 +181,20 @@ def _check_columns(columns: Sequence[_Column]) -> None:
         raise InvalidValue(f"it has no column of what was measured; {_known('', [])}")
 
 
-def _drop(drop: Drop, row: Mapping[str, _Cell], line: int) -> Drop:
-    """Return the drop of a row."""
+def drop_of(drop: Drop, values: Mapping[str, float], line: int) -> Drop:
+    """Return a drop with the numbers of a row, in SI units by their paths.
+
+    Raises
+    ------
+    InvalidValue, InvalidType
+        If there is no such drop; the message names the row.
+    """
     numbers = numbers_of(drop)
-    units = _FALLS | {name: number.unit for name, number in numbers.items()}
-    values = {name: quantity(cell.text, units[name], cell.where) for name, cell in row.items()}
-    falls = {name: values.pop(name) for name in _FALLS if name in values}
+    falls = {name: value for name, value in values.items() if name in _FALLS}
     others: dict[str, Any] = dict.fromkeys((*_FALLS, "velocities")) | falls if falls else {}
+    given = {numbers[path]: value for path, value in values.items() if path not in _FALLS}
     try:
-        drop = replace(drop, **others)
-        return drop_at(drop, {numbers[name]: value for name, value in values.items()})
+        return drop_at(replace(drop, **others), given)
     except (InvalidValue, InvalidType) as error:
         raise type(error)(f"row {line}: {error}") from error
 

@@ -3,16 +3,17 @@
 import math
 import os
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from stackbounce.errors import InvalidValue
 from stackbounce.fitting.notes import describe_freedom
-from stackbounce.fitting.rows import rows_of
-from stackbounce.fitting.series.columns import UNITS, columns_of
-from stackbounce.fitting.series.readings import headed, numbers_in, with_unit
+from stackbounce.fitting.rows import Row, rows_of
+from stackbounce.fitting.series.columns import UNITS, Column, columns_of
+from stackbounce.fitting.series.readings import Numbers, headed, numbers_in, with_unit
 from stackbounce.fitting.series.table import told_errors
+from stackbounce.fitting.tables import drop_of
 from stackbounce.model import Drop
 from stackbounce.model.catalogue import catalogue_ball, stack
 from stackbounce.run.quantities import Array
@@ -63,64 +64,63 @@ def read_stack(path: str | os.PathLike[str], errors: Sequence[str] = ()) -> Stac
     """
     name, rows = rows_of(path)
     head, body = headed(rows)
-    columns = [column for column in columns_of(head) if column.role or column.ball]
-    balls = {column.ball for column in columns if column.ball}
-    if len(balls) < 2:
+    columns = [column for column in columns_of(head) if column.role]
+    named = {
+        column.ball: catalogue_ball(column.ball).ball.mass for column in columns if column.ball
+    }
+    if len(named) < 2:
         return None
     try:
-        return _drops(columns, body, told_errors(errors), _in_order(balls))
+        balls = sorted(named, key=lambda ball: -named[ball])
+        return _drops(columns, body, told_errors(errors), balls)
     except InvalidValue as error:
         raise type(error)(f"{name}: {error}") from error
 
 
-def _in_order(balls: set[str]) -> list[str]:
-    """Return the names of balls, the heaviest first."""
-    return sorted(balls, key=lambda ball: -catalogue_ball(ball).ball.mass)
-
-
 def _drops(
-    columns: Sequence[Any], body: Sequence[Any], told: dict[str, float], balls: list[str]
+    columns: Sequence[Column], body: Sequence[Row], told: dict[str, float], balls: list[str]
 ) -> StackTable:
-    numbers = numbers_in(
-        [column for column in columns if column.role in UNITS or column.role == "error"], body
-    )
+    """Return the drops of a table whose columns are known."""
+    numbers, parts = numbers_in(columns, body), stack(balls)
+    base = Drop(parts.balls, parts.contacts, parts.gaps, height=1.0)
     start = next((column for column in columns if column.role in _FALLS), None)
     if start is None:
         raise InvalidValue("no column is a drop height or an impact speed")
-    gap = next((column for column in columns if column.role == "gap"), None)
-    parts, notes = stack(balls), [f"The balls are stacked {' below '.join(balls)}."]
-    falls = numbers[start.index].values
-    gaps = numbers[gap.index].values if gap else np.full(len(falls), math.nan)
+    paths = {start.index: [_FALLS[start.role]]}
+    paths |= {
+        c.index: [f"gaps.{i}" for i in range(len(balls) - 1)] for c in columns if c.role == "gap"
+    }
+    places = np.stack([numbers[index].values for index in paths])
+    measured = sorted((c for c in columns if c.ball), key=lambda c: balls.index(c.ball))
+    notes = [f"The balls are stacked {' below '.join(balls)}."]
+    errors = {c.index: _errors(c, numbers[c.index], told, places, notes) for c in measured}
     drops: dict[str, Drop] = {}
     data: dict[str, dict[str, tuple[float, float]]] = {}
-    measured = {column: numbers[column.index] for column in columns if column.ball}
-    known = {
-        column: _errors(column, own, told, np.stack([falls, gaps]), notes)
-        for column, own in measured.items()
-    }
     for k, (line, _) in enumerate(body):
         found = {
-            f"{column.role}s.{balls.index(column.ball)}": (
-                float(measured[column].values[k]),
-                float(known[column][k]),
+            f"{c.role}s.{balls.index(c.ball)}": (
+                float(numbers[c.index].values[k]),
+                float(errors[c.index][k]),
             )
-            for column in sorted(measured, key=lambda column: balls.index(column.ball))
-            if math.isfinite(measured[column].values[k])
+            for c in measured
+            if math.isfinite(numbers[c.index].values[k])
         }
-        if not found or not math.isfinite(falls[k]):
+        if not found or not math.isfinite(places[0, k]):
             notes.append(f"Row {line} has no {start.text!r} or no height of a ball: left out.")
             continue
-        own_gaps = parts.gaps if math.isnan(gaps[k]) else [float(gaps[k])] * len(parts.gaps)
-        try:
-            fall: Any = {_FALLS[start.role]: float(falls[k])}
-            drops[f"row_{line}"] = Drop(parts.balls, parts.contacts, own_gaps, **fall)
-        except InvalidValue as error:
-            raise InvalidValue(f"row {line}: {error}") from error
-        data[f"row_{line}"] = found
+        values = {
+            path: float(place)
+            for names, place in zip(paths.values(), places[:, k], strict=True)
+            for path in names
+            if math.isfinite(place)
+        }
+        drops[f"row_{line}"], data[f"row_{line}"] = drop_of(base, values, line), found
     return StackTable(drops, data, tuple(notes))
 
 
-def _errors(column: Any, own: Any, told: dict[str, float], at: Array, notes: list[str]) -> Array:
+def _errors(
+    column: Column, own: Numbers, told: dict[str, float], at: Array, notes: list[str]
+) -> Array:
     """Return the error of each number of a column: its own, one that is told, or an estimate."""
     errors = np.where(
         np.isnan(own.errors), told.get(column.role, told.get("", math.nan)), own.errors
