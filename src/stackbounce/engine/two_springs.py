@@ -11,6 +11,7 @@ from stackbounce.engine import lockstep as lane
 from stackbounce.engine.codes import ASK, EVENT_LIMIT, FINISHED, INVALID
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.lockstep import LANES, advance_lanes
+from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import Drops, Outcomes, Workspace
 
 # The slots of waiting drops: initial values, and the numbers given.
@@ -48,9 +49,9 @@ def run_two_springs(drops: Drops, event_limit: int, out: Outcomes, space: Worksp
     event_limit : int
         The number of touches and releases after which a drop ends with EVENT_LIMIT.
     out : Outcomes
-        Gets the velocities, numbers of collisions, and times. The status is FINISHED; EVENT_LIMIT;
-        INVALID for input that is out of range; or ASK where the general engine must solve the drop.
-        The other results of such a drop are meaningless.
+        Gets the velocities, ratios, numbers of collisions, and times. The status is FINISHED;
+        EVENT_LIMIT; INVALID for input that is out of range; or ASK where the general engine must
+        solve the drop. The other results of such a drop are meaningless.
     space : Workspace
         Its ``floats`` are scratch space of the size SCRATCH, from `new_scratch`.
     """
@@ -64,7 +65,7 @@ def run_two_springs(drops: Drops, event_limit: int, out: Outcomes, space: Worksp
             while x[lane.STATUS + i] != 0.0:
                 done = int(x[lane.ROW + i])
                 if done >= 0:
-                    _write_outcome(out, x, i, done)
+                    _write_outcome(drops, out, x, i, done)
                     left -= 1
                 if waiting == 0 and row < rows:
                     waiting = min(LANES, rows - row)
@@ -152,7 +153,7 @@ def _find_constants(x: Floats, count: int) -> None:
 
 
 @kernel
-def _write_outcome(out: Outcomes, x: Floats, i: int, r: int) -> None:
+def _write_outcome(drops: Drops, out: Outcomes, x: Floats, i: int, r: int) -> None:
     """Write the outcome of the drop in lane i to row r; unknown numbers are nan."""
     code = int(x[lane.STATUS + i])
     known = code in (FINISHED, EVENT_LIMIT)
@@ -166,3 +167,4 @@ def _write_outcome(out: Outcomes, x: Floats, i: int, r: int) -> None:
     out.first_touch[r, 1] = unit * (x[lane.FIRST + i] if x[lane.N1 + i] > 0.0 else math.nan)
     out.last_release[r, 0] = unit * (last0 if last0 > 0.0 else math.nan)
     out.last_release[r, 1] = unit * (last1 if last1 > 0.0 else math.nan)
+    find_ratios(drops, out, r)

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
+from stackbounce.engine import codes
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.model.ball import Ball
 from stackbounce.model.collision import elastic
@@ -18,7 +19,7 @@ _STEEPEST_FLANK = 2.5  # the largest exponent that a force record of an unknown 
 class ElasticLaw(ContactLaw):
     """A law ``F = k c**p`` without loss; a class sets `exponent` or has it as a field."""
 
-    form = "POWER"
+    form = codes.POWER
     rate_free = True
 
     def duration_at(self, mass: float, speed: float) -> float:

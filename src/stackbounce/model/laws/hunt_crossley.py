@@ -22,6 +22,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
+from stackbounce.engine import codes
 from stackbounce.errors import non_negative
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import integral, root
@@ -81,7 +82,7 @@ class HuntCrossley(ContactLaw):
 
     formula = "F = max(0, stiffness c**exponent (1 + dissipation c'))"
     source = "K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42, 440 (1975)"
-    form = "HUNT_CROSSLEY"
+    form = codes.HUNT_CROSSLEY
     third_number = "dissipation"
     loss = "dissipation"
     loss_depends_on = ("impact_speed",)

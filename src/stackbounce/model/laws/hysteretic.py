@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field
 from typing import Annotated, Any, ClassVar, Self
 
-from stackbounce.engine.codes import FORMS
+from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, between, fraction, shown
 from stackbounce.model.collision import elastic
 from stackbounce.model.laws.law import (
@@ -81,7 +81,7 @@ class Hysteretic(ContactLaw):
         "F = stiffness C**exponent (c/C)**unloading_exponent"
     )
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section V"
-    form = "HYSTERETIC"
+    form = codes.HYSTERETIC
     third_number = "unloading_exponent"
     rate_free = True
     loss = "restitution"
@@ -145,7 +145,7 @@ class Hysteretic(ContactLaw):
             import numpy as np
 
             n = np.maximum(p, (p + 1.0) / e / e - 1.0)
-        return FORMS[self.form], k, p, n, 0.0
+        return self.form, k, p, n, 0.0
 
     def duration_at(self, mass: float, speed: float) -> float:
         """Return the contact time in units of C/v."""

@@ -107,8 +107,8 @@ class ContactLaw:
     """The formula of the force in terms of the compression c and its rate c', as plain text."""
     source: ClassVar[str]
     """Where it was published."""
-    form: ClassVar[str]
-    """The name of the form of the force, see `stackbounce.engine.forces`."""
+    form: ClassVar[int]
+    """The code of the form of the force, see `stackbounce.engine.forces`."""
     third_number: ClassVar[str] = ""
     """The field that is the third of the engine's numbers, such as the damping."""
     fourth_number: ClassVar[str] = ""
@@ -240,7 +240,7 @@ class ContactLaw:
             second = varied.get("exponent", second)
             third = varied.get(self.third_number, third)
             fourth = varied.get(self.fourth_number, fourth)
-        return codes.FORMS[self.form], first, second, third, fourth
+        return self.form, first, second, third, fourth
 
     def values(self, varied: Mapping[str, Any]) -> list[Any]:
         """Return the values of all parameters, of which some vary, see `engine_numbers`."""

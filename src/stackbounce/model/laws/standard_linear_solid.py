@@ -22,6 +22,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
+from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, non_negative, positive
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import root
@@ -83,7 +84,7 @@ class StandardLinearSolid(ContactLaw):
         "F = max(0, stiffness (c + relaxation_strength (c - u))), u' = (c - u)/relaxation_time"
     )
     source = "C. Zener, Elasticity and Anelasticity of Metals (1948)"
-    form = "RELAXING"
+    form = codes.RELAXING
     page_code: ClassVar = {
         "others": """({ contact_time }, { relaxation_strength }) =>
           ({ relaxation_time: contact_time / Math.PI / Math.sqrt(1 + relaxation_strength) })"""

@@ -14,6 +14,7 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
+from stackbounce.engine import codes
 from stackbounce.errors import non_negative
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import root
@@ -68,7 +69,7 @@ class Viscoelastic(ContactLaw):
         "G. Kuwabara and K. Kono, Jpn. J. Appl. Phys. 26, 1230 (1987); N. V. Brilliantov, "
         "F. Spahn, J.-M. Hertzsch and T. Pöschel, Phys. Rev. E 53, 5382 (1996)"
     )
-    form = "VISCOELASTIC"
+    form = codes.VISCOELASTIC
     third_number = "dissipative_time"
     loss = "dissipative_time"
     loss_depends_on = ("mass", "impact_speed")
