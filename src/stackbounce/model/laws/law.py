@@ -34,6 +34,7 @@ EngineNumbers: TypeAlias = tuple[int, Any, Any, Any, Any]
 
 _MEASURED = ("mass", "impact_speed", "contact_time", "exponent")
 _LOSSLESS = 1.0 - 1e-11  # a smaller loss is not told from round-off in a simulation
+_FAR = 1e6  # times the largest one of its slider: the largest loss that a calibration tries
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
@@ -263,11 +264,11 @@ class ContactLaw:
         It is 1 without a loss, and a field of the law if it depends on nothing else; of any other
         law it is found by a simulation, by default.
         """
-        if not self.loss:
+        if self._is_elastic():
             return 1.0
         if self.loss == "restitution" and not self.loss_depends_on:
             return float(self.restitution)
-        return self._bounce(mass, speed)[0]
+        return min(1.0, self._bounce(mass, speed)[0])  # it may be above 1 by round-off
 
     def contact_time_at(self, mass: float, speed: float) -> float:
         """Return the contact time in s of a mass in kg at a speed in m/s."""
@@ -275,9 +276,16 @@ class ContactLaw:
         return unit * self.duration_at(mass, speed)
 
     def duration_at(self, mass: float, speed: float) -> float:
-        """Return the contact time in units of C/v, see `elastic`, by default from a simulation."""
+        """Return the contact time in units of C/v, see `elastic`; with a loss from a simulation."""
+        if self._is_elastic():
+            return elastic.duration(self.exponent)
         time = self._bounce(mass, speed)[1]
         return time / elastic.peak_compression(self.stiffness, self.exponent, mass, speed) * speed
+
+    def _is_elastic(self) -> bool:
+        """Return whether nothing is lost, and the force is a power of the compression."""
+        lossy = self.loss and (self.loss == "restitution" or getattr(self, self.loss) > 0.0)
+        return not lossy
 
     def _bounce(self, mass: float, speed: float) -> tuple[float, float]:
         """Return restitution and contact time in s by a simulation."""
@@ -304,8 +312,9 @@ class ContactLaw:
         """Return the law that reproduces measured quantities; ``given`` holds all that are needed.
 
         By default the stiffness is searched for that gives the contact time, and within that search
-        the loss that gives the restitution, by simulations of the collision. Other fields have the
-        value in `given`, their default, or the initial value of their slider.
+        the loss that gives the restitution, by simulations of the collision. Other fields are those
+        of `assumed`, or have the value in `given`, their default, or the initial value of their
+        slider.
 
         Raises
         ------
@@ -323,6 +332,11 @@ class ContactLaw:
                 f"law_class must be a law that can be calibrated, got {cls.__name__}"
             )
         return _found(cls, numbers, given)
+
+    @classmethod
+    def assumed(cls, given: Given, numbers: Mapping[str, float]) -> dict[str, float]:
+        """Return the fields that `calibrated` derives from what was measured and other fields."""
+        return {}
 
     @property
     def linger(self) -> float:
@@ -384,12 +398,15 @@ def _found(cls: type[_Law], numbers: dict[str, float], given: Given) -> _Law:
         """Return the law with a loss that has the contact time."""
         nonlocal stiffness
 
+        def made(k: float) -> _Law:
+            chosen = numbers | loss | {"stiffness": k}
+            return cls(**chosen | cls.assumed(given, chosen))
+
         def short(k: float) -> float:  # linear in k for a power law
-            law = cls(**numbers | loss | {"stiffness": k})
-            return float((lasts / law.contact_time_at(mass, speed)) ** (p + 1.0)) - 1.0
+            return float((lasts / made(k).contact_time_at(mass, speed)) ** (p + 1.0)) - 1.0
 
         stiffness = rising_root(short, stiffness)  # near which the next one is
-        return cls(**numbers | loss | {"stiffness": stiffness})
+        return made(stiffness)
 
     if cls.loss in ("", "restitution"):
         return lasting({})
@@ -397,10 +414,13 @@ def _found(cls: type[_Law], numbers: dict[str, float], given: Given) -> _Law:
     if kept > _LOSSLESS:
         return lasting({cls.loss: 0.0})
 
+    _, least, most = cls.quantities()[cls.loss].slider
+
     def excess(loss: float) -> float:
+        if loss > _FAR * most:  # the run may not end
+            raise ArithmeticError
         return math.log(kept / lasting({cls.loss: loss}).restitution_at(mass, speed))
 
-    _, least, _ = cls.quantities()[cls.loss].slider  # with a large one the run may not end
     return lasting({cls.loss: rising_root(excess, least)})
 
 

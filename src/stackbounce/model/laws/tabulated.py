@@ -165,10 +165,6 @@ class Tabulated(ContactLaw):
             "together, as a press measures it with one ball on the other"
         )
 
-    def restitution_at(self, mass: float, speed: float) -> float:
-        """Return the restitution of a mass in kg at a speed in m/s, by a simulation."""
-        return min(1.0, self._bounce(mass, speed)[0])  # 1 may be above it by round-off
-
     def contact_time_at(self, mass: float, speed: float) -> float:
         """Return the contact time in s of a mass in kg at a speed in m/s, by a simulation."""
         return self._bounce(mass, speed)[1]
