@@ -98,9 +98,8 @@ def contact_time(
     ``k C**(p+1)/(p+1) = m v**2/2``. The contact time of a power law is
     ``C/v 2 sqrt(π) Γ(1 + 1/(p+1))/Γ(1/2 + 1/(p+1))``. For `Hysteretic`, loading takes half of that
     time; unloading takes half of the same expression for the unloading curve at the speed e v. For
-    `Dashpot` it is ``sqrt(m/k) 2 acos(ζ)/sqrt(1 - ζ**2)``, see `restitution`. For `HuntCrossley` it
-    is computed by numerical integration, for `Viscoelastic` by a simulation, for
-    `StandardLinearSolid` as the zero of a force in closed form.
+    `Dashpot` it is ``sqrt(m/k) 2 acos(ζ)/sqrt(1 - ζ**2)``, see `restitution`. For
+    all others it is computed by a simulation.
 
     Examples
     --------
