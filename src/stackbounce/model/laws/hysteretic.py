@@ -148,8 +148,12 @@ class Hysteretic(ContactLaw):
         return self.form, k, p, n, 0.0
 
     def duration_at(self, mass: float, speed: float) -> float:
-        """Return the contact time in units of C/v."""
-        return elastic.hysteretic_duration(self.exponent, self.unloading_exponent, self.restitution)
+        """Return the contact time in units of C/v: half of that on each curve without loss.
+
+        Unloading begins with no speed and ends at the speed e v.
+        """
+        loading, unloading = map(elastic.duration, (self.exponent, self.unloading_exponent))
+        return 0.5 * loading + 0.5 * unloading / self.restitution
 
     @classmethod
     def calibrated(cls, given: Given) -> Self:
