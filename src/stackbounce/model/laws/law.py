@@ -393,6 +393,8 @@ def _found(cls: type[_Law], numbers: dict[str, float], given: Given) -> _Law:
     """Return the law with those numbers but for the stiffness and the loss, which are found."""
     mass, speed, lasts, p = (given[name] for name in _MEASURED)
     stiffness = elastic.measured_stiffness(given, elastic.duration(p))
+    if not cls.loss:
+        return cls(**numbers | {"stiffness": stiffness})
 
     def lasting(loss: dict[str, float]) -> _Law:
         """Return the law with a loss that has the contact time."""
@@ -408,7 +410,7 @@ def _found(cls: type[_Law], numbers: dict[str, float], given: Given) -> _Law:
         stiffness = rising_root(short, stiffness)  # near which the next one is
         return made(stiffness)
 
-    if cls.loss in ("", "restitution"):
+    if cls.loss == "restitution":
         return lasting({})
     kept = given["restitution"]
     if kept > _LOSSLESS:
