@@ -107,10 +107,10 @@ def _lower(entries: list[str]) -> str:
 
 def _kinds(entry: Callable[..., Any]) -> list[str]:
     """Return what an entry takes: records, floats and integers."""
-    from stackbounce.engine.entries import signature
+    from stackbounce.engine.entries import arguments
 
     scalars = {float: "float", int: "int"}
-    return [scalars.get(kind, "record") for kind in signature(entry).arguments]
+    return [scalars.get(kind, "record") for kind in arguments(entry)]
 
 
 def _write(path: Path, content: bytes) -> None:

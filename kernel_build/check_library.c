@@ -11,10 +11,9 @@
 #include <string.h>
 
 enum { ARGUMENTS = 11, LINE = 64 };
-static const char *const entries[] = {"run_batch", "run_rigid_batch", "run_two_springs", "find_ratios"};
+static const char *const entries[] = {"run_batch", "run_rigid_batch", "run_two_springs"};
 typedef int64_t Batch(void *, void *, void *, void *, double, double, int64_t, int64_t, void *, int64_t);
 typedef int64_t Springs(void *, int64_t, void *, void *);
-typedef int64_t Ratios(void *, void *);
 
 static double real(int64_t word) {
   double value;
@@ -49,10 +48,8 @@ int main(int count, char **given) {
       do answer = ((Batch *)found)(begin + a[0], begin + a[1], begin + a[2], begin + a[3], real(a[4]),
                                    real(a[5]), a[6], a[7], begin + a[8], answer);
       while (answer >= 0 && answer < a[10]);
-    else if (entry == 2)
-      answer = ((Springs *)found)(begin + a[0], a[1], begin + a[2], begin + a[3]);
     else
-      answer = ((Ratios *)found)(begin + a[0], begin + a[1]);
+      answer = ((Springs *)found)(begin + a[0], a[1], begin + a[2], begin + a[3]);
     if (answer < 0) return 5;
   }
   for (int64_t k = 0; k < sizes[0]; k++) memory[places[k]] -= (int64_t)(intptr_t)begin;

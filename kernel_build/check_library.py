@@ -29,7 +29,7 @@ from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.work import WORK_LIMIT
 from stackbounce.run.batch import new_outcomes
 
-_ENTRIES = ("run_batch", "run_rigid_batch", "run_two_springs", "find_ratios")
+_ENTRIES = ("run_batch", "run_rigid_batch", "run_two_springs")
 _ARGUMENTS = 11
 _WORD, _LINE = 8, 8  # bytes of a word, words of a cache line
 _LIMIT, _RTOL = 300, 1e-9
@@ -99,7 +99,6 @@ def random_image(batch: int, count: int) -> Image:
     entry = engine.run_batch
     options = math.inf, _RTOL, _LIMIT, WORK_LIMIT
     image.call(entry, stack, space, drops, none, *options, out, 0, count)
-    image.call("find_ratios", drops, out)
     return image
 
 
@@ -114,7 +113,6 @@ def springs_image(count: int) -> Image:
     drops, out = image.record(numbers), image.record(_outcomes(count, 2))
     space = image.record(spring_workspace(compiled=True))
     image.call("run_two_springs", drops, _LIMIT, out, space)
-    image.call("find_ratios", drops, out)
     return image
 
 

@@ -19,8 +19,8 @@ from collections.abc import Callable, Sequence
 from typing import Any, get_type_hints
 
 from stackbounce.engine import codes, records, slots, two_springs
-from stackbounce.engine.codes import FORMS, LOG_COLUMNS
-from stackbounce.engine.entries import ENTRIES, signature
+from stackbounce.engine.codes import LOG_COLUMNS
+from stackbounce.engine.entries import ENTRIES, arguments
 from stackbounce.engine.kernels import FloatTable, IntegerColumn, Integers, IntegerTable
 from stackbounce.engine.records import Drops, Outcomes, Workspace
 from stackbounce.engine.stack import (
@@ -48,8 +48,7 @@ def layout() -> dict[str, Any]:
     """Return the contents of `layout.json`."""
     return {
         "entries": {
-            name: [kind.__name__ for kind in signature(entry).arguments]
-            for name, entry in ENTRIES.items()
+            name: [kind.__name__ for kind in arguments(entry)] for name, entry in ENTRIES.items()
         },
         "records": {
             "Stack": _fields(Stack, lambda balls, _: new_stack(balls)),
@@ -70,7 +69,7 @@ def layout() -> dict[str, Any]:
         "statuses": _numbered(_STATUSES),
         "causes": _numbered("ENDLESS STIFF EXTREME"),
         "events": _numbered(_EVENTS),
-        "forms": FORMS,
+        "forms": _numbered("ABSENT POWER"),
     }
 
 

@@ -16,7 +16,7 @@ from numba.core.registry import cpu_target
 
 from kernel_build.jit import compile_kernel
 from kernel_build.records import RecordType
-from stackbounce.engine.entries import signature
+from stackbounce.engine.entries import arguments
 
 _SCALARS = {float: types.float64, int: types.int64}
 _IN_IR = {float: "double", int: "i64"}
@@ -68,14 +68,14 @@ def lower(entries: Iterable[Callable[..., Any]]) -> str:
     generator.set_env = lambda *_: None
     wrappers = []
     for entry in entries:
-        takes = signature(entry)
-        kinds = tuple(_SCALARS.get(kind) or RecordType(kind) for kind in takes.arguments)
+        takes = arguments(entry)
+        kinds = tuple(_SCALARS.get(kind) or RecordType(kind) for kind in takes)
         kernel: Any = compile_kernel(entry, called=False)
         kernel.compile(kinds)
         compiled = kernel.overloads[kinds]
         compiled.library._ensure_finalized()
         name = compiled.fndesc.llvm_func_name
-        wrappers.append(_wrapper(entry.__name__, name, takes.arguments))
+        wrappers.append(_wrapper(entry.__name__, name, takes))
     whole = llvm.parse_assembly("")
     for library in _Library.made:
         whole.link_in(library._final_module, preserve=True)

@@ -27,20 +27,14 @@ def swept(engine, drops, options):
     out = _room(drops)
     room = memory(engine, drops.mass.shape[1], compiled=True)
     room.run_batch(engine.run_batch, drops, options, out)
-    find_ratios(drops, out)
     return out
 
 
 def on_two_springs(drops, event_limit):
-    """Return the outcomes of two balls on springs by their own kernel, without ratios."""
+    """Return the outcomes of two balls on springs by their own kernel."""
     out, space = _room(drops), Table(spring_workspace(compiled=True))
     native.compiled("run_two_springs")(Table(drops), event_limit, Table(out), space)
     return out
-
-
-def find_ratios(drops, out):
-    """Put ratios into outcomes."""
-    native.compiled("find_ratios")(Table(drops), Table(out))
 
 
 def _room(drops):

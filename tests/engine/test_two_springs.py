@@ -41,7 +41,8 @@ def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
     )
     if plain:
         out = new_outcomes(n, 2)
-        run_two_springs(drops, event_limit, out, spring_workspace(compiled=False))
+        with np.errstate(all="ignore"):
+            run_two_springs(drops, event_limit, out, spring_workspace(compiled=False))
     else:
         out = on_two_springs(drops, event_limit)
     found = {name: getattr(out, name) for name in NAMES}

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
-from batches import bits, find_ratios, numbers_of, on_two_springs, swept
+from batches import bits, numbers_of, on_two_springs, swept
 from fuzz import draw
 from fuzz.replay import drop_of, options_of
 from stackbounce.engine import codes, native
@@ -51,7 +51,6 @@ def swept_springs(drops, options):
     answers = swept(FINITE, Drops._make(array[asked] for array in drops), options)
     for array, answer in zip(out, answers, strict=True):
         array[asked] = answer
-    find_ratios(drops, out)
     return out
 
 

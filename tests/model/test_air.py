@@ -253,12 +253,6 @@ def test_each_ball_may_have_a_coefficient():
     assert air.impact_speed(other, 2.0) == sb.Air(drag_coefficient=0.4).impact_speed(BALL, 2.0)
 
 
-def test_air_is_a_value_that_hashes():
-    one = sb.Air(drag_coefficient={"a": 0.5, "b": 0.4})
-    assert one == sb.Air(drag_coefficient={"b": 0.4, "a": 0.5})
-    assert len({one, sb.Air(drag_coefficient={"b": 0.4, "a": 0.5}), sb.Air(), sb.Air(1.204)}) == 2
-
-
 def test_what_is_wrong_is_told():
     assert refused(sb.Air, density=-1).startswith("density must be a number of kg/m**3, 0 or above")
     assert refused(sb.Air, drag_coefficient={"a": "x"}).startswith("drag_coefficient.a must be")

@@ -77,6 +77,5 @@ def test_restitutions_at_any_speed_are_limits(exponent):
     for fast in (1e100, 1e308):
         assert sb.restitution(falls, impact_speed=fast) == pytest.approx(0.0, abs=1e-19)
         assert sb.restitution(loses, impact_speed=fast) == 0.0
-    assert sb.restitution(sb.RigidLossBySpeed(1.0, 1.0, exponent), impact_speed=1e308) == 1.0
     gentle = sb.RigidBySpeed(0.5, 1e-9, 1e-3)  # its ratio of speeds is out of range, not its power
     assert sb.restitution(gentle, impact_speed=1e308) == pytest.approx(0.5 * 10.0**-0.317)

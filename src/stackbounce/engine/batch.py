@@ -12,6 +12,7 @@ from stackbounce.engine.kernels import Floats, Integers, kernel
 from stackbounce.engine.log import convert_log
 from stackbounce.engine.motion import velocity_at
 from stackbounce.engine.preparation import prepare, prepare_rigid
+from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import AFTER, BEGIN, CONTINUE, END, UNIT, Drops, Outcomes, Workspace
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
 from stackbounce.engine.simultaneous import advance_contacts, begin_contacts, log_unfinished
@@ -40,7 +41,7 @@ def run_drop(
     """
     if stage != CONTINUE:
         clear_arrays(space.floats, space.integers)
-        stack.setting[slots.RECORDS_PEAKS] = stage - BEGIN
+        stack.counter[slots.RECORDS_PEAKS] = stage - BEGIN
         space.after[UNIT] = prepare(stack, drops, row, rtol)
         _divide(samples.time, space.after[UNIT])
         begin_contacts(stack)
@@ -48,7 +49,7 @@ def run_drop(
     stack.counter[slots.LOG_ROWS] = 0
     status = advance_contacts(stack, until / unit, event_limit, work_limit, space.log, samples)
     if status != codes.RUNNING:
-        end, bonded = end_of_run(stack.clock, status, until / unit), stack.setting[slots.BONDS] > 0
+        end, bonded = end_of_run(stack.number, status, until / unit), stack.counter[slots.BONDS] > 0
         if status != codes.FINISHED:
             log_unfinished(stack, end, space.log)
         space.after[END] = end * unit
@@ -85,7 +86,7 @@ def run_rigid_drop(
     status = collide_all(stack, until, event_limit, space.log, samples)
     stack.counter[slots.WORK] = COLLISION * stack.counter[slots.EVENTS]
     if status != codes.RUNNING:
-        end = end_of_run(stack.clock, status, until)
+        end = end_of_run(stack.number, status, until)
         space.after[END] = end
         for b in range(len(stack.mass)):
             known = status != codes.INVALID
@@ -119,6 +120,7 @@ def run_batch(
         )
         work += _read_outcome(space, stack.counter, status, out, row)
         if status != codes.RUNNING:
+            find_ratios(drops, out, row)
             row += 1
     return row
 
@@ -148,6 +150,7 @@ def run_rigid_batch(
             for i in range(len(stack.infinite)):
                 if stack.infinite[i] == 1:
                     out.collisions[row, i] = -1
+            find_ratios(drops, out, row)
             row += 1
     return row
 
@@ -169,13 +172,13 @@ def _divide(values: Floats, unit: float) -> None:
 
 
 @kernel
-def end_of_run(clock: Floats, status: int, until: float) -> float:
+def end_of_run(number: Floats, status: int, until: float) -> float:
     """Return the time of the end of a run: that of its last event, or that at which it stopped."""
     if status == codes.TIME_REACHED:
         return until
     if status == codes.FINISHED:
-        return clock[slots.LAST_EVENT]
-    return max(clock[slots.LAST_EVENT], clock[slots.LAST_CHECK])
+        return number[slots.LAST_EVENT]
+    return max(number[slots.LAST_EVENT], number[slots.LAST_CHECK])
 
 
 @kernel

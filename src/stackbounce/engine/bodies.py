@@ -53,7 +53,7 @@ def body_velocity_at_end(stack: Stack, b: int, end: float) -> float:
 
     Bodies that have parted may have been followed longer, in free flight.
     """
-    time = max(end, stack.clock[LAST_CHECK])
+    time = max(end, stack.number[LAST_CHECK])
     velocity = body_velocity(stack, b, time)
     if stack.bonded[stack.first[b]] == 1:
         return velocity

@@ -31,22 +31,6 @@ TABULATED = 13
 BOND = 14  # a spring and a dashpot that also pull: the contact never opens
 RIGID_POWER = 15  # an instantaneous collision whose restitution is a power of the speed
 RIGID_LOSS = 16  # the same; its loss is a power of the speed
-FORMS = {
-    "ABSENT": ABSENT,
-    "POWER": POWER,
-    "HYSTERETIC": HYSTERETIC,
-    "DASHPOT": DASHPOT,
-    "VISCOELASTIC": VISCOELASTIC,
-    "HUNT_CROSSLEY": HUNT_CROSSLEY,
-    "RELAXING": RELAXING,
-    "TWO_STAGE": TWO_STAGE,
-    "TABULATED": TABULATED,
-    "BOND": BOND,
-    "RIGID": RIGID,
-    "RIGID_POWER": RIGID_POWER,
-    "RIGID_LOSS": RIGID_LOSS,
-}
-"""Those that a law can have, by the names that it gives as its `form`."""
 
 # phases of a contact; from COMPRESSING on it presses and joins its balls into a cluster
 OPEN = 0

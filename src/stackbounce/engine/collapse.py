@@ -62,8 +62,8 @@ def find_collapse(stack: RigidStack, contact: int, until: float, log: Floats) ->
     the two contacts come close to underflow: next to the threshold the duration of a round hardly
     shrinks, though the rates do.
     """
-    left = until - stack.clock[slots.LAST_EVENT]
-    soon = min(NEGLIGIBLE_TIME * stack.clock[slots.LAST_EVENT], left)
+    left = until - stack.number[slots.LAST_EVENT]
+    soon = min(NEGLIGIBLE_TIME * stack.number[slots.LAST_EVENT], left)
     for other in (contact - 1, contact + 1):
         if 0 <= other < len(stack.mass):
             duration = pair_duration(stack, contact, other)
@@ -75,16 +75,16 @@ def find_collapse(stack: RigidStack, contact: int, until: float, log: Floats) ->
     if low < high:
         _merge(stack, low, high, 0.0, log)
     _mark_involved(stack, contact, contact)
-    stack.memory[slots.SINCE_KEPT] += 1
+    stack.counter[slots.SINCE_KEPT] += 1
     low, high, shrink = compare_with_kept(stack, contact)
     if shrink != 0.0:
         # later rounds last shrink, shrink^2, ... times the present one
         ratio = max(shrink, 0.0)
-        round_time = stack.clock[slots.LAST_EVENT] - stack.number[slots.KEPT_TIME]
+        round_time = stack.number[slots.LAST_EVENT] - stack.number[slots.KEPT_TIME]
         if ratio < 1.0 and round_time * ratio / (1.0 - ratio) <= soon:
             _merge(stack, low, high, round_time * ratio / (1.0 - ratio), log)
-    if stack.memory[slots.SINCE_KEPT] >= stack.memory[slots.KEEP_AFTER]:
-        keep_state(stack, contact, stack.clock[slots.LAST_EVENT])
+    if stack.counter[slots.SINCE_KEPT] >= stack.counter[slots.KEEP_AFTER]:
+        keep_state(stack, contact, stack.number[slots.LAST_EVENT])
 
 
 @kernel
@@ -124,7 +124,7 @@ def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats)
     travel = centre / mass + velocity * duration
     below = stack.velocity[low - 1] if low > 0 else 0.0
     above = stack.velocity[high]
-    stack.clock[slots.LAST_EVENT] += duration
+    stack.number[slots.LAST_EVENT] += duration
     stack.now[0] += duration
     anchor_contacts(stack, low - 1, high + 1)
     anchor_balls(stack, low - 2, high + 1)
@@ -142,7 +142,7 @@ def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats)
         change_rate(stack, high + 1, upper_gain + lands)
     for i in range(max(low - 1, 0), min(high + 2, size)):
         schedule_collision(stack, i)
-    time, after = stack.clock[slots.LAST_EVENT], stack.velocity[high] * stack.number[slots.UNIT]
+    time, after = stack.number[slots.LAST_EVENT], stack.velocity[high] * stack.number[slots.UNIT]
     append_row(log, stack.counter, codes.JOINED, low, high, time, 0.0, after)
 
 
@@ -151,8 +151,8 @@ def _mark_involved(stack: RigidStack, low: int, high: int) -> None:
     """Mark contacts low..high as having collided since the reference state; see `keep_state`."""
     for i in range(low, high + 1):
         stack.involved[i] = 1
-    stack.memory[slots.LOWEST_INVOLVED] = min(stack.memory[slots.LOWEST_INVOLVED], low)
-    stack.memory[slots.HIGHEST_INVOLVED] = max(stack.memory[slots.HIGHEST_INVOLVED], high)
+    stack.counter[slots.LOWEST_INVOLVED] = min(stack.counter[slots.LOWEST_INVOLVED], low)
+    stack.counter[slots.HIGHEST_INVOLVED] = max(stack.counter[slots.HIGHEST_INVOLVED], high)
 
 
 @kernel
@@ -235,11 +235,11 @@ def keep_state(stack: RigidStack, contact: int, time: float) -> None:
         stack.kept_rate[i] = rate_now(stack, i)
         stack.kept_gap[i] = compression_after(stack, i, 0.0)
         stack.involved[i] = 0
-    stack.memory[slots.LOWEST_INVOLVED] = len(stack.mass)
-    stack.memory[slots.HIGHEST_INVOLVED] = -1
-    stack.memory[slots.KEPT_CONTACT] = contact
-    stack.memory[slots.KEEP_AFTER] = 2 * stack.memory[slots.KEEP_AFTER]
-    stack.memory[slots.SINCE_KEPT] = 0
+    stack.counter[slots.LOWEST_INVOLVED] = len(stack.mass)
+    stack.counter[slots.HIGHEST_INVOLVED] = -1
+    stack.counter[slots.KEPT_CONTACT] = contact
+    stack.counter[slots.KEEP_AFTER] = 2 * stack.counter[slots.KEEP_AFTER]
+    stack.counter[slots.SINCE_KEPT] = 0
     stack.number[slots.KEPT_TIME] = time
 
 
@@ -251,8 +251,8 @@ def compare_with_kept(stack: RigidStack, contact: int) -> tuple[int, int, float]
     a smaller scale. Each following round then lasts ``ratio`` times as long as the one before. The
     ratio is 0 if the state is not repeated, and -1 if the rounds take no time.
     """
-    low, high = stack.memory[slots.LOWEST_INVOLVED], stack.memory[slots.HIGHEST_INVOLVED]
-    if contact != stack.memory[slots.KEPT_CONTACT] or high < low + 2:
+    low, high = stack.counter[slots.LOWEST_INVOLVED], stack.counter[slots.HIGHEST_INVOLVED]
+    if contact != stack.counter[slots.KEPT_CONTACT] or high < low + 2:
         return low, high, 0.0
     size, kept, gap, kept_gap = 0.0, 0.0, 0.0, 0.0
     for i in range(low, high + 1):

@@ -37,7 +37,7 @@ def approach_rate(stack: RigidStack, i: int) -> float:
 @kernel
 def acceleration(stack: RigidStack, i: int) -> float:
     """Return the acceleration at which contact i closes."""
-    return stack.number[GRAVITY] if i == stack.resting[BALLS_AT_REST] else 0.0
+    return stack.number[GRAVITY] if i == stack.counter[BALLS_AT_REST] else 0.0
 
 
 @kernel
@@ -57,7 +57,7 @@ def compression_after(stack: RigidStack, i: int, later: float) -> float:
 @kernel
 def velocity_after(stack: RigidStack, b: int, later: float) -> float:
     """Return the velocity of ball b at a time after now."""
-    if b < stack.resting[BALLS_AT_REST]:
+    if b < stack.counter[BALLS_AT_REST]:
         return stack.velocity[b]
     return stack.velocity[b] - stack.number[GRAVITY] * (stack.now[0] - stack.since[b] + later)
 
@@ -142,12 +142,12 @@ def change_rate(stack: RigidStack, i: int, change: float) -> None:
 @kernel
 def wake(stack: RigidStack, b: int) -> None:
     """Set ball b and all resting balls above it in motion again; the caller schedules contact b."""
-    top = stack.resting[BALLS_AT_REST]
+    top = stack.counter[BALLS_AT_REST]
     if b >= top:
         return
     if top < len(stack.mass):
         anchor_contacts(stack, top, top)
-    stack.resting[BALLS_AT_REST] = b
+    stack.counter[BALLS_AT_REST] = b
     for i in range(b, top):
         stack.since[i] = stack.now[0]
         stack.anchor[i] = stack.now[0]

@@ -255,18 +255,8 @@ def potential(stack: Stack, i: int, compression: float) -> float:
 
 
 @kernel
-def static_state(stack: Stack, i: int, weight: float) -> tuple[float, float]:
-    """Return the compression of contact i at which it carries a weight, and its potential there.
-
-    It has no hysteresis.
-    """
-    rest = _static_compression(stack, i, weight)
-    return rest, potential(stack, i, rest)
-
-
-@kernel
-def _static_compression(stack: Stack, i: int, weight: float) -> float:
-    """Return the compression at which contact i carries a weight."""
+def static_compression(stack: Stack, i: int, weight: float) -> float:
+    """Return the compression at which contact i, without hysteresis, carries a weight."""
     if stack.law[i] == codes.PRODUCT:
         return power(weight / stack.stiffness[i], 1.0 / stack.exponent[i])
     if stack.law[i] == codes.PIECEWISE:

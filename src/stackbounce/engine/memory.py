@@ -5,6 +5,7 @@ bits, about a hundred times slower.
 """
 
 import functools
+import math
 import threading
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, NamedTuple, TypeAlias
@@ -12,8 +13,8 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from stackbounce.engine import codes, native
-from stackbounce.engine.records import AFTER, Drops, Outcomes, Workspace
-from stackbounce.engine.slots import LOG_ROWS
+from stackbounce.engine.records import AFTER, CONTINUE, END, UNIT, Drops, Outcomes, Workspace
+from stackbounce.engine.slots import LAST_EVENT, LOG_ROWS
 from stackbounce.engine.stack import (
     MOST_PIECES,
     PIECE_NUMBERS,
@@ -95,12 +96,32 @@ class Memory(NamedTuple):
                 at = i * MOST_PIECES * PIECE_NUMBERS
                 self.stack.pieces[at : at + len(numbers)] = numbers
 
-    def run_with(self, samples: Samples) -> Kernel:
-        """Return `run` with samples."""
-        if samples is self.nothing:
-            return self.run
-        table = Table(samples) if self.compiled else samples
-        return functools.partial(self.run.func, *self.arguments, table, 0)
+    def sampled(self, times: Sequence[float]) -> tuple[Samples, Kernel]:
+        """Return room for samples at times in s, in ascending order, and `run` that fills it."""
+        if not times:
+            return self.nothing, self.run
+        samples: Any = new_samples(times, len(self.stack.mass))
+        table: Any = samples
+        if self.compiled:
+            samples = as_arrays(samples)
+            table = Table(samples)
+        return samples, functools.partial(self.run.func, *self.arguments, table, 0)
+
+    def follow(self, run: Kernel, stage: int, options: Sequence[float]) -> tuple[int, list[float]]:
+        """Run the one drop to its end, from a stage on; return its status and its log."""
+        status, log = codes.RUNNING, []
+        try:
+            while status == codes.RUNNING:
+                status = run(stage, *options)
+                log += self._take_log()
+                stage = CONTINUE
+        except OUT_OF_RANGE:
+            log += self._take_log()
+            status, after = codes.INVALID, self.space.after
+            unit = after[UNIT] or 1.0
+            after[END] = self.stack.number[LAST_EVENT] * unit
+            after[AFTER:] = [math.nan] * len(self.stack.mass)
+        return status, log
 
     def run_batch(
         self,
@@ -119,14 +140,7 @@ class Memory(NamedTuple):
             row = run(stack, space, given, self.no_samples, *options, written, row)
             pause()
 
-    def samples(self, times: Sequence[float]) -> Samples:
-        """Return room for samples at times in s, in ascending order."""
-        if not times:
-            return self.nothing
-        samples = new_samples(times, len(self.stack.mass))
-        return as_arrays(samples) if self.compiled else samples
-
-    def take_log(self) -> list[float]:
+    def _take_log(self) -> list[float]:
         """Return the rows of the log in a flat list."""
         return self.numbers(self.space.log[: self.stack.counter[LOG_ROWS] * codes.LOG_COLUMNS])
 

@@ -319,7 +319,7 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
     for b in range(first, last + 1):
         stack.velocity_noise[b] = max(stack.velocity_noise[b], noise)
     for i in range(low, high):
-        if stack.setting[RECORDS_PEAKS] == 1 or stack.linearised[i] == 1:
+        if stack.counter[RECORDS_PEAKS] == 1 or stack.linearised[i] == 1:
             impulse = contact_impulse(stack, i, s)
             stack.impulse[i] += impulse
             stack.linearised_impulse[i] += impulse
@@ -343,7 +343,7 @@ def allows_root_series(stack: Stack) -> bool:
     In a stack of more than two balls, a contact at such a cluster might also need the series of the
     next cluster, which has another anchor.
     """
-    return len(stack.mass) <= 2 and stack.setting[NONLINEAR] == 1
+    return len(stack.mass) <= 2 and stack.counter[NONLINEAR] == 1
 
 
 @kernel

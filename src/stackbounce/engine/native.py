@@ -105,15 +105,6 @@ class _Library(NamedTuple):
     entries: dict[str, list[str]]  # the kinds of the arguments of each entry
 
 
-class _Described(NamedTuple):
-    """The part of the manifest on a platform's library."""
-
-    file: str
-    digest: str
-    levels: dict[str, int]
-    entries: dict[str, list[str]]
-
-
 class _NoLibraryError(Exception):
     """Why no library is loaded."""
 
@@ -161,16 +152,15 @@ def _load() -> _Library:
     return _Library(library, max(fitting, key=levels.__getitem__), entries)
 
 
-def _described(name: str) -> _Described:
-    """Return the part of the manifest on a platform's library."""
+def _described(name: str) -> tuple[str, str, dict[str, int], dict[str, list[str]]]:
+    """Return the file of a platform's library, its digest, its levels, and all entries."""
     described = None
     try:
         manifest = _manifest()
         built, entry = str(manifest["sources"]), manifest["libraries"].get(name)
         if entry is not None:
             levels = {level: _LEVELS[level] for level in entry["levels"]}
-            file, digest = str(entry["file"]), str(entry["sha256"])
-            described = _Described(file, digest, levels, manifest["entries"])
+            described = str(entry["file"]), str(entry["sha256"]), levels, manifest["entries"]
     except FileNotFoundError:
         raise _NoLibraryError(
             "the package was built without compiled code (install a wheel that has it, or run "

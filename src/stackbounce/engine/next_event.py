@@ -193,7 +193,7 @@ def _limit(motion: Motion, event: Event) -> float:
 def _touch(stack: Stack, i: int, motion: Motion) -> Event:
     """Return when open contact i touches: c rises through 0, or through its surface."""
     a, band, rate_band = stack.watched, motion.band, motion.rate_band
-    if stack.setting[NONLINEAR] == 1:  # and at least the tolerance of nonlinear motion
+    if stack.counter[NONLINEAR] == 1:  # and at least the tolerance of nonlinear motion
         band += _TOUCH_MARGIN * stack.number[TOLERANCE] * stack.scale[i]
         rate_band += _TOUCH_MARGIN * stack.number[TOLERANCE] * stack.number[SPEED]
     if a[0] < -band or a[motion.root] < -rate_band:

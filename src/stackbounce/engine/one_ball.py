@@ -4,12 +4,12 @@ import math
 from collections.abc import Sequence
 
 from stackbounce.engine import codes, native
-from stackbounce.engine.memory import FINITE, OUT_OF_RANGE, memory
-from stackbounce.engine.records import AFTER, BEGIN, CONTINUE, Drops
+from stackbounce.engine.memory import FINITE, memory
+from stackbounce.engine.records import AFTER, BEGIN, Drops
 from stackbounce.engine.work import WORK_LIMIT
 
 _TOLERANCE = 1e-12
-_EVENTS = 1_000  # events or steps: a collision that can be followed takes some hundred
+_EVENTS = 100_000  # events or steps: most collisions take some hundred, stiff ones more
 
 
 def bounce(
@@ -44,15 +44,7 @@ def bounce(
     law = ([number] for number in numbers)
     room.put(Drops._make([[mass], *law, [0.0], [-speed], 0.0]))
     room.put_pieces([pieces])
-    log: list[float] = []
-    stage, status = BEGIN, codes.RUNNING
-    try:
-        while status == codes.RUNNING:
-            status = room.run(stage, math.inf, _TOLERANCE, _EVENTS, WORK_LIMIT)
-            log += room.take_log()
-            stage = CONTINUE
-    except OUT_OF_RANGE:
-        status = codes.INVALID
+    status, log = room.follow(room.run, BEGIN, (math.inf, _TOLERANCE, _EVENTS, WORK_LIMIT))
     if status != codes.FINISHED:
         raise ArithmeticError
     rows = [log[at : at + codes.LOG_COLUMNS] for at in range(0, len(log), codes.LOG_COLUMNS)]

@@ -39,9 +39,9 @@ def prepare(stack: Stack, drops: Drops, row: int, rtol: float) -> float:
         stack.scale[i] = typical_compression(stack, i, speed)
         if stack.law[i] != codes.ABSENT:
             shortest = min(shortest, stack.scale[i] / speed)
-        stack.setting[slots.BONDS] += stack.bonded[i]
+        stack.counter[slots.BONDS] += stack.bonded[i]
         if is_nonlinear(stack, i):
-            stack.setting[slots.NONLINEAR] = 1
+            stack.counter[slots.NONLINEAR] = 1
     unit = 1.0
     if 0.0 < shortest < math.inf:
         power = nearest_exponent(shortest)
@@ -59,7 +59,7 @@ def prepare(stack: Stack, drops: Drops, row: int, rtol: float) -> float:
     stack.number[slots.TOLERANCE] = tolerance
     stack.number[slots.LINEARISED_WORK] = max(tolerance * _LINEARISED_SHARE, _LEAST_LINEARISED_WORK)
     order = math.floor(1.5 - 0.7 * log(tolerance))
-    stack.setting[slots.SERIES_ORDER] = min(ORDER, max(_LEAST_ORDER, order))
+    stack.counter[slots.SERIES_ORDER] = min(ORDER, max(_LEAST_ORDER, order))
     return unit
 
 

@@ -7,14 +7,13 @@ from stackbounce.engine.records import Drops, Outcomes
 
 
 @kernel
-def find_ratios(drops: Drops, out: Outcomes) -> None:
-    """Compute rebound ratios and retained energies from the velocities before and after."""
-    for row in range(len(out.status)):
-        before, after = drops.velocity[row], out.velocity[row]
-        out.energy_retained[row] = energy_kept(drops.mass[row], before, after)
-        speed = largest_speed(before)
-        for b in range(len(after)):
-            out.rebound_ratio[row, b] = after[b] / speed
+def find_ratios(drops: Drops, out: Outcomes, row: int) -> None:
+    """Compute rebound ratios and retained energy of a drop from its velocities before and after."""
+    before, after = drops.velocity[row], out.velocity[row]
+    out.energy_retained[row] = energy_kept(drops.mass[row], before, after)
+    speed = largest_speed(before)
+    for b in range(len(after)):
+        out.rebound_ratio[row, b] = after[b] / speed
 
 
 @kernel

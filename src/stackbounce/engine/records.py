@@ -30,11 +30,7 @@ class Drops(NamedTuple):
 
 
 class Outcomes(NamedTuple):
-    """The results of drops: (rows, balls) arrays, and (rows,) energy and status.
-
-    The batch kernels fill in all fields except the rebound ratios and the retained energies, which
-    `ratios.find_ratios` computes.
-    """
+    """The results of drops: (rows, balls) arrays, and (rows,) energy and status."""
 
     velocity: FloatTable  # after, m/s
     rebound_ratio: FloatTable  # velocity over the impact speed v0

@@ -33,7 +33,14 @@ from stackbounce.engine.cycles import (
     loading_compression,
     loading_force,
 )
-from stackbounce.engine.forces import arm_energy, creeps, force, is_damped, potential, static_state
+from stackbounce.engine.forces import (
+    arm_energy,
+    creeps,
+    force,
+    is_damped,
+    potential,
+    static_compression,
+)
 from stackbounce.engine.kernels import kernel
 from stackbounce.engine.pieces import find_piece
 from stackbounce.engine.slots import GRAVITY, SPEED, TOLERANCE
@@ -73,7 +80,8 @@ def is_bound(stack: Stack) -> bool:
             count_cycles(stack, i)
             opening = weight * c - potential(stack, i, c)
         else:
-            rest, at_rest = static_state(stack, i, weight)
+            rest = static_compression(stack, i, weight)
+            at_rest = potential(stack, i, rest)
             opening = weight * rest - at_rest
             excess += max(0.0, potential(stack, i, c) - at_rest - weight * (c - rest))
             excess += arm_energy(stack, i, c, stack.creep[i])
@@ -132,7 +140,7 @@ def set_static_state(stack: Stack) -> None:
         if has_hysteresis(stack, i):
             _settle(stack, i, weight)
         else:
-            stack.compression[i], _ = static_state(stack, i, weight)
+            stack.compression[i] = static_compression(stack, i, weight)
             if stack.law[i] == PIECEWISE:
                 find_piece(stack, i, stack.compression[i], False)
         stack.velocity[i] = 0.0

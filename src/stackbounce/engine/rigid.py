@@ -36,8 +36,8 @@ _SMALL = 2.0**-600  # slower speeds are scaled up by its inverse: only ratios ma
 def begin_collisions(stack: RigidStack) -> None:
     """Set up a new rigid stack and schedule its first collisions."""
     size = len(stack.mass)
-    stack.memory[slots.KEEP_AFTER] = 1
-    stack.resting[slots.LOWEST_LOSSY] = size
+    stack.counter[slots.KEEP_AFTER] = 1
+    stack.counter[slots.LOWEST_LOSSY] = size
     clear_queue(stack.due, stack.heap, stack.place)
     for i in range(size):
         stack.number[slots.SPEED] = max(
@@ -46,7 +46,7 @@ def begin_collisions(stack: RigidStack) -> None:
         below = stack.velocity[i - 1] if i > 0 else 0.0
         stack.rate[i] = below - stack.velocity[i]
         if loses_energy(stack, i):
-            stack.resting[slots.LOWEST_LOSSY] = min(stack.resting[slots.LOWEST_LOSSY], i)
+            stack.counter[slots.LOWEST_LOSSY] = min(stack.counter[slots.LOWEST_LOSSY], i)
         schedule_collision(stack, i)
     keep_state(stack, -1, 0.0)
     settle(stack, math.inf)
@@ -65,7 +65,7 @@ def collide_all(
     while True:
         contact = stack.heap[0]
         wait = max(0.0, stack.due[contact] - stack.now[0])
-        time = stack.clock[slots.LAST_EVENT] + wait
+        time = stack.number[slots.LAST_EVENT] + wait
         if math.isnan(time):
             return codes.INVALID
         if _is_over(stack, until):
@@ -82,7 +82,7 @@ def collide_all(
         if stack.counter[slots.LOG_ROWS] + _ROWS > room:
             return codes.RUNNING
         stack.now[0] += wait
-        stack.clock[slots.LAST_EVENT] = time
+        stack.number[slots.LAST_EVENT] = time
         _collide(stack, contact, log)
         find_collapse(stack, contact, until, log)
         settle(stack, until)
@@ -92,7 +92,9 @@ def collide_all(
 @kernel
 def rigid_velocity(stack: RigidStack, b: int, time: float) -> float:
     """Return the velocity of ball b in m/s at a time after the last collision."""
-    return velocity_after(stack, b, time - stack.clock[slots.LAST_EVENT]) * stack.number[slots.UNIT]
+    return (
+        velocity_after(stack, b, time - stack.number[slots.LAST_EVENT]) * stack.number[slots.UNIT]
+    )
 
 
 @kernel
@@ -101,11 +103,11 @@ def _is_over(stack: RigidStack, until: float) -> bool:
 
     It is over if all balls rest or, without an end time, if no contact closes any more.
     """
-    if stack.resting[slots.BALLS_AT_REST] == len(stack.mass):
+    if stack.counter[slots.BALLS_AT_REST] == len(stack.mass):
         return True
     if stack.number[slots.GRAVITY] == 0.0 or until < math.inf:
         return False
-    contact = stack.resting[slots.BALLS_AT_REST]
+    contact = stack.counter[slots.BALLS_AT_REST]
     noise = stack.rate_noise[contact]
     if stack.law[contact] != codes.ABSENT and rate_now(stack, contact) > noise:
         return False
@@ -127,7 +129,7 @@ def _final_status(stack: RigidStack) -> int:
     for velocity in stack.velocity:
         if not math.isfinite(velocity):
             return codes.INVALID
-    if stack.resting[slots.BALLS_AT_REST] == len(stack.mass):
+    if stack.counter[slots.BALLS_AT_REST] == len(stack.mass):
         return codes.SETTLED
     for infinite in stack.infinite:
         if infinite == 1:
@@ -186,7 +188,7 @@ def _collide(stack: RigidStack, i: int, log: Floats) -> None:
     stack.compression[i] = 0.0
     for j in range(max(i - 1, 0), min(i + 2, len(stack.mass))):
         schedule_collision(stack, j)
-    factor, time = stack.number[slots.UNIT], stack.clock[slots.LAST_EVENT]
+    factor, time = stack.number[slots.UNIT], stack.number[slots.LAST_EVENT]
     below, above = lower_velocity * factor, stack.velocity[i] * factor
     at = append_row(log, stack.counter, codes.COLLISION, i, time, time, below, above)
     log[at + codes.PEAK_FORCE] = math.inf
@@ -212,7 +214,7 @@ def _keep_in_range(stack: RigidStack) -> None:
         stack.rate_noise[i] /= _SMALL
         stack.compression[i] /= _SMALL
     stack.number[slots.UNIT] *= _SMALL
-    keep_state(stack, -1, stack.clock[slots.LAST_EVENT])
+    keep_state(stack, -1, stack.number[slots.LAST_EVENT])
 
 
 @kernel
@@ -225,12 +227,12 @@ def _record_samples(stack: RigidStack, samples: Samples, time: float) -> None:
         and samples.time[stack.counter[slots.NEXT_SAMPLE]] <= time
     ):
         moment = samples.time[stack.counter[slots.NEXT_SAMPLE]]
-        later = moment - stack.clock[slots.LAST_EVENT]
+        later = moment - stack.number[slots.LAST_EVENT]
         at = stack.counter[slots.NEXT_SAMPLE] * size
         position = 0.0
         for i in range(size):
             compression = compression_after(stack, i, later) * factor
-            if stack.clock[slots.LAST_EVENT] + (stack.due[i] - stack.now[0]) == moment:
+            if stack.number[slots.LAST_EVENT] + (stack.due[i] - stack.now[0]) == moment:
                 compression = 0.0
             position -= compression
             samples.position[at + i] = position

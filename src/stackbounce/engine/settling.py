@@ -47,8 +47,8 @@ def settle(stack: RigidStack, until: float) -> None:
     """Find the balls that have come to rest, the lowest first, and set them at rest."""
     if stack.number[slots.GRAVITY] == 0.0 or stack.law[0] == ABSENT:
         return
-    while stack.resting[slots.BALLS_AT_REST] < len(stack.mass):
-        low = stack.resting[slots.BALLS_AT_REST]
+    while stack.counter[slots.BALLS_AT_REST] < len(stack.mass):
+        low = stack.counter[slots.BALLS_AT_REST]
         if stack.anchor[low] != stack.now[0] or stack.compression[low] < 0.0:
             return
         if abs(stack.rate[low]) <= stack.rate_noise[low]:
@@ -88,7 +88,7 @@ def _set_at_rest(stack: RigidStack, low: int, high: int) -> None:
         stack.rate_noise[i] = 0.0
         stack.velocity[i] = 0.0
         stack.since[i] = stack.now[0]
-    stack.resting[slots.BALLS_AT_REST] = high + 1
+    stack.counter[slots.BALLS_AT_REST] = high + 1
     for i in range(low, high + 1):
         schedule_collision(stack, i)
     if high + 1 < len(stack.mass):
@@ -109,7 +109,7 @@ def _finish_bouncing(stack: RigidStack, until: float) -> bool:
         return False
     flight = 2.0 * speed / gravity
     duration = _time_to_rest(stack, speed, flight)
-    if stack.clock[slots.LAST_EVENT] + duration > until:
+    if stack.number[slots.LAST_EVENT] + duration > until:
         return False
     if earliest_other(stack, 0) <= stack.now[0] + duration:
         return False
@@ -131,7 +131,7 @@ def _finish_bouncing(stack: RigidStack, until: float) -> bool:
         stack.compression[1] = -height
         stack.since[1] = stack.now[0] + duration
         stack.anchor[1] = stack.now[0] + duration
-    stack.clock[slots.LAST_EVENT] += duration
+    stack.number[slots.LAST_EVENT] += duration
     stack.now[0] += duration
     stack.compression[0] = 0.0
     stack.rate[0] = 0.0
@@ -152,7 +152,7 @@ def _time_to_rest(stack: RigidStack, speed: float, flight: float) -> float:
     share = settling_loss(stack, 0, speed)
     if share == 0.0:
         return math.inf
-    negligible = NEGLIGIBLE_TIME * stack.clock[slots.LAST_EVENT]
+    negligible = NEGLIGIBLE_TIME * stack.number[slots.LAST_EVENT]
     if flight / share <= negligible:
         return flight / share
     if stack.law[0] == RIGID_LOSS and stack.scatter[0] == 0.0:
@@ -182,7 +182,7 @@ def _highest_settling(stack: RigidStack, low: int) -> int:
     speed of that ball. The result is less than ``low`` if there is no such ball, or if no contact
     loses energy. Ball 0 alone on a lossy floor is left to `_finish_bouncing`, which is exact.
     """
-    lossy = stack.resting[slots.LOWEST_LOSSY]
+    lossy = stack.counter[slots.LOWEST_LOSSY]
     if lossy == len(stack.mass):
         return low - 1
     gravity = stack.number[slots.GRAVITY]
@@ -193,7 +193,7 @@ def _highest_settling(stack: RigidStack, low: int) -> int:
         fall = (speed + math.sqrt(speed * speed + 2.0 * gravity * height)) / gravity
         longest = max(longest, fall)
         part = _NEGLIGIBLE_FLIGHT * settling_loss(stack, lossy, gravity * longest)
-        limit = part * stack.clock[slots.LAST_EVENT]
+        limit = part * stack.number[slots.LAST_EVENT]
         if longest > limit:
             break
         alone = True

@@ -100,7 +100,7 @@ def advance_contacts(
             return codes.EVENT_LIMIT
         if stack.counter[slots.LOG_ROWS] == room:
             return codes.RUNNING
-        stack.clock[slots.LAST_CHECK] = time
+        stack.number[slots.LAST_CHECK] = time
         stack.counter[slots.STEPS] += 1
         stack.counter[slots.WORK] += STEP
         if slot >= size:
@@ -153,7 +153,7 @@ def _cause_of_limit(stack: Stack) -> int:
 @kernel
 def _is_over(stack: Stack, time: float, samples: Samples) -> bool:
     """Return whether bodies have parted for good; they are followed on to the last sample."""
-    if stack.setting[slots.BONDS] == 0:
+    if stack.counter[slots.BONDS] == 0:
         return False
     return stack.counter[slots.NEXT_SAMPLE] == len(samples.time) and have_parted(stack, time)
 
@@ -167,7 +167,7 @@ def _lies(stack: Stack) -> bool:
 @kernel
 def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     """Apply an event of contact i."""
-    if time <= stack.clock[slots.LAST_EVENT]:
+    if time <= stack.number[slots.LAST_EVENT]:
         stack.counter[slots.WORK] += STANDSTILL
     stack.counter[slots.EVENTS] += 1
     stack.counter[slots.CHECKS] = 0
@@ -179,7 +179,7 @@ def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> N
     if kind not in (codes.TOUCH, codes.RELEASE) and not changes_curve(stack, i, kind):
         change_phase(stack, i, kind)
         _reschedule(stack, i, time)
-        stack.clock[slots.LAST_EVENT] = time
+        stack.number[slots.LAST_EVENT] = time
         return
     if kind == codes.RELEASE and stack.phase[i] == codes.UNLOADED:
         _open_unloaded(stack, i, compression, log)
@@ -219,7 +219,7 @@ def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> N
         if stack.phase[j] == codes.OPEN and changed:
             _track_touching(stack, j, logical)
         schedule_next_event(stack, j, time)
-    stack.clock[slots.LAST_EVENT] = max(stack.clock[slots.LAST_EVENT], logical)
+    stack.number[slots.LAST_EVENT] = max(stack.number[slots.LAST_EVENT], logical)
     if kind == codes.TOUCH and _is_unresolved(stack, i, time):
         schedule(stack.due, stack.heap, stack.place, i, -math.inf)
     if kind in (codes.TOUCH, codes.RELEASE):
@@ -287,7 +287,7 @@ def _track_touching(stack: Stack, i: int, time: float) -> None:
 @kernel
 def _zero_crossing(stack: Stack, i: int, time: float) -> float:
     """Return when the overlap of contact i was zero, shortly before ``time``."""
-    earliest = stack.clock[slots.LAST_EVENT]
+    earliest = stack.number[slots.LAST_EVENT]
     if root_at(stack, i) == 2:  # the series has no root before its anchor
         earliest = max(earliest, stack.anchor[stack.first[i]])
         if i > 0:
@@ -387,7 +387,7 @@ def _approaches(stack: Stack, i: int) -> bool:
     noise = stack.velocity_noise[i]
     if i > 0:
         noise += stack.velocity_noise[i - 1]
-    return overlap_rate_at(stack, i, stack.clock[slots.LAST_EVENT]) > noise
+    return overlap_rate_at(stack, i, stack.number[slots.LAST_EVENT]) > noise
 
 
 @kernel

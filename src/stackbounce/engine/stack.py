@@ -43,7 +43,6 @@ class Stack(NamedTuple):
     bonded: Integers  # 1 if the contact also pulls, and never opens
     scale: Floats  # a typical compression of the contact
     number: Floats  # see `slots`
-    setting: Integers
     # the state
     velocity: Floats
     velocity_noise: Floats  # bound on the accumulated round-off of the velocity
@@ -119,7 +118,6 @@ class Stack(NamedTuple):
     margin: Floats
     changed: Floats
     counter: Integers  # see `slots`
-    clock: Floats
     pieces: Floats  # room for MOST_PIECES of PIECE_NUMBERS numbers for each contact
 
 
@@ -143,7 +141,6 @@ class RigidStack(NamedTuple):
     since: Floats
     anchor: Floats
     now: Floats
-    resting: Integers  # see `slots`
     # a queue of the next collisions of contacts
     due: Floats
     heap: Integers
@@ -153,10 +150,8 @@ class RigidStack(NamedTuple):
     kept_gap: Floats
     involved: Integers
     last_hit: Integers  # the number of a contact's last collision, counted from 1
-    memory: Integers  # see `slots`
-    number: Floats
+    number: Floats  # see `slots`
     counter: Integers
-    clock: Floats
 
 
 class Samples(NamedTuple):
@@ -170,14 +165,7 @@ class Samples(NamedTuple):
     stored: Floats
 
 
-_SLOTS = {
-    "number": slots.NUMBERS,
-    "setting": slots.SETTINGS,
-    "counter": slots.COUNTERS,
-    "clock": slots.CLOCKS,
-    "resting": slots.RESTINGS,
-    "memory": slots.MEMORIES,
-}
+_SLOTS = {"number": slots.NUMBERS, "counter": slots.COUNTERS}
 _PER_SERIES = {"scratch": TERMS, "watched": TERMS, "margin": TERMS, "changed": TERMS}
 _PER_SLOT = ("due", "event", "heap", "place")  # two slots for each ball
 _PER_MODE = ("shape", "rows")

@@ -63,7 +63,7 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
             stack.held_series[i][1] = 0.0  # the same
         if not is_linear(stack, i) and (stack.curve_exponent[i] != 0.0 or stack.depth[i] > 0):
             exact = False
-    order = ORDER if exact else stack.setting[SERIES_ORDER]
+    order = ORDER if exact else stack.counter[SERIES_ORDER]
     if root == 2:
         order = min(2 * order, ROOT_ORDER)
     speed = _own_speed(stack, low, high) if exact else stack.number[SPEED]
@@ -173,7 +173,7 @@ def _fastest(stack: Stack, low: int, high: int) -> float:
 def record_series_peaks(stack: Stack, low: int, high: int, s: float) -> None:
     """Update the peaks of contacts with one force curve from their series up to s."""
     for i in range(low, high):
-        if stack.setting[RECORDS_PEAKS] == 0 or stack.law[i] == HYSTERETIC:
+        if stack.counter[RECORDS_PEAKS] == 0 or stack.law[i] == HYSTERETIC:
             continue
         first, order = stack.first[i], stack.order[i]
         root = stack.root[first]

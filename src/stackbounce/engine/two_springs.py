@@ -7,52 +7,18 @@ drop near the limits of accuracy is left to the general engine, with the status 
 import math
 from typing import Any
 
+from stackbounce.engine import lockstep as lane
 from stackbounce.engine.codes import ASK, EVENT_LIMIT, FINISHED, INVALID
 from stackbounce.engine.kernels import Floats, kernel
-from stackbounce.engine.lockstep import (
-    A1,
-    A2,
-    B2,
-    BALLS,
-    C1,
-    C2,
-    FIRST,
-    FLOOR,
-    LANES,
-    LAST0,
-    LAST1,
-    N0,
-    N1,
-    OVER_A1,
-    OVER_A2,
-    OVER_B2,
-    OWN,
-    ROUNDS,
-    ROW,
-    S1,
-    S2,
-    SLIM,
-    SLOTS,
-    STATUS,
-    TIME,
-    U0,
-    U1,
-    UNIT,
-    V0,
-    V1,
-    V2,
-    VAIN,
-    W0,
-    W1,
-    X2,
-    advance_lanes,
-)
+from stackbounce.engine.lockstep import LANES, advance_lanes
+from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import Drops, Outcomes, Workspace
 
 # The slots of waiting drops: initial values, and the numbers given.
-NEXT = SLOTS * LANES
-MASS1, MASS2, STIFFNESS1, STIFFNESS2, GAP, SPEED = (NEXT + k * LANES for k in range(OWN, OWN + 6))
-SCRATCH = NEXT + (OWN + 6) * LANES
+NEXT = lane.SLOTS * LANES
+GIVEN = NEXT + lane.OWN * LANES
+MASS1, MASS2, STIFFNESS1, STIFFNESS2, GAP, SPEED = (GIVEN + k * LANES for k in range(6))
+SCRATCH = GIVEN + 6 * LANES
 
 _LINE = 8  # numbers in a cache line
 _RATIO = 256.0  # largest ratio of masses and of stiffnesses; its inverse is the smallest
@@ -83,9 +49,9 @@ def run_two_springs(drops: Drops, event_limit: int, out: Outcomes, space: Worksp
     event_limit : int
         The number of touches and releases after which a drop ends with EVENT_LIMIT.
     out : Outcomes
-        Gets the velocities, numbers of collisions, and times. The status is FINISHED; EVENT_LIMIT;
-        INVALID for input that is out of range; or ASK where the general engine must solve the drop.
-        The other results of such a drop are meaningless.
+        Gets the velocities, ratios, numbers of collisions, and times. The status is FINISHED;
+        EVENT_LIMIT; INVALID for input that is out of range; or ASK where the general engine must
+        solve the drop. The other results of such a drop are meaningless.
     space : Workspace
         Its ``floats`` are scratch space of the size SCRATCH, from `new_scratch`.
     """
@@ -93,13 +59,13 @@ def run_two_springs(drops: Drops, event_limit: int, out: Outcomes, space: Worksp
     rows = len(out.status)
     left, waiting, row = rows, 0, 0
     for i in range(LANES):
-        x[STATUS + i], x[ROW + i] = ASK, -1.0  # free
+        x[lane.STATUS + i], x[lane.ROW + i] = ASK, -1.0  # free
     while left > 0:
         for i in range(LANES):
-            while x[STATUS + i] != 0.0:
-                done = int(x[ROW + i])
+            while x[lane.STATUS + i] != 0.0:
+                done = int(x[lane.ROW + i])
                 if done >= 0:
-                    _write_outcome(out, x, i, done)
+                    _write_outcome(drops, out, x, i, done)
                     left -= 1
                 if waiting == 0 and row < rows:
                     waiting = min(LANES, rows - row)
@@ -107,7 +73,7 @@ def run_two_springs(drops: Drops, event_limit: int, out: Outcomes, space: Worksp
                     _find_constants(x, waiting)
                     row += waiting
                 if waiting == 0:
-                    x[STATUS + i], x[ROW + i] = 0.0, -1.0
+                    x[lane.STATUS + i], x[lane.ROW + i] = 0.0, -1.0
                     break
                 waiting -= 1
                 _begin(x, i, waiting)
@@ -117,19 +83,21 @@ def run_two_springs(drops: Drops, event_limit: int, out: Outcomes, space: Worksp
 @kernel
 def _begin(x: Floats, i: int, waiting: int) -> None:
     """Start one of the fetched drops in lane i, at t = 0."""
-    i, waiting = i & (LANES - 1), waiting & (LANES - 1)  # no change: it shows a compiler the range
-    for k in range(OWN):
+    # no change: it shows a compiler the range
+    i, waiting = i & (LANES - 1), waiting & (LANES - 1)
+    for k in range(lane.OWN):
         x[k * LANES + i] = x[NEXT + k * LANES + waiting]
-    x[W0 + i], x[U0 + i], x[TIME + i], x[FLOOR + i] = 0.0, -1.0, 0.0, 1.0
-    x[ROUNDS + i], x[VAIN + i], x[N0 + i], x[N1 + i] = 0.0, 0.0, 1.0, x[BALLS + i]
-    x[FIRST + i], x[LAST0 + i], x[LAST1 + i] = 0.0, 0.0, 0.0
+    x[lane.W0 + i], x[lane.U0 + i], x[lane.TIME + i], x[lane.FLOOR + i] = 0.0, -1.0, 0.0, 1.0
+    x[lane.ROUNDS + i], x[lane.VAIN + i] = 0.0, 0.0
+    x[lane.N0 + i], x[lane.N1 + i] = 1.0, x[lane.BALLS + i]
+    x[lane.FIRST + i], x[lane.LAST0 + i], x[lane.LAST1 + i] = 0.0, 0.0, 0.0
 
 
 @kernel
 def _fetch(drops: Drops, row: int, count: int, x: Floats) -> None:
     """Copy the parameters of the next ``count`` drops, from a row on, to the waiting slots."""
     for i in range(count):
-        x[NEXT + ROW + i] = row + i
+        x[NEXT + lane.ROW + i] = row + i
         x[MASS1 + i], x[MASS2 + i] = drops.mass[row + i, 0], drops.mass[row + i, 1]
         x[STIFFNESS1 + i] = drops.first[row + i, 0]
         x[STIFFNESS2 + i] = drops.first[row + i, 1]
@@ -152,7 +120,7 @@ def _find_constants(x: Floats, count: int) -> None:
         fair = fair and omega > 1.0 / _OMEGA and omega < _OMEGA and distance < _GAP
         mu, kappa = mu if fair else 1.0, kappa if fair else 1.0
         distance, omega = distance if fair else 0.0, omega if fair else 1.0
-        x[NEXT + STATUS + i] = (0.0 if fair else ASK) if valid else INVALID
+        x[NEXT + lane.STATUS + i] = (0.0 if fair else ASK) if valid else INVALID
         root = math.sqrt(mu)
         # both: K = ((1 + kappa, corner), (corner, kappa/mu)) (eqs 5 and 6)
         slim = 1.0 / root
@@ -164,37 +132,39 @@ def _find_constants(x: Floats, count: int) -> None:
         lean = abs(half) + spread
         unit = 1.0 / math.sqrt(lean * lean + corner * corner)
         c, s = (lean if half >= 0.0 else corner) * unit, (corner if half >= 0.0 else lean) * unit
-        x[NEXT + C2 + i], x[NEXT + S2 + i] = c, s
+        x[NEXT + lane.C2 + i], x[NEXT + lane.S2 + i] = c, s
         a, b = math.sqrt(fast), math.sqrt(slow)
-        x[NEXT + A2 + i], x[NEXT + B2 + i] = a, b
-        x[NEXT + OVER_A2 + i], x[NEXT + OVER_B2 + i] = 1.0 / a, 1.0 / b
+        x[NEXT + lane.A2 + i], x[NEXT + lane.B2 + i] = a, b
+        x[NEXT + lane.OVER_A2 + i], x[NEXT + lane.OVER_B2 + i] = 1.0 / a, 1.0 / b
         inverse = 1.0 / corner
         # eq 6: the compression of the balls' contact is what moves the upper ball
-        x[NEXT + V2 + i], x[NEXT + X2 + i] = fast * s * inverse, slow * c * inverse
+        x[NEXT + lane.V2 + i], x[NEXT + lane.X2 + i] = fast * s * inverse, slow * c * inverse
         # balls only: K = ((kappa, corner), (corner, kappa/mu))
         unit = 1.0 / math.sqrt(1.0 + mu)
         single = kappa + upper
-        x[NEXT + C1 + i], x[NEXT + S1 + i] = root * unit, -unit
+        x[NEXT + lane.C1 + i], x[NEXT + lane.S1 + i] = root * unit, -unit
         a = math.sqrt(single)
-        x[NEXT + A1 + i], x[NEXT + OVER_A1 + i] = a, 1.0 / a
-        x[NEXT + V1 + i] = -single * unit * inverse
-        x[NEXT + SLIM + i] = slim
-        x[NEXT + W1 + i], x[NEXT + U1 + i] = distance * root, -root
-        x[NEXT + BALLS + i] = 1.0 if distance == 0.0 else 0.0
-        x[NEXT + UNIT + i], x[NEXT + V0 + i] = 1.0 / omega, speed
+        x[NEXT + lane.A1 + i], x[NEXT + lane.OVER_A1 + i] = a, 1.0 / a
+        x[NEXT + lane.V1 + i] = -single * unit * inverse
+        x[NEXT + lane.SLIM + i] = slim
+        x[NEXT + lane.W1 + i], x[NEXT + lane.U1 + i] = distance * root, -root
+        x[NEXT + lane.BALLS + i] = 1.0 if distance == 0.0 else 0.0
+        x[NEXT + lane.UNIT + i], x[NEXT + lane.V0 + i] = 1.0 / omega, speed
 
 
 @kernel
-def _write_outcome(out: Outcomes, x: Floats, i: int, r: int) -> None:
+def _write_outcome(drops: Drops, out: Outcomes, x: Floats, i: int, r: int) -> None:
     """Write the outcome of the drop in lane i to row r; unknown numbers are nan."""
-    code = int(x[STATUS + i])
+    code = int(x[lane.STATUS + i])
     known = code in (FINISHED, EVENT_LIMIT)
-    v0, unit = x[V0 + i] if known else math.nan, x[UNIT + i] if known else math.nan
-    last0, last1 = x[LAST0 + i], x[LAST1 + i]
+    v0, unit = x[lane.V0 + i] if known else math.nan, x[lane.UNIT + i] if known else math.nan
+    last0, last1 = x[lane.LAST0 + i], x[lane.LAST1 + i]
     out.status[r] = code
-    out.velocity[r, 0], out.velocity[r, 1] = v0 * x[U0 + i], v0 * (x[U1 + i] * x[SLIM + i])
-    out.collisions[r, 0], out.collisions[r, 1] = int(x[N0 + i]), int(x[N1 + i])
+    out.velocity[r, 0] = v0 * x[lane.U0 + i]
+    out.velocity[r, 1] = v0 * (x[lane.U1 + i] * x[lane.SLIM + i])
+    out.collisions[r, 0], out.collisions[r, 1] = int(x[lane.N0 + i]), int(x[lane.N1 + i])
     out.first_touch[r, 0] = unit * 0.0
-    out.first_touch[r, 1] = unit * (x[FIRST + i] if x[N1 + i] > 0.0 else math.nan)
+    out.first_touch[r, 1] = unit * (x[lane.FIRST + i] if x[lane.N1 + i] > 0.0 else math.nan)
     out.last_release[r, 0] = unit * (last0 if last0 > 0.0 else math.nan)
     out.last_release[r, 1] = unit * (last1 if last1 > 0.0 else math.nan)
+    find_ratios(drops, out, r)

@@ -94,12 +94,6 @@ class Air:
             checked = non_negative("drag_coefficient", given)
         object.__setattr__(self, "drag_coefficient", checked)
 
-    def __hash__(self) -> int:
-        given = self.drag_coefficient
-        return hash(
-            (self.density, frozenset(given.items()) if isinstance(given, Mapping) else given)
-        )
-
     def terminal_speed(self, ball: Ball, gravity: float = STANDARD_GRAVITY) -> float:
         """Return the speed in m/s at which the drag equals the weight; infinite without drag.
 

@@ -100,7 +100,8 @@ class Drop:
         gaps = tuple(non_negative(f"gaps.{i}", gap, "metres") for i, gap in enumerate(gaps))
         for i, gap in enumerate(gaps):
             if gap > 0.0 and contacts[i + 1].pulls:
-                raise InvalidValue(f"gaps.{i} must be 0 at a {_name(contacts[i + 1])}, got {gap!r}")
+                bond = type(contacts[i + 1]).__name__
+                raise InvalidValue(f"gaps.{i} must be 0 at a {bond}, got {gap!r}")
         values: dict[str, Any] = {"balls": balls, "contacts": contacts, "gaps": gaps}
         values["gravity"] = non_negative("gravity", self.gravity, "m/s**2")
         for name, value in (values | self._incidence(len(balls))).items():
@@ -264,10 +265,6 @@ def _check_balls(balls: tuple[object, ...]) -> None:
     for i, ball in enumerate(balls):
         if not isinstance(ball, Ball):
             raise InvalidType(f"balls.{i} must be a Ball, got {shown(ball)}")
-
-
-def _name(law: object) -> str:
-    return type(law).__name__
 
 
 def _check_contacts(contacts: tuple[object, ...], count: int) -> None:

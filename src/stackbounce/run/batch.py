@@ -51,7 +51,7 @@ _Pause: TypeAlias = Callable[[], None]
 """Is called now and then; it raises an exception if the work is to be stopped."""
 
 _Runner: TypeAlias = Callable[[Drops, Outcomes, Options, bool, _Pause], None]
-"""Runs drops and writes their outcomes, except rebound ratios and retained energies."""
+"""Runs drops and writes their outcomes."""
 
 
 def sides(shape: Sequence[int], most: int) -> tuple[int, ...]:
@@ -147,7 +147,6 @@ def solve(
             fill(Drops._make(shaped), drop, varied)
             part = Outcomes._make(array[stop - size(block) : stop] for array in out)
             run(drops, part, options, chosen, pause)
-            _find_ratios(drops, part, chosen)
 
     cut = list(blocks(shape, sides(shape, most)))
     todo = iter(list(zip(cut, accumulate(map(size, cut)), strict=True)))
@@ -191,7 +190,8 @@ def _run_two_springs(
     if compiled:
         run(Table(drops), TWO_SPRINGS_EVENTS, Table(out), Table(space))
     else:
-        run(drops, TWO_SPRINGS_EVENTS, out, space)
+        with np.errstate(all="ignore"):
+            run(drops, TWO_SPRINGS_EVENTS, out, space)
     asked = np.flatnonzero(out.status == codes.ASK)
     if len(asked):
         some = Drops._make(array[asked] for array in drops)
@@ -230,14 +230,4 @@ def _run_rows(
                 pause()
         except OUT_OF_RANGE:
             outcome.status[0] = codes.INVALID
-            outcome.velocity[0] = math.nan
-
-
-def _find_ratios(drops: Drops, out: Outcomes, compiled: bool) -> None:
-    """Compute rebound ratios and retained energies."""
-    find_ratios = kernel_named("find_ratios", compiled)
-    if compiled:
-        find_ratios(Table(drops), Table(out))
-        return
-    with np.errstate(all="ignore"):
-        find_ratios(drops, out)
+            outcome.velocity[0] = outcome.rebound_ratio[0] = outcome.energy_retained[0] = math.nan

@@ -50,8 +50,8 @@ def restitution(
     ``e = exp(-2 ζ acos(ζ)/sqrt(1 - ζ**2))`` (T. Schwager and T. Pöschel, Granular Matter 9, 465,
     2007). `HuntCrossley`, with ``d = χ v``: ``d (1 + e) = ln((1 + d)/(1 - d e))``. `Viscoelastic`:
     a function of ``1.5 A (k/m)**0.4 v**0.2`` alone, computed by a simulation.
-    `StandardLinearSolid`: a function of its relaxation strength and ``τ sqrt(k/m)``, in closed form
-    but for the time of release.
+    `StandardLinearSolid`: a function of its relaxation strength and ``τ sqrt(k/m)``, computed by a
+    simulation.
 
     Examples
     --------
@@ -98,9 +98,8 @@ def contact_time(
     ``k C**(p+1)/(p+1) = m v**2/2``. The contact time of a power law is
     ``C/v 2 sqrt(π) Γ(1 + 1/(p+1))/Γ(1/2 + 1/(p+1))``. For `Hysteretic`, loading takes half of that
     time; unloading takes half of the same expression for the unloading curve at the speed e v. For
-    `Dashpot` it is ``sqrt(m/k) 2 acos(ζ)/sqrt(1 - ζ**2)``, see `restitution`. For `HuntCrossley` it
-    is computed by numerical integration, for `Viscoelastic` by a simulation, for
-    `StandardLinearSolid` as the zero of a force in closed form.
+    `Dashpot` it is ``sqrt(m/k) 2 acos(ζ)/sqrt(1 - ζ**2)``, see `restitution`. For
+    all others it is computed by a simulation.
 
     Examples
     --------

@@ -6,14 +6,13 @@ one call for a stack of few balls. The log, in SI units, becomes a `Result`.
 """
 
 import functools
-import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from stackbounce.engine import codes
-from stackbounce.engine.memory import OUT_OF_RANGE, RIGID, memory
-from stackbounce.engine.records import AFTER, BEGIN_WITH_PEAKS, CONTINUE, END, UNIT
-from stackbounce.engine.slots import CAUSE, LAST_EVENT, NONLINEAR, WORK
+from stackbounce.engine.memory import RIGID, memory
+from stackbounce.engine.records import AFTER, BEGIN_WITH_PEAKS, END
+from stackbounce.engine.slots import CAUSE, NONLINEAR, WORK
 from stackbounce.engine.stack import Samples
 from stackbounce.model import Drop
 from stackbounce.run.conditioning import disturbed
@@ -152,23 +151,11 @@ def _run(
         numbers = disturbed(numbers, error, seed)
     room.put(numbers)
     room.put_pieces(drop_pieces(drop))
-    samples = room.samples(times)
-    run = room.run_with(samples)
-    log: list[float] = []
-    try:
-        status = run(BEGIN_WITH_PEAKS, *options)
-        log += room.take_log()
-        while status == codes.RUNNING:
-            status = run(CONTINUE, *options)
-            log += room.take_log()
-        after = room.numbers(room.space.after)
-    except OUT_OF_RANGE:
-        log += room.take_log()
-        unit = room.space.after[UNIT] or 1.0
-        ends = [math.nan] * balls
-        status, after = codes.INVALID, [unit, room.stack.clock[LAST_EVENT] * unit, *ends]
+    samples, run = room.sampled(times)
+    status, log = room.follow(run, BEGIN_WITH_PEAKS, options)
+    after = room.numbers(room.space.after)
     rigid = engine is RIGID
     infinite = room.numbers(room.stack.infinite) if rigid else [0] * balls
-    nonlinear = not rigid and room.stack.setting[NONLINEAR] == 1
+    nonlinear = not rigid and room.stack.counter[NONLINEAR] == 1
     work, cause = (int(room.stack.counter[slot]) for slot in (WORK, CAUSE))
     return _Run(status, after[END], after[AFTER:], log, infinite, samples, nonlinear, work, cause)

@@ -17,7 +17,7 @@ measurement: a ball on a ball is taken to give way as it does on the floor.
 """
 
 from stackbounce.model.catalogue.balls import BALLS, CLASS_BALLS, KINDS, PAIRS, CatalogueBall, Pair
-from stackbounce.model.catalogue.stacking import Stack, catalogue_ball, pressed, stack
+from stackbounce.model.catalogue.stacking import Stack, catalogue_ball, stack
 
 __all__ = [
     "BALLS",
@@ -28,6 +28,5 @@ __all__ = [
     "Pair",
     "Stack",
     "catalogue_ball",
-    "pressed",
     "stack",
 ]

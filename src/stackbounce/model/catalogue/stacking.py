@@ -8,6 +8,7 @@ from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model.ball import Ball
 from stackbounce.model.catalogue.balls import BALLS, CLASS_BALLS, PAIRS, CatalogueBall, Pair
 from stackbounce.model.laws import ContactLaw, Spring
+from stackbounce.model.laws.series import between
 
 
 @dataclass(frozen=True)
@@ -124,19 +125,6 @@ def stack(names: Sequence[str]) -> Stack:
     )
 
 
-def pressed(ball: CatalogueBall) -> ContactLaw:
-    """Return a ball's contact on the floor as a `Hysteretic` one, which may lose nothing.
-
-    Examples
-    --------
-    >>> pressed(catalogue_ball("B1"))
-    Hysteretic(stiffness=54000.0, exponent=1.0, restitution=1.0)
-    """
-    law = ball.contact.as_hysteretic()
-    assert law is not None
-    return law
-
-
 def _pair(lower: CatalogueBall, upper: CatalogueBall) -> Pair | None:
     names = (lower.ball.name, upper.ball.name)
     return next((pair for pair in PAIRS if (pair.lower, pair.upper) == names), None)
@@ -153,6 +141,4 @@ def _between(lower: CatalogueBall, upper: CatalogueBall) -> tuple[ContactLaw, st
     if pair is not None:
         return Spring(pair.stiffness), pair.source
     source = f"{lower.ball.name} and {upper.ball.name} in series"
-    if lower.lossy or upper.lossy:
-        return pressed(lower).pressed_on(pressed(upper)), source
-    return Spring(1.0 / (1.0 / lower.stiffness + 1.0 / upper.stiffness)), source
+    return between(lower.contact, upper.contact), source

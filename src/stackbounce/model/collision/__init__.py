@@ -1,1 +1,1 @@
-"""One collision of one ball: its units, and root finding and integration for the closed forms."""
+"""One collision of one ball: its units, and root finding for the closed forms."""

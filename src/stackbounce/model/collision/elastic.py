@@ -35,20 +35,6 @@ def duration(p: float) -> float:
     return 2.0 * math.sqrt(math.pi) * math.gamma(1.0 + share) / math.gamma(0.5 + share)
 
 
-def hysteretic_duration(p: float, n: float, e: float) -> float:
-    """Return the contact time, in units of C/v, of a law with loading exponent p and unloading n.
-
-    Loading takes half the contact time of the loading curve without loss. Unloading takes half the
-    contact time of the unloading curve without loss, at the speed e v.
-
-    Examples
-    --------
-    >>> round(hysteretic_duration(1.0, 7.0, 0.5), 6), round(hysteretic_duration(1.0, 1.0, 1.0), 6)
-    (3.897981, 3.141593)
-    """
-    return 0.5 * duration(p) + 0.5 * duration(n) / e
-
-
 def peak_compression(k: float, p: float, mass: float, speed: float) -> float:
     """Return C in m, where the contact stores the kinetic energy: ``k C**(p+1)/(p+1) = m v**2/2``.
 

@@ -1,6 +1,5 @@
-"""Root finding for functions of one number, and integration of those not smooth at the ends."""
+"""Root finding for functions of one number."""
 
-import functools
 import math
 import sys
 from collections.abc import Callable
@@ -10,8 +9,6 @@ _CLOSEST = 1e-15  # relative
 _LEAST = 5e-324
 _WIDEST = 10.0  # times, from one end of a bracket to the next
 _ROUNDS = 2000  # a bracket of numbers above 0 can span 600 decades
-_STEP = 1.0 / 32.0
-_REACH = 116  # steps to either side, where the weights are below 1e-17 of the largest
 
 
 def root(function: Callable[[float], float], low: float, high: float) -> float:
@@ -115,44 +112,3 @@ def _interpolated(
         above = -f * (f_other * chord - f_before * slope)
         below = chord * slope * (f_other - f_before)
     return above / below if below != 0.0 else math.nan
-
-
-def integral(function: Callable[[float], float]) -> float:
-    """Return the integral of a bounded function of ln(z) over z from 0 to 1.
-
-    Parameters
-    ----------
-    function : callable
-        Its argument is ln(z), which resolves z near 1 to the last digit. It must be analytic
-        between the ends.
-
-    Returns
-    -------
-    float
-
-    Notes
-    -----
-    Double-exponential quadrature: the trapezoidal rule in t, ``z = 1/(1 + exp(-π sinh(t)))``.
-    The step is fixed; there is no tolerance.
-
-    Source: H. Takahasi and M. Mori, Publ. RIMS 9, 721 (1974).
-
-    Examples
-    --------
-    >>> round(integral(lambda log_z: math.exp(1.5 * log_z)), 14)
-    0.4
-    """
-    return math.fsum(weight * function(log_z) for log_z, weight in _nodes())
-
-
-@functools.cache
-def _nodes() -> list[tuple[float, float]]:
-    nodes = []
-    for i in range(-_REACH, _REACH + 1):
-        t = i * _STEP
-        s = math.pi * math.sinh(t)
-        log_z = -math.log1p(math.exp(-s))
-        log_rest = -math.log1p(math.exp(s))  # of 1 - z
-        weight = _STEP * math.pi * math.cosh(t) * math.exp(log_z + log_rest)
-        nodes.append((log_z, weight))
-    return nodes

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
+from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, non_negative
 from stackbounce.model.laws.law import ContactLaw, Given, Quantity, stiffness_in
 from stackbounce.model.laws.registry import register
@@ -58,7 +59,7 @@ class Bond(ContactLaw):
 
     formula = "F = stiffness c + damping c'"
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section II"
-    form = "BOND"
+    form = codes.BOND
     third_number = "damping"
     listed = False
     pulls = True

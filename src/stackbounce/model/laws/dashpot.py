@@ -19,6 +19,7 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
+from stackbounce.engine import codes
 from stackbounce.errors import non_negative
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import root
@@ -63,7 +64,7 @@ class Dashpot(ContactLaw):
 
     formula = "F = max(0, stiffness c + damping c')"
     source = "Bartz, arXiv 2007.15005"
-    form = "DASHPOT"
+    form = codes.DASHPOT
     third_number = "damping"
     loss = "damping"
     loss_depends_on = ("mass",)

@@ -1,12 +1,12 @@
 """The lossless laws: the force is a power of the compression, loading and unloading."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
+from stackbounce.engine import codes
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.model.ball import Ball
-from stackbounce.model.collision import elastic
-from stackbounce.model.laws.law import EXPONENT, ContactLaw, Flank, Flanks, Given, stiffness_in
+from stackbounce.model.laws.law import EXPONENT, ContactLaw, Flank, Flanks, stiffness_in
 from stackbounce.model.laws.registry import register
 
 if TYPE_CHECKING:
@@ -18,21 +18,8 @@ _STEEPEST_FLANK = 2.5  # the largest exponent that a force record of an unknown 
 class ElasticLaw(ContactLaw):
     """A law ``F = k c**p`` without loss; a class sets `exponent` or has it as a field."""
 
-    form = "POWER"
+    form = codes.POWER
     rate_free = True
-
-    def duration_at(self, mass: float, speed: float) -> float:
-        """Return the contact time in units of C/v."""
-        return elastic.duration(self.exponent)
-
-    @classmethod
-    def calibrated(cls, given: Given) -> Self:
-        """Return the law that has a measured contact time."""
-        p = given["exponent"]
-        numbers = {"stiffness": elastic.measured_stiffness(given, elastic.duration(p))}
-        if cls.fixed_exponent() is None:
-            numbers["exponent"] = p
-        return cls(**numbers)
 
     @classmethod
     def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self
 
-from stackbounce.engine.codes import FORMS
+from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, fraction, positive
 from stackbounce.model.collision.roots import root
 from stackbounce.model.laws.law import (
@@ -81,7 +81,7 @@ restitution 0.75'
         "returned"
     )
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section III"
-    form = "TWO_STAGE"
+    form = codes.TWO_STAGE
     page_code: ClassVar = {
         "numbers": """({ stiffness, restitution, buckling_compression, stiffness_ratio }) =>
           [stiffness, restitution ** 2, buckling_compression, stiffness_ratio]""",
@@ -112,7 +112,7 @@ restitution 0.75'
     def engine_numbers(self, varied: Mapping[str, Any] = {}) -> EngineNumbers:
         """Return the law's numbers: k, the share e**2 of energy returned, c_b and r."""
         k, knee, ratio, e = self.values(varied)
-        return FORMS[self.form], k, e * e, knee, ratio
+        return self.form, k, e * e, knee, ratio
 
     @classmethod
     def _needs_speed(cls, exponent: float) -> bool:

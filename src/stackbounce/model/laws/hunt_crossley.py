@@ -1,4 +1,4 @@
-"""Hunt and Crossley's law: the restitution in closed form, the contact time as an integral.
+"""Hunt and Crossley's law: the restitution in closed form, the contact time by a run of one ball.
 
 With ``d = χ v`` and ``u = ċ/v``, ``m v**2 u du = -k c**p (1 + d u) dc`` gives
 
@@ -16,15 +16,14 @@ Source: K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42, 440 (1975); D. W. M
 D. E. Orin, IEEE Trans. Syst. Man Cybern. A 29, 566 (1999).
 """
 
-import functools
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
+from stackbounce.engine import codes
 from stackbounce.errors import non_negative
 from stackbounce.model.collision import elastic
-from stackbounce.model.collision.roots import integral, root
+from stackbounce.model.collision.roots import root
 from stackbounce.model.laws.law import (
     EXPONENT,
     ContactLaw,
@@ -81,7 +80,7 @@ class HuntCrossley(ContactLaw):
 
     formula = "F = max(0, stiffness c**exponent (1 + dissipation c'))"
     source = "K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42, 440 (1975)"
-    form = "HUNT_CROSSLEY"
+    form = codes.HUNT_CROSSLEY
     third_number = "dissipation"
     loss = "dissipation"
     loss_depends_on = ("impact_speed",)
@@ -98,10 +97,6 @@ class HuntCrossley(ContactLaw):
         """Return e, which follows from ``d = χ v``."""
         return restitution(self._loss_at(speed))
 
-    def duration_at(self, mass: float, speed: float) -> float:
-        """Return the contact time in units of C/v."""
-        return duration(self._loss_at(speed), self.exponent)
-
     def _loss_at(self, speed: float) -> float:
         d = self.dissipation * speed
         if d > LARGEST:
@@ -112,7 +107,7 @@ class HuntCrossley(ContactLaw):
     def calibrated(cls, given: Given) -> Self:
         """Return the law that has a measured restitution and contact time."""
         p, d = given["exponent"], dissipation(given["restitution"])
-        k = elastic.measured_stiffness(given, duration(d, p))
+        k = elastic.measured_stiffness(given, cls(1.0, p, d).duration_at(1.0, 1.0))
         return cls(k, p, d / given["impact_speed"])
 
     @classmethod
@@ -163,73 +158,11 @@ def dissipation(restitution: float) -> float:
     return _dissipation(root(lambda q: _restitution(q) - restitution, low, high))
 
 
-def duration(d: float, p: float) -> float:
-    """Return the contact time in units of C/v, see `elastic`.
-
-    Parameters
-    ----------
-    d : float
-        ``χ v``, 0 or above.
-    p : float
-        The exponent, 1 or above.
-
-    Returns
-    -------
-    float
-
-    Notes
-    -----
-    ``T = ∫ m dv/(k c**p (1 + χ v))`` is integrated over ``x = |ln((1 + d u)/(1 + d u0))|``, from
-    either end ``u0 = 1, -e`` of the contact to the peak compression, u = 0, where x is X. There
-    ``M = d |u0| x R`` with
-
-    ``R = 1 - (1 + d) E(-x) x/d`` up to ``X = ln(1 + d)``, and
-    ``R = 1 - (1 - d e) E(x) x/(d e)`` up to ``X = -ln(1 - d e) = q - ln(1 + d)``.
-
-    With ``x = X z**(p+1)`` the singularity of ``c**-p`` cancels, and each part of T is
-
-    ``(2 C/v) (X/d)**(1/(p+1)) (2 |u0|)**(-p/(p+1)) ∫ R**(-p/(p+1)) dz`` over z from 0 to 1.
-
-    Examples
-    --------
-    >>> [round(duration(d, 1.5), 6) for d in (0.0, 1e-9, 1.0)]
-    [2.943275, 2.943275, 3.178895]
-    """
-    if d == 0.0:
-        return elastic.duration(p)
-    q = _change(d)
-    e = _restitution(q)
-    out = q - math.log1p(d)
-    loading = _half(d, p, 1.0, math.log1p(d), functools.partial(_loading, d))
-    return loading + _half(d, p, e, out, functools.partial(_unloading, d * e, out))
-
-
-def _half(d: float, p: float, speed: float, span: float, rest: Callable[[float], float]) -> float:
-    """Return the time, in units of C/v, from one end of the contact to the peak compression.
-
-    `speed` is |u0|, `span` is X, and `rest` is R as a function of x; see `duration`.
-    """
-    power = p / (p + 1.0)
-    area = integral(lambda log_z: rest(span * math.exp((p + 1.0) * log_z)) ** -power)
-    unit: float = 2.0 * (span / d) ** (1.0 - power) * (2.0 * speed) ** -power
-    return unit * area
-
-
 def _excess(x: float) -> float:
     """Return ``E(x) = (exp(x) - 1 - x)/x**2``."""
     if abs(x) < _SMALL:
         return sum(factor * x**n for n, factor in enumerate(_FACTORS))
     return (math.expm1(x) - x) / x / x
-
-
-def _loading(d: float, x: float) -> float:
-    return 1.0 - (1.0 + d) * (x / d) * _excess(-x)
-
-
-def _unloading(de: float, span: float, x: float) -> float:
-    if x < _SMALL:
-        return 1.0 - math.exp(-span) * (x / de) * _excess(x)
-    return 1.0 - (math.exp(x - span) - math.exp(-span) * (1.0 + x)) / (de * x)
 
 
 def _dissipation(q: float) -> float:

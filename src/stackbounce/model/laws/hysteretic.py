@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field
 from typing import Annotated, Any, ClassVar, Self
 
-from stackbounce.engine.codes import FORMS
+from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, between, fraction, shown
 from stackbounce.model.collision import elastic
 from stackbounce.model.laws.law import (
@@ -81,7 +81,7 @@ class Hysteretic(ContactLaw):
         "F = stiffness C**exponent (c/C)**unloading_exponent"
     )
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section V"
-    form = "HYSTERETIC"
+    form = codes.HYSTERETIC
     third_number = "unloading_exponent"
     rate_free = True
     loss = "restitution"
@@ -145,11 +145,15 @@ class Hysteretic(ContactLaw):
             import numpy as np
 
             n = np.maximum(p, (p + 1.0) / e / e - 1.0)
-        return FORMS[self.form], k, p, n, 0.0
+        return self.form, k, p, n, 0.0
 
     def duration_at(self, mass: float, speed: float) -> float:
-        """Return the contact time in units of C/v."""
-        return elastic.hysteretic_duration(self.exponent, self.unloading_exponent, self.restitution)
+        """Return the contact time in units of C/v: half of that on each curve without loss.
+
+        Unloading begins with no speed and ends at the speed e v.
+        """
+        loading, unloading = map(elastic.duration, (self.exponent, self.unloading_exponent))
+        return 0.5 * loading + 0.5 * unloading / self.restitution
 
     @classmethod
     def calibrated(cls, given: Given) -> Self:

@@ -34,6 +34,7 @@ EngineNumbers: TypeAlias = tuple[int, Any, Any, Any, Any]
 
 _MEASURED = ("mass", "impact_speed", "contact_time", "exponent")
 _LOSSLESS = 1.0 - 1e-11  # a smaller loss is not told from round-off in a simulation
+_FAR = 1e6  # times the largest one of its slider: the largest loss that a calibration tries
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
@@ -107,8 +108,8 @@ class ContactLaw:
     """The formula of the force in terms of the compression c and its rate c', as plain text."""
     source: ClassVar[str]
     """Where it was published."""
-    form: ClassVar[str]
-    """The name of the form of the force, see `stackbounce.engine.forces`."""
+    form: ClassVar[int]
+    """The code of the form of the force, see `stackbounce.engine.forces`."""
     third_number: ClassVar[str] = ""
     """The field that is the third of the engine's numbers, such as the damping."""
     fourth_number: ClassVar[str] = ""
@@ -243,7 +244,7 @@ class ContactLaw:
             second = varied.get("exponent", second)
             third = varied.get(self.third_number, third)
             fourth = varied.get(self.fourth_number, fourth)
-        return codes.FORMS[self.form], first, second, third, fourth
+        return self.form, first, second, third, fourth
 
     def values(self, varied: Mapping[str, Any]) -> list[Any]:
         """Return the values of all parameters, of which some vary, see `engine_numbers`."""
@@ -266,11 +267,11 @@ class ContactLaw:
         It is 1 without a loss, and a field of the law if it depends on nothing else; of any other
         law it is found by a simulation, by default.
         """
-        if not self.loss:
+        if self._is_elastic():
             return 1.0
         if self.loss == "restitution" and not self.loss_depends_on:
             return float(self.restitution)
-        return self._bounce(mass, speed)[0]
+        return min(1.0, self._bounce(mass, speed)[0])  # it may be above 1 by round-off
 
     def contact_time_at(self, mass: float, speed: float) -> float:
         """Return the contact time in s of a mass in kg at a speed in m/s."""
@@ -278,9 +279,16 @@ class ContactLaw:
         return unit * self.duration_at(mass, speed)
 
     def duration_at(self, mass: float, speed: float) -> float:
-        """Return the contact time in units of C/v, see `elastic`, by default from a simulation."""
+        """Return the contact time in units of C/v, see `elastic`; with a loss from a simulation."""
+        if self._is_elastic():
+            return elastic.duration(self.exponent)
         time = self._bounce(mass, speed)[1]
         return time / elastic.peak_compression(self.stiffness, self.exponent, mass, speed) * speed
+
+    def _is_elastic(self) -> bool:
+        """Return whether nothing is lost, and the force is a power of the compression."""
+        lossy = self.loss and (self.loss == "restitution" or getattr(self, self.loss) > 0.0)
+        return not lossy
 
     def _bounce(self, mass: float, speed: float) -> tuple[float, float]:
         """Return restitution and contact time in s by a simulation."""
@@ -307,8 +315,9 @@ class ContactLaw:
         """Return the law that reproduces measured quantities; ``given`` holds all that are needed.
 
         By default the stiffness is searched for that gives the contact time, and within that search
-        the loss that gives the restitution, by simulations of the collision. Other fields have the
-        value in `given`, their default, or the initial value of their slider.
+        the loss that gives the restitution, by simulations of the collision. Other fields are those
+        of `assumed`, or have the value in `given`, their default, or the initial value of their
+        slider.
 
         Raises
         ------
@@ -326,6 +335,11 @@ class ContactLaw:
                 f"law_class must be a law that can be calibrated, got {cls.__name__}"
             )
         return _found(cls, numbers, given)
+
+    @classmethod
+    def assumed(cls, given: Given, numbers: Mapping[str, float]) -> dict[str, float]:
+        """Return the fields that `calibrated` derives from what was measured and other fields."""
+        return {}
 
     @property
     def linger(self) -> float:
@@ -382,28 +396,36 @@ def _found(cls: type[_Law], numbers: dict[str, float], given: Given) -> _Law:
     """Return the law with those numbers but for the stiffness and the loss, which are found."""
     mass, speed, lasts, p = (given[name] for name in _MEASURED)
     stiffness = elastic.measured_stiffness(given, elastic.duration(p))
+    if not cls.loss:
+        return cls(**numbers | {"stiffness": stiffness})
 
     def lasting(loss: dict[str, float]) -> _Law:
         """Return the law with a loss that has the contact time."""
         nonlocal stiffness
 
+        def made(k: float) -> _Law:
+            chosen = numbers | loss | {"stiffness": k}
+            return cls(**chosen | cls.assumed(given, chosen))
+
         def short(k: float) -> float:  # linear in k for a power law
-            law = cls(**numbers | loss | {"stiffness": k})
-            return float((lasts / law.contact_time_at(mass, speed)) ** (p + 1.0)) - 1.0
+            return float((lasts / made(k).contact_time_at(mass, speed)) ** (p + 1.0)) - 1.0
 
         stiffness = rising_root(short, stiffness)  # near which the next one is
-        return cls(**numbers | loss | {"stiffness": stiffness})
+        return made(stiffness)
 
-    if cls.loss in ("", "restitution"):
+    if cls.loss == "restitution":
         return lasting({})
     kept = given["restitution"]
     if kept > _LOSSLESS:
         return lasting({cls.loss: 0.0})
 
+    _, least, most = cls.quantities()[cls.loss].slider
+
     def excess(loss: float) -> float:
+        if loss > _FAR * most:  # the run may not end
+            raise ArithmeticError
         return math.log(kept / lasting({cls.loss: loss}).restitution_at(mass, speed))
 
-    _, least, _ = cls.quantities()[cls.loss].slider  # with a large one the run may not end
     return lasting({cls.loss: rising_root(excess, least)})
 
 

@@ -2,7 +2,6 @@
 
 from typing import TypeVar
 
-from stackbounce.engine.codes import FORMS
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model.laws.law import ContactLaw
 
@@ -29,8 +28,7 @@ def register(law: type[_Law]) -> type[_Law]:
     Raises
     ------
     TypeError
-        If the class lacks `formula`, `source` or `form`, or another law has its name, or
-        the engine does not know its form.
+        If the class lacks `formula`, `source` or `form`, or another law has its name.
     """
     missing = [name for name in ("formula", "source", "form") if not hasattr(law, name)]
     if missing:
@@ -38,9 +36,6 @@ def register(law: type[_Law]) -> type[_Law]:
     other = (LAWS | UNLISTED).get(law.__name__, law)
     if (other.__module__, other.__qualname__) != (law.__module__, law.__qualname__):
         raise TypeError(f"{law.__name__} is the name of a law in {other.__module__} already")
-    if law.form not in FORMS:
-        hint = nearest(law.form, FORMS)
-        raise TypeError(f"{law.__name__} has the form of force {law.form}; {hint}")
     law.says = (law.__doc__ or "").partition("\n")[0]
     (LAWS if law.listed else UNLISTED)[law.__name__] = law
     return law

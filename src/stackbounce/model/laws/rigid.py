@@ -1,17 +1,15 @@
 """Rigid contacts: instantaneous collisions; restitutions may depend on the speed, and scatter."""
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar, Self
 
-from stackbounce.engine.codes import FORMS
+from stackbounce.engine import codes
 from stackbounce.engine.elementary import power
 from stackbounce.errors import between, fraction
 from stackbounce.model.laws.law import ContactLaw, EngineNumbers, Given, Quantity
 from stackbounce.model.laws.registry import register
 
-_HUGE = 700.0  # the logarithm of a number that is nearly the largest one
 _RESTITUTION = Quantity("", lambda n, v: fraction(n, v, zero=False), (0.8, 0.05, 1.0))
 _SPEED = Quantity("m/s", lambda n, v: between(n, v, 1e-9, 1e9, "m/s"), (1.0, 0.01, 10.0))
 _EXPONENT = Quantity("", lambda n, v: between(n, v, 0.0, 4.0), (0.25, 0.0, 1.0))
@@ -53,7 +51,7 @@ class Rigid(ContactLaw):
 
     formula = "v' = -restitution v"
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 1 to 4"
-    form = "RIGID"
+    form = codes.RIGID
     third_number = "restitution"
     rigid = True
     exact = True
@@ -129,7 +127,7 @@ class RigidBySpeed(Rigid):
 
     formula = "v' = -e v, e = min(1, restitution (v/speed)**-speed_exponent)"
     source = "A. P. Hatzes, F. G. Bridges and D. N. C. Lin, Mon. Not. R. Astron. Soc. 231 (1988)"
-    form = "RIGID_POWER"
+    form = codes.RIGID_POWER
     third_number = "scatter"
     fourth_number = "seed"
     page_code: ClassVar = {
@@ -147,7 +145,7 @@ class RigidBySpeed(Rigid):
     def engine_numbers(self, varied: Mapping[str, Any] = {}) -> EngineNumbers:
         """Return the law's numbers, with k of ``e = k v**-p`` in place of a stiffness."""
         e, v, p, scatter, seed = self.values(varied)
-        return FORMS[self.form], e * powers(v, p), p, scatter, seed
+        return self.form, e * powers(v, p), p, scatter, seed
 
     def _described_fields(self) -> list[str]:
         """Return the fields to describe: scatter and seed only where it scatters."""
@@ -160,7 +158,7 @@ class RigidBySpeed(Rigid):
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution at a speed in m/s, without scatter."""
-        return min(1.0, self.restitution * _ratio_power(self.speed, speed, self.speed_exponent))
+        return min(1.0, self.restitution * power(self.speed / speed, self.speed_exponent))
 
     @classmethod
     def calibration_needs(cls, exponent: float | None = None) -> list[str]:
@@ -219,7 +217,7 @@ class RigidLossBySpeed(RigidBySpeed):
     source = (
         "R. Ramírez, T. Pöschel, N. V. Brilliantov and T. Schwager, Phys. Rev. E 60, 4465 (1999)"
     )
-    form = "RIGID_LOSS"
+    form = codes.RIGID_LOSS
     page_code: ClassVar = {
         "numbers": """({ restitution, speed, speed_exponent, scatter, seed }) =>
           [(1 - restitution) * speed ** -speed_exponent, speed_exponent, scatter, seed]"""
@@ -230,21 +228,12 @@ class RigidLossBySpeed(RigidBySpeed):
     def engine_numbers(self, varied: Mapping[str, Any] = {}) -> EngineNumbers:
         """Return the law's numbers, with k of ``1 - e = k v**p`` in place of a stiffness."""
         e, v, p, scatter, seed = self.values(varied)
-        return FORMS[self.form], (1.0 - e) * powers(v, -p), p, scatter, seed
+        return self.form, (1.0 - e) * powers(v, -p), p, scatter, seed
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution at a speed in m/s, without scatter."""
-        faster = _ratio_power(speed, self.speed, self.speed_exponent)
+        faster = power(speed / self.speed, self.speed_exponent)
         return max(0.0, 1.0 - (1.0 - self.restitution) * faster)
-
-
-def _ratio_power(speed: float, other: float, exponent: float) -> float:
-    """Return the power of the ratio of two speeds; a huge number where it would be larger."""
-    ratio = speed / other
-    logarithm = exponent * (math.log(speed) - math.log(other))
-    if 0.0 < ratio < math.inf and logarithm < _HUGE:
-        return float(ratio**exponent)
-    return math.exp(min(logarithm, _HUGE))
 
 
 def powers(base: Any, exponent: Any) -> Any:

@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self
 
-from stackbounce.engine.codes import FORMS
+from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, finite, listed
 from stackbounce.model.laws.law import RESTITUTION, ContactLaw, EngineNumbers, Flank, Flanks, Given
 from stackbounce.model.laws.registry import register
@@ -87,7 +87,7 @@ class Tabulated(ContactLaw):
 
     formula = "F = the monotone spline through the points"
     source = "L. L. Schumaker, SIAM J. Numer. Anal. 20, 853 (1983)"
-    form = "TABULATED"
+    form = codes.TABULATED
     listed = False
     rate_free = True
     loss = "restitution"
@@ -148,7 +148,7 @@ class Tabulated(ContactLaw):
         loss = _steepness(loading) * (1.0 / kept - 1.0)  # m
         if self.unloading is not None:
             kept, loss = 0.0, float(len(shares))
-        return FORMS[self.form], 1.0, kept, float(len(loading)), loss
+        return self.form, 1.0, kept, float(len(loading)), loss
 
     def pieces(self) -> list[float]:
         """Return the numbers of the loading pieces, then of those of the share in unloading."""
@@ -164,10 +164,6 @@ class Tabulated(ContactLaw):
             "law_a and law_b must be laws with a formula, got Tabulated: give the table of both "
             "together, as a press measures it with one ball on the other"
         )
-
-    def restitution_at(self, mass: float, speed: float) -> float:
-        """Return the restitution of a mass in kg at a speed in m/s, by a simulation."""
-        return min(1.0, self._bounce(mass, speed)[0])  # 1 may be above it by round-off
 
     def contact_time_at(self, mass: float, speed: float) -> float:
         """Return the contact time in s of a mass in kg at a speed in m/s, by a simulation."""

@@ -153,7 +153,7 @@ export class Points {
       const own = varied.filter(({ number }) => number.part === "contacts" && number.index === contact);
       const constants = (i, j) => Object.fromEntries(own.map((axis) => [axis.number.field, axis.at(i, j)]));
       const targets = ["first", "second", "third", "fourth"].map((name) => [name, contact]);
-      if (own.length) change(own, targets, (i, j) => law.replaced(constants(i, j)).engineNumbers(theEngine().forms).slice(1));
+      if (own.length) change(own, targets, (i, j) => law.replaced(constants(i, j)).engineNumbers().slice(1));
     });
     const fall = varied.filter(({ number }) => ["gravity", "height", "impact_speed"].includes(number.field));
     const given = (field) => fall.find(({ number }) => number.field === field);

@@ -12,12 +12,12 @@ export async function loadEngine(bytes, layout) {
 
 /**
  * A drop is {mass, form, first, second, third, fourth, gap, velocity, gravity, rigid}: arrays with a number for each ball
- * or the contact below it, in SI units, `gravity` a number, `rigid` true or false; `form` is one of `forms`, and the four
+ * or the contact below it, in SI units, `gravity` a number, `rigid` true or false; `form` is the code of a form of force, and the four
  * numbers after it are those of that form. Many drops of one height are the same with a row for each in flat arrays, `gravity` being an array.
  */
 class Engine {
   constructor(exports, layout) {
-    const { forms, statuses, events, log } = layout; // codes of laws, of how a run ended, of events; columns of a log
+    const { forms, statuses, events, log } = layout; // codes of two forms of force, of how a run ended, of events; columns of a log
     Object.assign(this, { exports, layout, forms, statuses, events, log });
     this.room = new Room(exports.memory, exports.__heap_base.value, layout.records);
     this.stacks = new Map();
@@ -85,7 +85,6 @@ class Engine {
         const limits = this.limits(eventLimit);
         for (let row = 0; row < count; ) row = this.call(entry, stack, space, given, none, until, rtol, ...limits, out, row);
       }
-      this.call("find_ratios", given, out);
       return room.readAll(out);
     });
     if (springs) this.answer(drops, outcomes, { rtol, until, eventLimit });

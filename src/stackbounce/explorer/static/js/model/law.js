@@ -47,10 +47,10 @@ export class Law {
   }
 
   /** Return the law as the engine takes it: the form of its force, and four numbers. */
-  engineNumbers(forms) {
+  engineNumbers() {
     const { law, form, parameters } = this.kind;
     const parameter = (name) => (name ? this[name] : 0);
-    return [forms[form], ...(LAW_CODE[law]?.numbers?.(this) ?? [this.stiffness ?? 1, this.exponent ?? 1, ...parameters.map(parameter)])];
+    return [form, ...(LAW_CODE[law]?.numbers?.(this) ?? [this.stiffness ?? 1, this.exponent ?? 1, ...parameters.map(parameter)])];
   }
 
   /** Return a copy with some numbers changed; a derived one is computed again. */

@@ -21,7 +21,7 @@ export function theEngine() {
 /** Return the restitution and the contact time in s of a ball on a floor with a law, without gravity. */
 export function bounce(law, mass, speed) {
   const { log, statuses, events, layout } = engine;
-  const [form, first, second, third, fourth] = law.engineNumbers(engine.forms);
+  const [form, first, second, third, fourth] = law.engineNumbers();
   const drop = {
     mass: [mass],
     form: [form],

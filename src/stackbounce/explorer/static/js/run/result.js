@@ -4,7 +4,7 @@ import { theEngine } from "../model/one_ball.js";
 
 /** Return the numbers of a drop as the engine takes them. */
 export function numbersOf(drop) {
-  const laws = drop.contacts.map((law) => (law === null ? [theEngine().forms.ABSENT, 1, 1, 0, 0] : law.engineNumbers(theEngine().forms)));
+  const laws = drop.contacts.map((law) => (law === null ? [theEngine().forms.ABSENT, 1, 1, 0, 0] : law.engineNumbers()));
   const column = (place) => laws.map((one) => one[place]);
   return {
     mass: drop.balls.map(({ mass }) => mass),
