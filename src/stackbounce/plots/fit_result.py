@@ -21,7 +21,7 @@ _WORTH = 9.0  # other minima are drawn if chi squared is less than this above th
 _FINE, _CELLS, _STEPS = 401, 81, 41  # values of a curve, of each side of a map, of a profile
 _TOP = 10.0  # upper end of a profile's axis
 _BANDS = (0.0, 1.0, 4.0, 9.0, 16.0, 25.0, 100.0)
-_CURVE, _BEST, _OTHER, _KINK = COLORS[0], COLORS[1], "white", "#202020"
+_CURVE, _BEST, _OTHER = COLORS[0], COLORS[1], "white"
 _MEASURED, _FITTED = "#4d4d4d", COLORS[1]
 _MOST_PULLS, _MOST_RECORDS = 40, 4
 _ROW = 0.26  # inches of a pull
@@ -36,19 +36,12 @@ _WITHIN = (0.393, 0.865)  # of the draws of two: one and two standard deviations
 
 
 def draw_profile(axes: "Axes", fit: Any) -> None:
-    """Draw chi squared against the only fitted parameter, its error, and the kinks.
-
-    A kink is a value at which the number of contact intervals changes.
-    """
+    """Draw chi squared against the only fitted parameter, and its error."""
     x = np.linspace(*_extent(fit, 0), _FINE)
     parameter = fit.objective.parameters[0]
     values = parameter.value(x)
     above = fit.objective.chi_squared(x[:, None]) - fit.chi_squared
     _draw_curve(axes, values, above)
-    for kink in _kinks(fit, x[:, None]):
-        where = kink[1:] != kink[:-1]
-        for value in 0.5 * (values[1:] + values[:-1])[where]:
-            axes.axvline(value, color=_KINK, linestyle=":", linewidth=1.0)
     best = fit[parameter.name]
     for at in (best.nominal_value - best.std_dev, best.nominal_value + best.std_dev):
         axes.axvline(at, color=_BEST, linewidth=0.8)
@@ -75,11 +68,6 @@ def draw_map(figure: "SubFigure", fit: Any) -> None:
         for parameter, own in zip(fit.objective.parameters, (across, up), strict=True)
     )
     _draw_bands(axes, x, y, np.maximum(above, 0.0))
-    near = above < _BANDS[-1]
-    for kink in _kinks(fit, trials[near.ravel()]):
-        counts = np.full(near.shape, np.nan)
-        counts[near] = kink
-        _draw_kinks(axes, x, y, counts)
     _draw_minima(axes, fit)
     for k, (panel, values, turned) in enumerate(((top, x, False), (right, y, True))):
         chosen = values[:: (_CELLS - 1) // (_STEPS - 1)]
@@ -112,15 +100,6 @@ def _scale(fit: Any, k: int, values: Array) -> Scale:
     return Scale(values, log, [], parameter.unit)
 
 
-def _kinks(fit: Any, trials: Array) -> list[NDArray[np.int64]]:
-    """Return the number of contact intervals per trial, for each contact where it varies."""
-    found = []
-    for key in fit.objective.measured:
-        counts = fit.objective.solve(key, trials)["collisions"]
-        found += [count for count in counts.T if np.ptp(count) > 0]
-    return found
-
-
 def _draw_curve(axes: "Axes", values: Array, above: Array, *, turned: bool = False) -> None:
     """Draw a profile, with lines at one and two standard deviations; ``turned`` swaps the axes."""
     line, plot = (axes.axvline, (above, values)) if turned else (axes.axhline, (values, above))
@@ -147,14 +126,6 @@ def _draw_bands(axes: "Axes", x: Array, y: Array, above: Array) -> None:
     axes.grid(visible=False)
 
 
-def _draw_kinks(axes: "Axes", x: Array, y: Array, counts: Array) -> None:
-    """Draw lines between regions with different counts; counts are nan far from the minimum."""
-    own = np.unique(counts[np.isfinite(counts)])
-    levels = (0.5 * (own[1:] + own[:-1])).tolist()
-    look: Any = {"colors": _KINK, "linewidths": 0.9, "linestyles": ":"}
-    axes.contour(x, y, counts, levels=levels, **look)
-
-
 def _draw_minima(axes: "Axes", fit: Any) -> None:
     """Mark the best values with their errors, and the other minima."""
     first, second = (fit[name] for name in fit.names)
@@ -179,8 +150,8 @@ def fitted(fit: Any) -> "Figure":
     matplotlib.figure.Figure
         Not shown and not saved. The pulls: fitted minus measured numbers in standard errors. Force
         records with the fitted curves. Below, chi squared: a curve for one parameter, a map with
-        the profile of each for two. Dotted lines are kinks, where the number of contact intervals
-        changes. With force records chi squared is not drawn, because each trial takes long.
+        the profile of each for two. With force records chi squared is not drawn, because each trial
+        takes long.
 
     Examples
     --------
