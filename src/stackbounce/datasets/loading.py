@@ -2,7 +2,6 @@
 
 import functools
 import tomllib
-from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -55,11 +54,6 @@ class Column:
     errors: tuple[float, ...] = ()
     assumed_error: float = 0.0
     assumed_because: str = ""
-
-    @property
-    def repeated(self) -> bool:
-        """Return whether each value is a tuple of repeated readings."""
-        return isinstance(self.values[0], tuple)
 
 
 @dataclass(frozen=True)
@@ -117,25 +111,6 @@ class Description:
     quoted_by: str = ""
     remarks: str = ""
     licence: str = "figures quoted"
-
-
-def read_description(name: str, mapping: Mapping[str, Any]) -> Description:
-    """Return the dataset that the contents of a file of the package describe.
-
-    Parameters
-    ----------
-    name : str
-        Its name.
-    mapping : mapping
-        The keys are the fields of `Description` but the name, those in ``columns`` the fields of
-        `Column`. A number as ``errors`` holds for all values.
-
-    Returns
-    -------
-    Description
-    """
-    columns = tuple(_column(**column) for column in mapping["columns"])
-    return Description(name=name, **{**mapping, "columns": columns})
 
 
 def _column(values: list[Any], errors: Any = (), **about: Any) -> Column:
@@ -257,7 +232,8 @@ def _variables(column: Column) -> dict[str, Any]:
     import numpy as np
 
     unit = si_unit(column)
-    dims = ("row", f"{column.name}_reading") if column.repeated else ("row",)
+    repeated = isinstance(column.values[0], tuple)
+    dims = ("row", f"{column.name}_reading") if repeated else ("row",)
     attributes: dict[str, Any] = {"long_name": column.meaning} | ({"units": unit} if unit else {})
     if column.assumed_error:
         error = _in_si(column.assumed_error, column.unit, unit)
@@ -285,7 +261,14 @@ def _in_si(value: Any, unit: str, si: str) -> Any:
 
 @functools.cache
 def _all() -> dict[str, Description]:
-    """Return the datasets of the folder by their names."""
-    folder = Path(__file__).with_name("tables")
-    found = {path.stem: tomllib.loads(path.read_text("utf-8")) for path in folder.glob("*.toml")}
-    return {name: read_description(name, about) for name, about in found.items()}
+    """Return the datasets of the folder by their names.
+
+    The keys of a file are the fields of `Description` but the name, those in ``columns`` the fields
+    of `Column`. A number as ``errors`` holds for all values.
+    """
+    found = {}
+    for path in Path(__file__).with_name("tables").glob("*.toml"):
+        about = tomllib.loads(path.read_text("utf-8"))
+        about["columns"] = tuple(_column(**column) for column in about["columns"])
+        found[path.stem] = Description(path.stem, **about)
+    return found
