@@ -15,7 +15,6 @@ import os
 import platform
 import re
 import shutil
-import stat
 import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -85,8 +84,6 @@ def _opened(path: Path, out: Path) -> Iterator[BinaryIO]:
     """
     for attempt in itertools.count():
         with os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+b", buffering=0) as file:
-            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-                raise FileError(f"{path} is no ordinary file: remove it")
             if not _locked(file):
                 writer = _writer(path)
                 if writer or attempt == _ATTEMPTS:
