@@ -31,6 +31,9 @@ from stackbounce.version import __version__
 WORDS: dict[str, Any] = tomllib.loads((files(__package__) / "words.toml").read_text("utf-8"))
 """What the page calls numbers of laws, what maps show, and the ratios that they vary."""
 
+_TOLD = ("says", "formula", "source", "form", "rigid", "exact", "loss", "least_restitution")
+"""What the page takes of a law as it is."""
+
 _LOSSY = Hysteretic  # the paper's own way to lose energy
 MAP_RTOL = 1e-8
 """The tolerance of nonlinear contacts in maps and lines, far finer than their colours."""
@@ -59,18 +62,11 @@ def _describe_law(kind: type[ContactLaw]) -> dict[str, Any]:
     """Return what the page shows of a law and computes with, and what it is in the engine."""
     return {
         "law": kind.__name__,
-        "says": kind.says,
-        "formula": kind.formula,
-        "source": kind.source,
+        **{name: getattr(kind, name) for name in _TOLD},
         "fields": [_describe_number(kind, name) for name in kind.quantities()],
-        "form": kind.form,
         "parameters": (kind.third_number, kind.fourth_number),
-        "rigid": kind.rigid,
-        "exact": kind.exact,
-        "loss": kind.loss,
         "loss_fields": list(kind.loss_fields()),
         "constant_loss": not kind.loss_depends_on,
-        "least_restitution": kind.least_restitution,
         "exponent": kind.fixed_exponent(),
         "usual_exponent": kind.default_exponent(),
         "needs": {"linear": kind.calibration_needs(1.0), "other": kind.calibration_needs(2.0)},
@@ -183,9 +179,7 @@ def _list_lines() -> list[dict[str, Any]]:
     """Return the paper's lines: a drop each, what varies, and what was measured of each ball."""
     return [
         {
-            "name": line.name,
-            "title": line.title,
-            "says": line.says,
+            **{name: getattr(line, name) for name in ("name", "title", "says")},
             "drop": line.drop.to_mapping(),
             "x": dataclasses.asdict(line.across),
             "measured": [{"value": value, "error": error} for value, error in line.measured],
