@@ -119,10 +119,8 @@ def _pair(lower: str, upper: str) -> DataSet:
 
 def _basketball() -> DataSet:
     balls = [Ball(_value(f"{name}.mass"), _value(f"{name}.diameter")) for name in _STACK]
-    stiffnesses = _value("fig9.floor_stiffness"), _value("fig9.ball_stiffness")
-    drop = Drop(
-        balls, [Spring(stiffness) for stiffness in stiffnesses], height=_value("stack.drop_height")
-    )
+    springs = [Spring(_value(f"fig9.{contact}_stiffness")) for contact in ("floor", "ball")]
+    drop = Drop(balls, springs, height=_value("stack.drop_height"))
     data = {
         "rebound_heights": [_known("stack.lower_height"), _known("stack.upper_height")],
         "durations.0": _known("stack.duration"),

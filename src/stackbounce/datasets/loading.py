@@ -2,7 +2,7 @@
 
 import functools
 import tomllib
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -197,15 +197,11 @@ def load(name: str) -> "xr.Dataset":
     variables: dict[str, Any] = {}
     for column in about.columns:
         variables |= _variables(column)
-    attributes = {
-        field.name: getattr(about, field.name) for field in fields(about) if field.name != "columns"
-    }
+    attributes = {key: text for key, text in vars(about).items() if key != "columns" and text}
     for key, unit in (("mass", "kg"), ("diameter", "m")):
-        if attributes[key]:
+        if key in attributes:
             attributes[key] = quantity(attributes[key], unit)
-    return xr.Dataset(
-        variables, attrs={key: value for key, value in attributes.items() if value != ""}
-    )
+    return xr.Dataset(variables, attrs=attributes)
 
 
 def si_unit(column: Column) -> str:

@@ -132,10 +132,9 @@ def _told(value: Any) -> Any:
         return {key: _told(part) for key, part in value.items()}
     if isinstance(value, list):
         return [_told(item) for item in value]
-    parts = split_links(value) if isinstance(value, str) else []
-    return (
-        [_link(part) for part in parts] if any(isinstance(part, Link) for part in parts) else value
-    )
+    if isinstance(value, str) and _LINK.search(value):
+        return [_link(part) for part in split_links(value)]
+    return value
 
 
 def _link(part: str | Link) -> str | dict[str, str]:
