@@ -97,7 +97,7 @@ def _extent(fit: Any, k: int) -> tuple[float, float]:
 def _scale(fit: Any, k: int, values: Array) -> Scale:
     parameter = fit.objective.parameters[k]
     log = parameter.logarithmic and values[-1] > 3.0 * values[0]
-    return Scale(values, log, [], parameter.unit)
+    return Scale(values, log, parameter.unit)
 
 
 def _draw_curve(axes: "Axes", values: Array, above: Array, *, turned: bool = False) -> None:

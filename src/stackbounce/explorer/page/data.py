@@ -8,6 +8,7 @@ which asks pint.
 import dataclasses
 import functools
 import itertools
+import math
 import re
 import sys
 import tomllib
@@ -16,6 +17,7 @@ from importlib.resources import files
 from typing import Any
 
 from stackbounce.cross2007.cases import list_cases, list_lines
+from stackbounce.cross2007.drops import bisect
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.explorer.answers import play
 from stackbounce.explorer.examples import list_examples
@@ -132,15 +134,9 @@ def _last(holds: Callable[[float], bool], inside: float, outside: float) -> floa
     """Return the last number from `inside` towards `outside` for which something holds."""
     if holds(outside):
         return outside
-    near, far = inside, outside
-    middle = 0.5 * (near + far)
-    while middle not in (near, far):
-        if holds(middle):
-            near = middle
-        else:
-            far = middle
-        middle = 0.5 * (near + far)
-    return near
+    low, high = sorted([inside, outside])
+    end = bisect(lambda value: 1.0 if holds(value) else -1.0, low, high)
+    return 0.0 + (end if holds(end) else math.nextafter(end, inside))  # not -0.0
 
 
 @functools.cache
