@@ -30,7 +30,6 @@ _BESIDE = 0.25  # of the contact's duration: drawn before and after it
 _HELD = 5.0  # larger pulls are arrows at the edge
 _OWN_STYLE = {"axes.grid": False, "figure.constrained_layout.use": False, "lines.linewidth": 1.2}
 _SIDE = 2.5  # inches of a panel
-_MOST = 20_000  # draws; more are thinned evenly
 _SHOWN = 0.998  # central share of the draws within the axes
 _WITHIN = (0.393, 0.865)  # of the draws of two: one and two standard deviations of a Gaussian
 
@@ -277,7 +276,7 @@ def corner(posterior: Any) -> "Figure":
     for name in posterior.names:
         own = posterior.draws(name)
         unit, factor = handy(float(np.median(np.abs(own))), posterior.units[name])
-        draws.append(factor * own[:: max(1, len(own) // _MOST)])
+        draws.append(factor * own)
         labels.append(f"{name} ({unit})".replace("**", "^") if unit else name)
     count = len(labels)
     side = _SIDE * max(count, 1.6)
