@@ -10,7 +10,7 @@ from typing import Any
 
 from sphinx.application import Sphinx
 
-from stackbounce.explorer.lessons.lesson import NAMES, Item, Lesson, read_lesson, split_links
+from stackbounce.explorer.lessons.lesson import NAMES, read_lesson, split_links
 
 _LINE = "______________________"
 _WIDTH, _HEIGHT, _STEP = 160, 90, 10
@@ -46,52 +46,57 @@ def _written(block: re.Match[str]) -> str:
 
 def _list_markdown() -> str:
     rows = [["lesson", "for whom", "time", "what it is about"]]
-    for one in map(read_lesson, NAMES):
-        title = f"[{one.title}]({one.name}.md)"
-        rows.append([title, one.for_whom, f"{one.minutes} minutes", one.about])
+    for lesson in map(read_lesson, NAMES):
+        title = f"[{lesson['title']}]({lesson['name']}.md)"
+        rows.append([title, lesson["for_whom"], f"{lesson['minutes']} minutes", lesson["about"]])
     return _table(rows)
 
 
-def lesson_markdown(lesson: Lesson) -> str:
+def lesson_markdown(lesson: dict[str, Any]) -> str:
     """Return a lesson as the documentation has it."""
     return "\n\n".join(_blocks(lesson)) + "\n"
 
 
-def _blocks(lesson: Lesson) -> Iterator[str]:
+def _blocks(lesson: dict[str, Any]) -> Iterator[str]:
     yield _table(
         [
             ["", ""],
-            ["for whom", lesson.for_whom],
-            ["time", f"{lesson.minutes} minutes"],
-            ["needs", lesson.needs],
-            ["misconception", lesson.misconception],
+            ["for whom", lesson["for_whom"]],
+            ["time", f"{lesson['minutes']} minutes"],
+            ["needs", lesson["needs"]],
+            ["misconception", lesson["misconception"]],
         ]
     )
     yield "## Steps"
-    yield _listed([f"**{one.title} ({one.minutes} minutes).** {one.text}" for one in lesson.steps])
-    if lesson.example:
-        yield f"## An example\n\n{_linked(lesson.example)}"
-    yield f"## Questions\n\n{_listed(lesson.questions)}"
-    yield f"## Answers for the teacher\n\n{_listed(lesson.answers)}"
-    if lesson.table:
-        yield _table(lesson.table)
-    yield from map(_linked, lesson.remarks)
+    yield _listed(
+        [
+            f"**{step['title']} ({step['minutes']} minutes).** {step['text']}"
+            for step in lesson["steps"]
+        ]
+    )
+    if "example" in lesson:
+        yield f"## An example\n\n{_linked(lesson['example'])}"
+    yield f"## Questions\n\n{_listed(lesson['questions'])}"
+    yield f"## Answers for the teacher\n\n{_listed(lesson['answers'])}"
+    if "table" in lesson:
+        yield _table(lesson["table"])
+    yield from map(_linked, lesson["remarks"])
     yield "## Worksheet"
     yield "````{container} worksheet"
-    yield f"**{lesson.title}** Name: {_LINE} Date: ______________"
-    for i, item in enumerate(lesson.worksheet, 1):
+    yield f"**{lesson['title']}** Name: {_LINE} Date: ______________"
+    for i, item in enumerate(lesson["worksheet"], 1):
         yield from _item(i, item)
     yield "````"
 
 
-def _item(number: int, item: Item) -> Iterator[str]:
-    yield f"{number}. {item.text}"
-    if item.table:
-        yield _table(item.table)
-    if item.grid:
+def _item(number: int, item: dict[str, Any]) -> Iterator[str]:
+    yield f"{number}. {item['text']}"
+    if "table" in item:
+        yield _table(item["table"])
+    if "grid" in item:
         yield _GRID
-    if item.after:
-        yield item.after
+    if "after" in item:
+        yield item["after"]
 
 
 def _listed(texts: list[str]) -> str:

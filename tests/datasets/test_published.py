@@ -11,7 +11,6 @@ import pytest
 import stackbounce as sb
 from stackbounce import datasets
 from stackbounce.cli import main
-from stackbounce.cross2007 import PAPER
 from stackbounce.datasets.loading import si_unit
 from stackbounce.units import in_si
 
@@ -22,7 +21,7 @@ G = 9.81
 def test_each_file_is_a_dataset_and_they_have_many_sources():
     folder = files("stackbounce.datasets").joinpath("tables")
     found = {one.name.removesuffix(".toml") for one in folder.iterdir()}
-    assert found == {name for name in NAMES if not name.startswith("cross2007-")}
+    assert found == set(NAMES)
     assert len({datasets.describe(name).source for name in NAMES}) >= 15
 
 
@@ -104,17 +103,6 @@ def test_units_of_the_sources_are_converted():
     assert datasets.load("table-tennis-temperature").temperature.values[0] == 305.15
     assert datasets.load("superball-contact-time").contact_time_error.values[0] == 1e-3
     assert datasets.load("baseball-rule").impact_speed.values[0] == pytest.approx(25.908)
-
-
-def test_what_the_paper_measured_is_its_own_data():
-    table = datasets.load("cross2007-table-2")
-    for row in range(table.sizes["row"]):
-        one = PAPER[str(table.quantity.values[row])]
-        assert (one.value, one.spread) == (table.value.values[row], table.value_error.values[row])
-    kept = [name for name in NAMES if name.startswith("cross2007-")]
-    rows = [row for name in kept for row in datasets.load(name).quantity.values]
-    assert len(set(rows)) == len(rows)
-    assert set(rows) < set(PAPER)
 
 
 def test_an_unknown_name_suggests_the_nearest():

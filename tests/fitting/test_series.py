@@ -115,7 +115,7 @@ def test_a_drag_that_is_not_known_well_moves_all_values_together():
         ("baseball-rule", "it has the limits of rules, no measurement"),
         ("granite-spheres", "it has one value only"),
         ("superball-contact-time", "it has one value only"),  # one mean over five heights
-        ("cross2007-table-1", "it has no restitutions of one ball at known speeds"),
+        ("ice-spheres", "it has no restitutions of one ball at known speeds"),
         ("golf-marble-flights", ""),
     ],
 )

@@ -77,19 +77,6 @@ def test_a_curve_over_one_parameter(one):
     assert np.interp([low, high], values, above) == pytest.approx([1.0, 1.0], abs=0.02)
 
 
-def test_kinks_are_where_the_balls_touch_once_more():
-    """Above some stiffness between them the balls meet twice."""
-    drop = sb.Drop([sb.Ball(0.1), sb.Ball(0.3)], [sb.Spring(1.0), sb.Spring(1.0)], impact_speed=1.0)
-    found = sb.fit(drop, {"rebound_ratios.1": "0.95 ± 0.2"}, {"contacts.1.stiffness": (0.2, 20.0)})
-    axes = plots.fitted(found).axes[-1]
-    kinks = [line.get_xdata()[0] for line in axes.lines if line.get_linestyle() == ":"]
-    assert kinks
-    for kink in kinks:
-        near = {"contacts.1.stiffness": np.array([0.97, 1.03]) * kink}
-        counts = sb.sweep(drop, near).collisions.values
-        assert (counts[0] != counts[1]).any()
-
-
 @pytest.mark.slow
 def test_a_map_over_two_parameters_with_their_profiles(two):
     figure = plots.fitted(two)

@@ -17,14 +17,6 @@ def texts(labels):
     return [label.get_text() for label in labels]
 
 
-@pytest.mark.parametrize("law", [sb.Rigid(0.9), sb.Spring(2500.0)])
-@pytest.mark.filterwarnings("ignore:overflow encountered")
-def test_a_bounce_too_large_to_be_drawn(law):
-    drop = sb.Drop([sb.Ball(0.1)] * 2, [law] * 2, impact_speed=1e308)
-    with pytest.raises(sb.errors.InvalidValue, match=r"at most 1e\+290 m to be drawn, got .* m"):
-        plots.bounce(sb.simulate(drop))
-
-
 def test_lines_follow_each_ball():
     ds = sb.sweep(DROP, {"balls.0.mass": MASS})
     axes = plots.lines(ds).axes[0]
@@ -71,8 +63,7 @@ def test_nothing_to_draw(show):
     axes = plots.heatmap(ds, show).axes[0]
     assert axes.collections[0].get_array().mask.all()
     assert axes.patch.get_hatch()
-    below = plots.lines(ds.isel({"contacts.1.restitution": 0}), show).axes[0]
-    assert below.get_xlim() == (MASS[0], MASS[-1])
+    plots.lines(ds.isel({"contacts.1.restitution": 0}), show).draw_without_rendering()
 
 
 def test_one_ball_by_its_index():

@@ -39,7 +39,7 @@ def test_fewer_draws_are_run_where_they_cost_much(limited):
     assert told[0] == (4, 1000)
     assert told[-1] == (few, 1000)
     assert found.apexes == []
-    assert len(found._runs.results) == few // 3
+    assert len(found._results) == few // 3
 
 
 def test_too_few_draws_are_refused(limited):

@@ -149,9 +149,7 @@ class Bench:
         return _simulated(drop)
 
 
-@lru_cache(maxsize=8192)
-def _simulated(drop: Drop) -> Result:
-    return simulate(drop)
+_simulated = lru_cache(maxsize=8192)(simulate)
 
 
 def write_call(drop: Drop) -> str:

@@ -12,7 +12,7 @@ import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
-from typing import Any, TypeAlias
+from typing import Any
 
 from stackbounce.cross2007.bench import Bench, Claim, Data, Reading, propagate_error, write_call
 
@@ -23,10 +23,8 @@ DIFFERS = "differs"
 SCALES = {"": 1.0, "%": 1e-2, "ms": 1e-3, "mm": 1e-3, "m": 1.0, "m/s": 1.0, "J": 1.0, "N/m": 1.0}
 """The size of an audit unit in SI units."""
 
-Number: TypeAlias = float | Any
-"""A number, of Python or of a numpy array."""
-
-Compute = Callable[[Bench], Number]
+Compute = Callable[[Bench], Any]
+"""Computes a number, of Python or of a numpy array."""
 
 
 @dataclass(frozen=True)

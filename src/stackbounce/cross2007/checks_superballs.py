@@ -224,15 +224,15 @@ READINGS: dict[str, tuple[Compute, ...]] = {
     "IV.record_reversed_duration": (
         lambda b: b.simulate(_one_mm_apart(b)).last_release[1],
         lambda b: b.simulate(_delayed(b, reversed_pair(b, 0.0))).last_release[0],
-        lambda b: b.simulate(stiffen(b, _one_mm_apart(b))).last_release[0],
-        lambda b: max(b.simulate(stiffen(b, _one_mm_apart(b))).last_release),
-        lambda b: b.simulate(_delayed(b, stiffen(b, reversed_pair(b, 0.0)))).last_release[0],
+        lambda b: b.simulate(stiffen(_one_mm_apart(b))).last_release[0],
+        lambda b: max(b.simulate(stiffen(_one_mm_apart(b))).last_release),
+        lambda b: b.simulate(_delayed(b, stiffen(reversed_pair(b, 0.0)))).last_release[0],
     ),
     "IV.record_B3_delay": (
         lambda b: b.simulate(_nearer(smallest_fit(b, b("B1.mass")))).first_touch[1],
     ),
     "IV.record_twin_late_duration": (
-        lambda b: b.simulate(stiffen(b, parted_twins(b))).last_release[0],
+        lambda b: b.simulate(stiffen(parted_twins(b))).last_release[0],
         lambda b: b.simulate(
             twin_pair(b, gap_for_delay(b, twin_pair(b, 0.0), 3.8e-3))
         ).last_release[0],

@@ -23,6 +23,13 @@ _SMALLER = (0.90, 0.02)  # Table I's restitution of B2 and of B3, which no row o
 _LEAST = 1e-4  # s: the error of an impact duration
 _STIFF = (1e3, 1e6)  # N/m
 _WIDEST = 0.03  # m
+_TIMES = {  # what the text states of a pair
+    "B2_on_B1": {"first_touch.1": "superballs.delay", "durations.0": "B2_on_B1.duration"},
+    "B1_on_B2": {"first_touch.1": "superballs.delay", "durations.0": "B1_on_B2.duration"},
+    "B3_on_B1": {"first_touch.1": "superballs.delay"},
+    "B1_on_B3": {"first_touch.1": "superballs.late_delay"},
+    "B1_on_B1": {"durations.0": "superballs.twin_duration"},
+}
 
 
 class DataSet(NamedTuple):
@@ -80,23 +87,11 @@ def load_dataset(name: str) -> DataSet:
     return _MADE[short]()
 
 
-dataset = load_dataset  # the name in earlier releases
-
-
-def load_pair(lower: str, upper: str) -> tuple[Drop, dict[str, Any]]:
+def _pair(lower: str, upper: str) -> DataSet:
     """Return a pair of superballs with section V's contacts, and its row of Table II.
 
-    Parameters
-    ----------
-    lower, upper : str
-        ``"B1"``, ``"B2"`` or ``"B3"``. B1 has 105 g, from Table II's mass ratios of 4.23 and 12.3.
-        In the pair of two balls B1 the upper one has Table I's 101 g.
-
-    Examples
-    --------
-    >>> drop, data = load_pair("B1", "B1")
-    >>> [round(ball.mass, 5) for ball in drop.balls]
-    [0.10504, 0.101]
+    B1 has 105 g, from Table II's mass ratios of 4.23 and 12.3. In the pair of two balls B1 the
+    upper one has Table I's 101 g.
     """
     key = f"{upper}_on_{lower}"
     twins = lower == upper
@@ -110,26 +105,10 @@ def load_pair(lower: str, upper: str) -> tuple[Drop, dict[str, Any]]:
     drop = Drop(balls, contacts, height=_value("superballs.drop_height"))
     data: dict[str, Any] = {
         "rebound_ratios": [_known(f"{key}.lower"), _known(f"{key}.upper")],
+        **{name: _known(time) for name, time in _TIMES[key].items()},
     }
-    return drop, data | _times(key)
-
-
-def _times(key: str) -> dict[str, Any]:
-    """Return the delay, the duration and the counts that the text states for a pair."""
-    delay, late = _known("superballs.delay"), _known("superballs.late_delay")
-    short, long = _known("B2_on_B1.duration"), _known("B1_on_B2.duration")
-    found: dict[str, dict[str, Any]] = {
-        "B2_on_B1": {"first_touch.1": delay, "durations.0": short},
-        "B1_on_B2": {"first_touch.1": delay, "durations.0": long, "collisions.1": 3},
-        "B3_on_B1": {"first_touch.1": delay},
-        "B1_on_B3": {"first_touch.1": late},
-        "B1_on_B1": {"durations.0": _known("superballs.twin_duration")},
-    }
-    return found[key]
-
-
-def _pair(lower: str, upper: str) -> DataSet:
-    drop, data = load_pair(lower, upper)
+    if key == "B1_on_B2":
+        data["collisions.1"] = 3
     vary = {
         "contacts.0.stiffness": _STIFF,
         "contacts.1.stiffness": _STIFF,
@@ -140,10 +119,8 @@ def _pair(lower: str, upper: str) -> DataSet:
 
 def _basketball() -> DataSet:
     balls = [Ball(_value(f"{name}.mass"), _value(f"{name}.diameter")) for name in _STACK]
-    stiffnesses = _value("fig9.floor_stiffness"), _value("fig9.ball_stiffness")
-    drop = Drop(
-        balls, [Spring(stiffness) for stiffness in stiffnesses], height=_value("stack.drop_height")
-    )
+    springs = [Spring(_value(f"fig9.{contact}_stiffness")) for contact in ("floor", "ball")]
+    drop = Drop(balls, springs, height=_value("stack.drop_height"))
     data = {
         "rebound_heights": [_known("stack.lower_height"), _known("stack.upper_height")],
         "durations.0": _known("stack.duration"),

@@ -110,32 +110,3 @@ def bisect(function: Callable[[float], float], low: float, high: float) -> float
             high = middle
         else:
             low = middle
-
-
-_STEP, _CLOSE, _ROUNDS = 1e-6, 1e-12, 30
-
-
-def newton(function: Callable[[Array], Sequence[float]], start: Array) -> Array:
-    """Return where as many functions as numbers are zero, by Newton's method.
-
-    Numbers and functions are of the order of 1; the functions are zero to 1e-12.
-
-    Raises
-    ------
-    ArithmeticError
-        If it does not converge.
-
-    Examples
-    --------
-    >>> newton(lambda x: [x[0] * x[1] - 2.0, x[0] - x[1] - 1.0], np.array([1.0, 1.0])).round(12)
-    array([2., 1.])
-    """
-    x = start
-    steps = _STEP * np.eye(len(x))
-    for _ in range(_ROUNDS):
-        misses = np.asarray(function(x))
-        if np.abs(misses).max() < _CLOSE:
-            return x
-        slopes = [(np.asarray(function(x + step)) - misses) / _STEP for step in steps]
-        x = x - np.linalg.solve(np.transpose(slopes), misses)
-    raise ArithmeticError(f"no zero near {start} after {_ROUNDS} steps, which end at {x}")

@@ -5,24 +5,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from stackbounce.cross2007 import stacks
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.drops import Array, force_above, peak_times
 from stackbounce.cross2007.figures_models import sample_forces
-from stackbounce.cross2007.stacks import (
-    better_fit,
-    early_pair,
-    early_twins,
-    heavier_b1,
-    hollow_pair,
-    hollow_record,
-    late_pair,
-    late_twins,
-    parted_twins,
-    reversed_pair,
-    small_fit,
-    smallest_fit,
-    spring_record,
-)
 from stackbounce.cross2007.style import (
     BLACK,
     FLOOR,
@@ -123,7 +109,7 @@ def draw_figure_7(bench: Bench) -> Picture:
 def draw_figure_8(bench: Bench) -> Picture:
     """Draw the forces of tennis ball and basketball dropped from 30 cm."""
     figure, panels = make_axes(4.2, 2)
-    result, late = _draw_record(bench, panels, spring_record)
+    result, late = _draw_record(bench, panels, stacks.spring_record)
     note(panels[0], "solid: touching\ndashed: 2 mm apart")
     return describe(
         "8",
@@ -137,13 +123,13 @@ def draw_figure_8(bench: Bench) -> Picture:
 def draw_figure_8_hollow(bench: Bench) -> Picture:
     """Draw the forces of Fig. 8 with a hollow ball at the floor, and those on springs in grey."""
     figure, panels = make_axes(4.2, 2)
-    result, late = _draw_record(bench, panels, hollow_record)
-    on_springs, springs = sample_forces(bench, spring_record(bench), _TIMES)
+    result, late = _draw_record(bench, panels, stacks.hollow_record)
+    on_springs, springs = sample_forces(bench, stacks.spring_record(bench), _TIMES)
     for ax, curve in zip(panels, on_springs, strict=True):
         ax.plot(1e3 * _TIMES, curve, color=GREY, lw=0.8)
         ax.set(ylim=(0.0, 1.6 * curve.max()))
     note(panels[0], "solid: touching\ndashed: 2 mm apart\ngrey: springs")
-    film = hollow_pair(bench)
+    film = stacks.hollow_pair(bench)
     lower, upper = bench.simulate(film).rebound_ratios
     floor, spring = film.contacts
     assert isinstance(floor, HollowBall)
@@ -182,7 +168,7 @@ def _draw_record(
 def draw_figure_9(bench: Bench) -> Picture:
     """Draw the two-spring solution that the paper sets beside Fig. 8."""
     figure, (ax,) = make_axes()
-    result = draw_one_panel(bench, ax, better_fit(bench), _TIMES, (7.5, 28.5))
+    result = draw_one_panel(bench, ax, stacks.better_fit(bench), _TIMES, (7.5, 28.5))
     lower, upper = result.rebound_speeds
     return describe(
         "9",
@@ -196,7 +182,7 @@ def draw_figure_9(bench: Bench) -> Picture:
 
 def draw_figure_10a(bench: Bench) -> Picture:
     """Draw the forces of B2 on B1."""
-    drop = small_fit(bench, heavier_b1(bench))
+    drop = stacks.small_fit(bench, stacks.heavier_b1(bench))
     figure, panels, result = _draw_pair(bench, drop, 0.008)
     _mark_duration(bench, panels[0], "B2_on_B1.duration")
     end = 1e3 * max(result.last_release)
@@ -205,7 +191,7 @@ def draw_figure_10a(bench: Bench) -> Picture:
 
 def draw_figure_10b(bench: Bench) -> Picture:
     """Draw the forces of B1 on B2."""
-    drop = reversed_pair(bench, bench("superballs.gap"))
+    drop = stacks.reversed_pair(bench, bench("superballs.gap"))
     figure, panels, result = _draw_pair(bench, drop, 0.014)
     _mark_duration(bench, panels[0], "B1_on_B2.duration")
     return describe(
@@ -221,19 +207,19 @@ def draw_figure_10b(bench: Bench) -> Picture:
 
 def draw_figure_11a(bench: Bench) -> Picture:
     """Draw the forces of B3 on B1."""
-    drop = smallest_fit(bench, heavier_b1(bench))
+    drop = stacks.smallest_fit(bench, stacks.heavier_b1(bench))
     figure, _, result = _draw_pair(bench, drop, 0.008)
     return describe("11a", figure, touch=1e3 * result.first_touch[1])
 
 
 def draw_figure_11b(bench: Bench) -> Picture:
     """Draw the forces of B1 on B3."""
-    drop = late_pair(bench)
+    drop = stacks.late_pair(bench)
     figure, panels, result = _draw_pair(bench, drop, 0.034, "superballs.late_delay", 2 * _POINTS)
     number_contacts(panels, result)
     rows = result.intervals
     met = np.flatnonzero(rows["contact"] == 1)
-    early = bench.simulate(early_pair(bench))
+    early = bench.simulate(stacks.early_pair(bench))
     merged = early.intervals[early.intervals["contact"] == 1]
     return describe(
         "11b",
@@ -254,14 +240,14 @@ def draw_figure_12(bench: Bench) -> Picture:
     """Draw the forces of two large balls, and whether they are in contact."""
     figure, panels = make_axes(5.0, 3, ratios=(3, 3, 1.4))
     times = np.linspace(0.0, 0.014, _POINTS)
-    late = draw_two_panels(bench, panels[:2], late_twins(bench), times)
-    early = draw_two_panels(bench, panels[:2], early_twins(bench), times, dashed=True)
+    late = draw_two_panels(bench, panels[:2], stacks.late_twins(bench), times)
+    early = draw_two_panels(bench, panels[:2], stacks.early_twins(bench), times, dashed=True)
     panels[1].set(xlabel="")
     duration = 1e3 * bench("superballs.twin_duration")
     bracket(panels[0], duration, f"measured: impact lasts {duration:.0f} ms")
     note(panels[1], "dashed: touching\nafter 1 ms")
     _contact(panels[2], late, times)
-    parted = bench.simulate(parted_twins(bench))
+    parted = bench.simulate(stacks.parted_twins(bench))
     peaks = len(peak_times(late, 0, late.end_time))
     return describe(
         "12",
@@ -283,7 +269,7 @@ def draw_figure_12(bench: Bench) -> Picture:
 def draw_figure_13(bench: Bench) -> Picture:
     """Draw section V's calculation for B2 on B1."""
     figure, (ax,) = make_axes()
-    drop = small_fit(bench, heavier_b1(bench))
+    drop = stacks.small_fit(bench, stacks.heavier_b1(bench))
     result = draw_one_panel(bench, ax, drop, np.linspace(0.0, 0.007, _POINTS), (1.45, 4.7))
     lower, upper = result.rebound_ratios
     return describe("13", figure, lower=lower, upper=upper, touch=1e3 * result.first_touch[1])

@@ -187,7 +187,7 @@ def _json(done: Audit, drawn: list[Picture], tables: list[Table]) -> str:
             "name": picture.name,
             "caption": picture.caption,
             "guesses": picture.guesses,
-            "features": [vars(feature) for feature in picture.features],
+            "features": picture.features,
         }
         for picture in drawn
     ]

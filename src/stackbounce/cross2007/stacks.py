@@ -7,13 +7,14 @@ from functools import lru_cache
 import numpy as np
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.drops import Array, Two, bisect, fallen_speed, newton, pair, spring_pair
-from stackbounce.model.ball import Ball
+from stackbounce.cross2007.drops import Array, Two, bisect, fallen_speed, pair, spring_pair
 from stackbounce.model.drop import Drop
-from stackbounce.model.laws import HollowBall, Hysteretic, Spring
+from stackbounce.model.laws import Hertz, HollowBall, Hysteretic, Spring
 from stackbounce.run.calibration import calibrate
+from stackbounce.run.collision import contact_time
 
 _HOLLOW = 0.026, 700.0  # s and N/m, where the search for the hollow ball's numbers begins
+_CLOSE = 1e-12  # relative error of these numbers
 
 
 def stack_masses(b: Bench) -> Two:
@@ -69,6 +70,8 @@ def hollow_pair(b: Bench) -> Drop:
     Its contact time and the spring are those with which it leaves with Table II's v1/v0, while its
     floor force in the drop of Fig. 8 lasts as long as measured.
     """
+    from scipy.optimize import fsolve
+
     alone = _calibrate_hollow(math.sqrt(b("basketball.rebound_height") / b("stack.drop_height")))
     speed, recorded = b("stack.impact_speed"), fallen_speed(b("fig8.drop_height"))
     ratio, duration = b("tennis_on_basketball.lower"), b("stack.duration")
@@ -88,7 +91,7 @@ def hollow_pair(b: Bench) -> Drop:
         lower = float(b.simulate(drop).rebound_ratios[0])
         return [lower - ratio, float(record.last_release[0]) / duration - 1.0]
 
-    return solved(newton(misses, np.ones(2)))
+    return solved(fsolve(misses, np.ones(2), xtol=_CLOSE))
 
 
 @lru_cache(maxsize=64)
@@ -197,7 +200,7 @@ def parted_twins(bench: Bench) -> Drop:
     return twin_pair(bench, speed * bounce)
 
 
-def stiffen(bench: Bench, drop: Drop) -> Drop:
+def stiffen(drop: Drop) -> Drop:
     """Return a drop of two balls with each spring replaced by Hertz's law, F = k c**1.5.
 
     Each new contact has the contact time of the old one, for the lower ball alone on the floor and
@@ -205,16 +208,9 @@ def stiffen(bench: Bench, drop: Drop) -> Drop:
     """
     speed = drop.reference_speed
     lower, upper = (ball.mass for ball in drop.balls)
-    reduced = lower * upper / (lower + upper)
     laws = []
-    for mass, spring in zip((lower, reduced), drop.contacts, strict=True):
+    for mass, spring in zip((lower, lower * upper / (lower + upper)), drop.contacts, strict=True):
         assert spring is not None
-        wanted = bench.simulate(Drop([Ball(mass)], [spring], impact_speed=speed)).end_time
-        at_one = bench.simulate(Drop([Ball(mass)], [_hertz(1.0)], impact_speed=speed)).end_time
-        # Hertz's contact time is proportional to the stiffness to the power -2/5
-        laws.append(_hertz((at_one / wanted) ** 2.5))
+        time = contact_time(spring, mass)
+        laws.append(calibrate(Hertz, mass=mass, contact_time=time, impact_speed=speed))
     return replace(drop, contacts=laws)
-
-
-def _hertz(stiffness: float) -> Hysteretic:
-    return Hysteretic(stiffness, exponent=1.5, unloading_exponent=1.5)

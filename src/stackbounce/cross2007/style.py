@@ -26,16 +26,8 @@ UPPER = "#D55E00"
 GREY = "#6b6b6b"
 
 WIDTH = 4.2  # inches
+_FEATURE = ("what", "paper", "here")
 _BRACKET = 0.75  # height of a bracket in its axes
-
-
-@dataclass(frozen=True)
-class Feature:
-    """A feature of a figure: as the paper's text reports it and as the model gives it."""
-
-    what: str
-    paper: str
-    here: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,30 +35,30 @@ class Picture:
     """A recomputed figure.
 
     ``name`` is the paper's number (``"2a"``), ``guesses`` are assumptions where the paper gives no
-    value, and ``features`` compares the figure with the text.
+    value, and ``features`` compares the figure with the text: each has `what` it is, as the `paper`
+    reports it, and as the model gives it `here`.
     """
 
     name: str
     title: str
     caption: str
     guesses: tuple[str, ...]
-    features: tuple[Feature, ...]
+    features: tuple[dict[str, str], ...]
     figure: "Figure"
 
 
 def describe(name: str, figure: "Figure", **numbers: object) -> Picture:
     """Return a figure with its words from ``figures.toml``, in which the numbers are filled in."""
     words = read_words()[name]
-    features = (
-        Feature(*(text.format(**numbers) for text in feature))
-        for feature in words.get("features", ())
-    )
     return Picture(
         name,
         words["title"].format(**numbers),
         words["caption"].format(**numbers),
         tuple(guess.format(**numbers) for guess in words["guesses"]),
-        tuple(features),
+        tuple(
+            {key: text.format(**numbers) for key, text in zip(_FEATURE, texts, strict=True)}
+            for texts in words.get("features", ())
+        ),
         figure,
     )
 

@@ -2,8 +2,7 @@
 
 import functools
 import tomllib
-from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -18,18 +17,6 @@ TEXT = "text"
 
 Value: TypeAlias = float | str | tuple[float, ...]
 """A cell: a number, a word, or repeated readings of a number."""
-_PLACES = {  # those that have measurements; the other sections have what is computed or chosen
-    "Sec. III": ("cross2007-section-3", "A tennis ball on a basketball, and each of them alone"),
-    "Fig. 7, text": ("cross2007-figure-7", "Balls that are pressed slowly"),
-    "Table I": ("cross2007-table-1", "Three superballs, each of them alone"),
-    "Sec. IV": ("cross2007-section-4", "Pairs of superballs, and of steel balls"),
-    "Table II": ("cross2007-table-2", "Pairs of balls: their rebound ratios"),
-}
-_SOURCE = "R. Cross, Vertical bounce of two vertically aligned balls, Am. J. Phys. 75, 1009 (2007)"
-_ERRORS = (
-    "An error is the one that the paper states, or half a unit in the last printed digit if that is"
-    " larger or none is stated; 0 marks a number that the paper chooses or fits."
-)
 _OFFSETS = {"degC": (273.15, "K")}  # units whose zero is shifted
 
 
@@ -67,11 +54,6 @@ class Column:
     errors: tuple[float, ...] = ()
     assumed_error: float = 0.0
     assumed_because: str = ""
-
-    @property
-    def repeated(self) -> bool:
-        """Return whether each value is a tuple of repeated readings."""
-        return isinstance(self.values[0], tuple)
 
 
 @dataclass(frozen=True)
@@ -131,25 +113,6 @@ class Description:
     licence: str = "figures quoted"
 
 
-def read_description(name: str, mapping: Mapping[str, Any]) -> Description:
-    """Return the dataset that the contents of a file of the package describe.
-
-    Parameters
-    ----------
-    name : str
-        Its name.
-    mapping : mapping
-        The keys are the fields of `Description` but the name, those in ``columns`` the fields of
-        `Column`. A number as ``errors`` holds for all values.
-
-    Returns
-    -------
-    Description
-    """
-    columns = tuple(_column(**column) for column in mapping["columns"])
-    return Description(name=name, **{**mapping, "columns": columns})
-
-
 def _column(values: list[Any], errors: Any = (), **about: Any) -> Column:
     each = [errors] * len(values) if isinstance(errors, int | float) else errors
     found = tuple(_value(value) for value in values)
@@ -160,49 +123,6 @@ def _value(value: Any) -> Value:
     if isinstance(value, list):
         return tuple(float(item) for item in value)
     return value if isinstance(value, str) else float(value)
-
-
-def paper_datasets() -> dict[str, Description]:
-    """Return the datasets of the paper by their names: a row for each number, in SI units.
-
-    Examples
-    --------
-    >>> list(paper_datasets())[2]
-    'cross2007-table-1'
-    """
-    return {name: _description(name, title, place) for place, (name, title) in _PLACES.items()}
-
-
-def _description(name: str, title: str, place: str) -> Description:
-    from stackbounce.cross2007.bench import PAPER
-
-    inputs = [number for number in PAPER.values() if number.where == place]
-    values = tuple(number.value for number in inputs)
-    errors = tuple(number.spread for number in inputs)
-    return Description(
-        name=name,
-        title=title,
-        measured="Each row is one number that the paper gives",
-        ball="those of the paper",
-        source=f"{_SOURCE}, {place}",
-        doi="10.1119/1.2772286",
-        address="https://doi.org/10.1119/1.2772286",
-        seen="full text",
-        remarks=_ERRORS,
-        columns=(
-            _words(
-                "quantity", "the number's name in this package", [number.key for number in inputs]
-            ),
-            _words("what", "what it is", [number.what for number in inputs]),
-            _words("printed", "as printed", [number.printed for number in inputs]),
-            _words("unit", "the SI unit of the value", [number.unit or "1" for number in inputs]),
-            Column("value", "1", "in the unit of its row", values, errors),
-        ),
-    )
-
-
-def _words(name: str, meaning: str, values: list[str]) -> Column:
-    return Column(name, TEXT, meaning, tuple(values))
 
 
 def names() -> tuple[str, ...]:
@@ -277,15 +197,11 @@ def load(name: str) -> "xr.Dataset":
     variables: dict[str, Any] = {}
     for column in about.columns:
         variables |= _variables(column)
-    attributes = {
-        field.name: getattr(about, field.name) for field in fields(about) if field.name != "columns"
-    }
+    attributes = {key: text for key, text in vars(about).items() if key != "columns" and text}
     for key, unit in (("mass", "kg"), ("diameter", "m")):
-        if attributes[key]:
+        if key in attributes:
             attributes[key] = quantity(attributes[key], unit)
-    return xr.Dataset(
-        variables, attrs={key: value for key, value in attributes.items() if value != ""}
-    )
+    return xr.Dataset(variables, attrs=attributes)
 
 
 def si_unit(column: Column) -> str:
@@ -312,7 +228,8 @@ def _variables(column: Column) -> dict[str, Any]:
     import numpy as np
 
     unit = si_unit(column)
-    dims = ("row", f"{column.name}_reading") if column.repeated else ("row",)
+    repeated = isinstance(column.values[0], tuple)
+    dims = ("row", f"{column.name}_reading") if repeated else ("row",)
     attributes: dict[str, Any] = {"long_name": column.meaning} | ({"units": unit} if unit else {})
     if column.assumed_error:
         error = _in_si(column.assumed_error, column.unit, unit)
@@ -340,7 +257,14 @@ def _in_si(value: Any, unit: str, si: str) -> Any:
 
 @functools.cache
 def _all() -> dict[str, Description]:
-    """Return the datasets of the folder and those of the paper by their names."""
-    folder = Path(__file__).with_name("tables")
-    found = {path.stem: tomllib.loads(path.read_text("utf-8")) for path in folder.glob("*.toml")}
-    return {name: read_description(name, about) for name, about in found.items()} | paper_datasets()
+    """Return the datasets of the folder by their names.
+
+    The keys of a file are the fields of `Description` but the name, those in ``columns`` the fields
+    of `Column`. A number as ``errors`` holds for all values.
+    """
+    found = {}
+    for path in Path(__file__).with_name("tables").glob("*.toml"):
+        about = tomllib.loads(path.read_text("utf-8"))
+        about["columns"] = tuple(_column(**column) for column in about["columns"])
+        found[path.stem] = Description(path.stem, **about)
+    return found

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     import segno
 
 _ALL = ("0.0.0.0", "::")
-_OUTSIDE = ("192.0.2.1", "2001:db8::1")  # RFC 5737 and 3849; nothing is sent there
+_OUTSIDE = "192.0.2.1"  # RFC 5737; nothing is sent there
 
 
 class Place(NamedTuple):
@@ -53,7 +53,7 @@ def list_places(host: str, port: int) -> list[Place]:
     >>> list_places("203.0.113.7", 8050)[0].address
     'http://203.0.113.7:8050/'
     """
-    hosts = _own_hosts(with_six=host == "::") if host in _ALL else [host]
+    hosts = _own_hosts() if host in _ALL else [host]
     others = [host for host in hosts if not _is_loopback(host)]
     addresses = [url(other, port) for other in others]
     return [
@@ -88,30 +88,26 @@ def _is_loopback(host: str) -> bool:
         return host.casefold() == "localhost"
 
 
-def _own_hosts(*, with_six: bool) -> list[str]:
-    """Return this machine's addresses, that of the way to other networks first."""
+def _own_hosts() -> list[str]:
+    """Return this machine's addresses in IPv4, that of the way to other networks first."""
     import psutil
 
-    families = [socket.AF_INET, *([socket.AF_INET6] if with_six else [])]
-    first = [_way_out(family) for family in families]
     up = {name for name, stat in psutil.net_if_stats().items() if stat.isup}
     found = [
         address.address
-        for family in families
         for name, own in psutil.net_if_addrs().items()
         if name in up
         for address in own
-        if address.family == family
-        and not ipaddress.ip_address(address.address.partition("%")[0]).is_link_local
+        if address.family == socket.AF_INET
+        and not ipaddress.ip_address(address.address).is_link_local
     ]
-    known = [address for address in first if address in found]
-    return [*known, *(address for address in found if address not in known)]
+    first = _way_out()
+    return sorted(found, key=lambda host: host != first)
 
 
-def _way_out(family: socket.AddressFamily) -> str | None:
+def _way_out() -> str | None:
     """Return the address from which this machine would send to another network; none is sent."""
-    outside = _OUTSIDE[family == socket.AF_INET6]
-    with contextlib.suppress(OSError), socket.socket(family, socket.SOCK_DGRAM) as trying:
-        trying.connect((outside, 9))
+    with contextlib.suppress(OSError), socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as trying:
+        trying.connect((_OUTSIDE, 9))
         return str(trying.getsockname()[0])
     return None

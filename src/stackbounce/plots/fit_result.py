@@ -23,31 +23,24 @@ _WORTH = 9.0  # other minima are drawn if chi squared is less than this above th
 _FINE, _CELLS, _STEPS = 401, 81, 41  # values of a curve, of each side of a map, of a profile
 _TOP = 10.0  # upper end of a profile's axis
 _BANDS = (0.0, 1.0, 4.0, 9.0, 16.0, 25.0, 100.0)
-_CURVE, _BEST, _OTHER, _KINK = COLORS[0], COLORS[1], "white", "#202020"
+_CURVE, _BEST, _OTHER = COLORS[0], COLORS[1], "white"
 _MEASURED, _FITTED = "#4d4d4d", COLORS[1]
 _MOST_RECORDS = 4
 _WIDE = 7.2  # inches
 _BESIDE = 0.25  # of the contact's duration: drawn before and after it
 _OWN_STYLE = {"axes.grid": False, "figure.constrained_layout.use": False, "lines.linewidth": 1.2}
 _SIDE = 2.5  # inches of a panel
-_MOST = 20_000  # draws; more are thinned evenly
+_SHOWN = 0.998  # central share of the draws within the axes
 _WITHIN = (0.393, 0.865)  # of the draws of two: one and two standard deviations of a Gaussian
 
 
 def draw_profile(axes: "Axes", fit: Any) -> None:
-    """Draw chi squared against the only fitted parameter, its error, and the kinks.
-
-    A kink is a value at which the number of contact intervals changes.
-    """
+    """Draw chi squared against the only fitted parameter, and its error."""
     x = np.linspace(*_extent(fit, 0), _FINE)
     parameter = fit.objective.parameters[0]
     values = parameter.value(x)
     above = fit.objective.chi_squared(x[:, None]) - fit.chi_squared
     _draw_curve(axes, values, above)
-    for kink in _kinks(fit, x[:, None]):
-        where = kink[1:] != kink[:-1]
-        for value in 0.5 * (values[1:] + values[:-1])[where]:
-            axes.axvline(value, color=_KINK, linestyle=":", linewidth=1.0)
     best = fit[parameter.name]
     for at in (best.nominal_value - best.std_dev, best.nominal_value + best.std_dev):
         axes.axvline(at, color=_BEST, linewidth=0.8)
@@ -74,11 +67,6 @@ def draw_map(figure: "SubFigure", fit: Any) -> None:
         for parameter, own in zip(fit.objective.parameters, (across, up), strict=True)
     )
     _draw_bands(axes, x, y, np.maximum(above, 0.0))
-    near = above < _BANDS[-1]
-    for kink in _kinks(fit, trials[near.ravel()]):
-        counts = np.full(near.shape, np.nan)
-        counts[near] = kink
-        _draw_kinks(axes, x, y, counts)
     _draw_minima(axes, fit)
     for k, (panel, values, turned) in enumerate(((top, x, False), (right, y, True))):
         chosen = values[:: (_CELLS - 1) // (_STEPS - 1)]
@@ -108,16 +96,7 @@ def _extent(fit: Any, k: int) -> tuple[float, float]:
 def _scale(fit: Any, k: int, values: Array) -> Scale:
     parameter = fit.objective.parameters[k]
     log = parameter.logarithmic and values[-1] > 3.0 * values[0]
-    return Scale(values, log, [], parameter.unit)
-
-
-def _kinks(fit: Any, trials: Array) -> list[NDArray[np.int64]]:
-    """Return the number of contact intervals per trial, for each contact where it varies."""
-    found = []
-    for key in fit.objective.measured:
-        counts = fit.objective.solve(key, trials)["collisions"]
-        found += [count for count in counts.T if np.ptp(count) > 0]
-    return found
+    return Scale(values, log, parameter.unit)
 
 
 def _draw_curve(axes: "Axes", values: Array, above: Array, *, turned: bool = False) -> None:
@@ -144,14 +123,6 @@ def _draw_bands(axes: "Axes", x: Array, y: Array, above: Array) -> None:
     drawn = axes.contour(x, y, above, levels=_BANDS[1:4], colors="black", linewidths=0.9)
     axes.clabel(drawn, fmt=dict(zip(_BANDS[1:4], ("1 σ", "2 σ", "3 σ"), strict=True)), fontsize=8)
     axes.grid(visible=False)
-
-
-def _draw_kinks(axes: "Axes", x: Array, y: Array, counts: Array) -> None:
-    """Draw lines between regions with different counts; counts are nan far from the minimum."""
-    own = np.unique(counts[np.isfinite(counts)])
-    levels = (0.5 * (own[1:] + own[:-1])).tolist()
-    look: Any = {"colors": _KINK, "linewidths": 0.9, "linestyles": ":"}
-    axes.contour(x, y, counts, levels=levels, **look)
 
 
 def _draw_minima(axes: "Axes", fit: Any) -> None:
@@ -213,8 +184,8 @@ def fitted(fit: Any, axes: Any = None) -> "Figure":
         measured against it, the fitted curve with a band of one standard deviation, and the pulls,
         fitted minus measured numbers in standard errors; else the pulls alone. Force
         records with the fitted curves. Below, chi squared: a curve for one parameter, a map with
-        the profile of each for two. Dotted lines are kinks, where the number of contact intervals
-        changes. With force records chi squared is not drawn, because each trial takes long.
+        the profile of each for two. With force records chi squared is not drawn, because each trial
+        takes long.
 
     Examples
     --------
@@ -309,7 +280,7 @@ def corner(posterior: Any) -> "Figure":
     for name in posterior.names:
         own = posterior.draws(name)
         unit, factor = handy(float(np.median(np.abs(own))), posterior.units[name])
-        draws.append(factor * own[:: max(1, len(own) // _MOST)])
+        draws.append(factor * own)
         labels.append(f"{name} ({unit})".replace("**", "^") if unit else name)
     count = len(labels)
     side = _SIDE * max(count, 1.6)
@@ -325,24 +296,11 @@ def corner(posterior: Any) -> "Figure":
             quantiles=(0.159, 0.5, 0.841),
             plot_datapoints=False,
             label_kwargs={"fontsize": 9},
-            range=_extents(draws),
+            range=[_SHOWN] * count,
         )
         for k, own in enumerate(draws):
             _draw_title(figure.axes[k * (count + 1)], own)
     return figure
-
-
-def _extents(draws: list[Any]) -> list[tuple[float, float]]:
-    """Return the range of each axis: the central 99.8 % of the draws and a margin.
-
-    If all draws are equal, the range is centred on their value.
-    """
-    found = []
-    for own in draws:
-        low, high = np.quantile(own, (0.001, 0.999))
-        wide = 0.02 * (high - low) or abs(low) or 1.0
-        found.append((float(low - wide), float(high + wide)))
-    return found
 
 
 def _draw_title(axes: Any, own: Any) -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.errors import InvalidType
 from stackbounce.plots.style import color_of, two_panels, written
 from stackbounce.run.result import Result
 
@@ -21,7 +21,6 @@ _BEFORE, _AFTER = 0.15, 0.35  # margins, over the duration of the impact
 _INSTANT = 0.010  # s: used as the duration of an instantaneous impact
 _SAMPLES = 1200
 _LABEL = 0.13  # height of a label in its axes
-_LARGEST = 1e290  # m or N; matplotlib multiplies numbers
 
 
 def choose_window(result: Result) -> tuple[float, float]:
@@ -81,8 +80,6 @@ def bounce(result: "Result | Prediction") -> "Figure":
     ------
     InvalidType
         If `result` is neither.
-    InvalidValue
-        If positions or forces are too large to be drawn, near the largest of floats.
 
     Examples
     --------
@@ -105,9 +102,6 @@ def bounce(result: "Result | Prediction") -> "Figure":
     with two_panels(5.6, [3, 2]) as (figure, above, below):
         times = np.linspace(*choose_window(result), _SAMPLES)
         sample = sample_with_approach(result, times)
-        _check_size(sample.position.values, "m")
-        if not result.drop.rigid:  # whose forces are infinite
-            _check_size(sample.force.values, "N")
         _draw_positions(above, result, times, sample.position.values)
         _draw_contacts(below, result, times, sample.force.values)
         if prediction is not None:
@@ -118,14 +112,6 @@ def bounce(result: "Result | Prediction") -> "Figure":
         below.set_xlabel("time" + floor * " since the lowest ball touched the floor" + " (ms)")
         below.set_xlim(1e3 * times[0], 1e3 * times[-1])
     return figure
-
-
-def _check_size(values: NDArray[np.float64], unit: str) -> None:
-    largest = float(np.max(np.abs(values), initial=0.0))
-    if largest > _LARGEST:
-        raise InvalidValue(
-            f"numbers must be at most {_LARGEST:g} {unit} to be drawn, got {largest:g} {unit}"
-        )
 
 
 def _draw_positions(

@@ -60,32 +60,23 @@ def draw_levels(axes: "Axes", x: Scale, y: Scale, values: NDArray[Any], unit: st
 
 
 def _name_contours(axes: "Axes", drawn: "ContourSet", color: str, factor: float) -> None:
-    """Write the levels on their lines, without overlaps and inside the frame."""
+    """Write the levels on their lines, without overlaps."""
     from matplotlib.figure import Figure
     from matplotlib.patheffects import withStroke
 
     if color == "white":
         drawn.set_path_effects([withStroke(linewidth=1.2, foreground="#404040")])
-    figure = axes.figure
-    assert isinstance(figure, Figure)
-    figure.draw_without_rendering()  # computes the places of the labels
-    look: Any = {"fontsize": 8, "fmt": lambda level: f"{level * factor:.3g}"}
-    frame = axes.get_window_extent()
+    assert isinstance(axes.figure, Figure)
+    axes.figure.draw_without_rendering()  # computes the places of the labels
+    look: Any = {"fontsize": 8, "fmt": lambda level: f"{level * factor:.3g}", "colors": "black"}
     kept: list[Any] = []
-    places = []
     for text in axes.clabel(drawn, inline=False, **look):
         box = text.get_window_extent()
-        inside = frame.contains(*box.min) and frame.contains(*box.max)
-        if inside and not any(box.padded(14.0).overlaps(other) for other in kept):
-            kept.append(box)
-            places.append(text.get_position())
-    for text in list(drawn.labelTexts):
-        text.remove()
-    drawn.labelTexts.clear()
-    if places:
-        axes.clabel(drawn, manual=places, inline=True, inline_spacing=3, **look)
-    for text in drawn.labelTexts:
-        text.set(color="black", path_effects=[withStroke(linewidth=2.0, foreground="white")])
+        if any(box.padded(14.0).overlaps(other) for other in kept):
+            text.remove()
+            continue
+        kept.append(box)
+        text.set(clip_on=False, path_effects=[withStroke(linewidth=3.0, foreground="white")])
 
 
 def group_counts(low: int, high: int) -> list[tuple[int, int]]:

@@ -23,23 +23,20 @@ class Scale(NamedTuple):
     Parameters
     ----------
     places : ndarray
-        (n,) ascending; the values, or 0, 1, … if they are not numbers.
+        (n,) ascending; the values, or 0, 1, … if there are none or they are not numbers.
     log : bool
         Whether the values are logarithmically spaced.
-    names : list of str
-        The labels at the places, if the values are not numbers.
     unit : str
         SI, or empty.
 
     Examples
     --------
-    >>> Scale(np.array([1.0, 10.0, 100.0]), True, [], "kg").edges().round(2)
+    >>> Scale(np.array([1.0, 10.0, 100.0]), True, "kg").edges().round(2)
     array([  0.32,   3.16,  31.62, 316.23])
     """
 
     places: NDArray[Any]
     log: bool
-    names: list[str]
     unit: str
 
     def edges(self) -> NDArray[np.float64]:
@@ -57,16 +54,14 @@ class Scale(NamedTuple):
 def read_scale(data: "xr.Dataset", dim: Any) -> Scale:
     """Return the scale of a dimension, by which `data` must be sorted."""
     size = data.sizes[dim]
-    if dim not in data.coords:
-        return Scale(np.arange(size), False, [], "")
+    if dim not in data.coords or data[dim].dtype.kind not in "iuf":
+        return Scale(np.arange(size), False, "")
     values = data[dim].values
-    if values.dtype.kind not in "iuf":
-        return Scale(np.arange(size), False, [str(value) for value in values], "")
     log = False
     if size > 2 and values[0] > 0.0:
         ratios = np.diff(np.log(values))
         log = bool(ratios.min() > 0.0 and np.ptp(ratios) < 1e-6 * ratios.max())
-    return Scale(values, log, [], data[dim].attrs.get("units", ""))
+    return Scale(values, log, data[dim].attrs.get("units", ""))
 
 
 def label(axes: "Axes", which: str, name: str, scale: Scale) -> None:
@@ -76,8 +71,6 @@ def label(axes: "Axes", which: str, name: str, scale: Scale) -> None:
         getattr(axes, f"set_{which}scale")("log")
     unit, _ = show_in_handy_unit(axis, scale.places, scale.unit, scale.log)
     axis.set_label_text(_with_unit(name, unit))
-    if scale.names:
-        axis.set_ticks(scale.places.tolist(), scale.names)
 
 
 def show_in_handy_unit(

@@ -79,8 +79,6 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
         if part:
             draw_legend(axes, len(rows))
         label(axes, "x", str(dim), scale)
-        if len(scale.places) > 1 and not np.isfinite(rows).any():
-            axes.set_xlim(scale.places[0], scale.places[-1])
         _label_values(axes, show, own, np.array(rows))
         axes.set_title(unfinished, loc="left", fontsize=10, pad=26 if part else None)
     return figure
@@ -228,7 +226,8 @@ def _prepared(
         right = "one dimension" if count == 1 else "two dimensions"
         got = ", ".join(map(str, dims)) or "none"
         raise InvalidValue(f"data must have {right}, got {got}: choose with data.sel or data.isel")
-    data = data.sortby([dim for dim in dims if dim in data.coords and _is_numeric(data[dim])])
+    numeric = [dim for dim in dims if dim in data.coords and data[dim].dtype.kind in "iuf"]
+    data = data.sortby(numeric)
     wrong = data["status"].isin([int(Status.EVENT_LIMIT), int(Status.INVALID)])
     own, unfinished, note = data[show], int(wrong.sum()), ""
     if unfinished:
@@ -236,10 +235,6 @@ def _prepared(
         note = f"{unfinished} of {wrong.size} drops could not be finished: see status"
     part = next((name for name in ("ball", "contact") if name in own.dims), "")
     return data, dims, part, own, note
-
-
-def _is_numeric(values: "xr.DataArray") -> bool:
-    return values.dtype.kind in "iuf"
 
 
 def _index(own: "xr.DataArray", part: str, index: int) -> int:

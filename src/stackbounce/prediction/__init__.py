@@ -9,7 +9,7 @@ prediction  `predict`: from the arguments to the result
 =========== =====================================================================
 """
 
-from stackbounce.prediction.prediction import predict, read_scenario, write_scenario
+from stackbounce.prediction.prediction import predict, read_scenario
 from stackbounce.prediction.result import Apex, Prediction
 
-__all__ = ["Apex", "Prediction", "predict", "read_scenario", "write_scenario"]
+__all__ = ["Apex", "Prediction", "predict", "read_scenario"]

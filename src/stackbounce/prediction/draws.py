@@ -1,11 +1,6 @@
-"""Runs of draws: their work together is limited; and derivatives, which describe them or do not.
+"""Runs of draws: their work together is limited; and derivatives, which describe them or do not."""
 
-What a batch does not give is of runs one by one: forces, apexes, curves in time.
-"""
-
-import functools
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,7 +8,6 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue
 from stackbounce.prediction.inputs import FEWEST, Inputs, of_draws
-from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options
 from stackbounce.run.quantities import QUANTITIES, Array, Solved
 from stackbounce.run.result import Result, Status
@@ -33,7 +27,6 @@ _ALLOWED = 0.1  # root mean square of their differences, in standard deviations 
 
 Slopes = Mapping[str, tuple[Array, Array]]
 """Values (parts,) by the name of a quantity, and derivatives (parts, numbers); nan where none."""
-_ONE_SIGMA = (0.159, 0.841)
 
 
 def budget(options: Options, draws: int) -> int:
@@ -158,6 +151,32 @@ def differentiate(
     return slopes, reason, largest
 
 
+def carry(
+    inputs: Inputs,
+    results: Sequence[Result],
+    function: Callable[[Result], Mapping[Any, float]],
+    *,
+    drawn: bool,
+) -> dict[Any, Any]:
+    """Return numbers of results with errors, and the share of the results with each.
+
+    The results are of draws, or of `Inputs.neighbours`.
+    """
+    answers = [function(result) for result in results]
+    found = {}
+    for name in dict.fromkeys(name for answer in answers for name in answer):
+        column = np.array([float(answer.get(name, np.nan)) for answer in answers])
+        column[~np.isfinite(column)] = np.nan
+        share = float(np.mean(np.isfinite(column)))
+        if drawn or share < 1.0:
+            found[name] = of_draws(column), share
+            continue
+        if np.ptp(column) <= ROUND_OFF * np.max(np.abs(column)):
+            column[:] = column[0]
+        found[name] = inputs.linear(float(column[0]), inputs.slopes(column)), share
+    return found
+
+
 def _changed_status(status: NDArray[np.int64]) -> str:
     names = [Status(code).name for code in sorted(set(status.tolist()))]
     return f"drops end as {_alternatives(names)}" if len(names) > 1 else ""
@@ -176,66 +195,3 @@ def _changed_counts(counts: Array) -> str:
 
 def _alternatives(words: Sequence[str]) -> str:
     return " or ".join([", ".join(words[:-1]), words[-1]] if words[:-1] else words)
-
-
-@dataclass(frozen=True, eq=False)
-class Runs:
-    """Runs of a drop whose numbers have errors, each a `Result`.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        The numbers with errors.
-    options : Options
-        Of each run.
-    drawn : ndarray or None
-        (n, numbers) draws; None for derivatives.
-    """
-
-    inputs: Inputs
-    options: Options
-    drawn: Array | None
-
-    @functools.cached_property
-    def best(self) -> Result:
-        """The run with the values of the numbers."""
-        return self._simulate(self.inputs.values)
-
-    @functools.cached_property
-    def results(self) -> list[Result]:
-        """The runs of draws; or the best one, those with each number larger, those with smaller."""
-        rows = self.inputs.neighbours if self.drawn is None else self.drawn
-        return [self._simulate(x) for x in rows]
-
-    def carry(self, function: Callable[[Result], Mapping[Any, float]]) -> dict[Any, Any]:
-        """Return numbers of the results with errors, and the share of the results with each."""
-        answers = [function(result) for result in self.results]
-        found = {}
-        for name in dict.fromkeys(name for answer in answers for name in answer):
-            column = np.array([float(answer.get(name, np.nan)) for answer in answers])
-            column[~np.isfinite(column)] = np.nan
-            share = float(np.mean(np.isfinite(column)))
-            if self.drawn is None and share == 1.0:
-                if np.ptp(column) <= ROUND_OFF * np.max(np.abs(column)):
-                    column[:] = column[0]
-                found[name] = (
-                    self.inputs.linear(float(column[0]), self.inputs.slopes(column)),
-                    share,
-                )
-            else:
-                found[name] = of_draws(column), share
-        return found
-
-    def band(self, times: Any, name: str) -> tuple[Array, Array]:
-        """Return the ends of one standard deviation of a curve; see `Prediction.band`."""
-        within = np.minimum(times, self.options.until)
-        curves = np.array([result.sample(within)[name].values for result in self.results])
-        if self.drawn is not None:
-            low, high = np.nanquantile(curves, _ONE_SIGMA, axis=0)
-            return low, high
-        each = np.tensordot(self.inputs.spread.T, self.inputs.slopes(curves), axes=1)
-        deviation = np.sqrt(np.sum(each**2, axis=0))
-        return curves[0] - deviation, curves[0] + deviation
-
-    def _simulate(self, x: Array) -> Result:
-        return solve_one(self.inputs.drop_at(x), self.options)

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, ScenarioError, whole
+from stackbounce.errors import ScenarioError, whole
 from stackbounce.extras import need
 from stackbounce.measure.quantities import without_error
 from stackbounce.model import Drop
-from stackbounce.model.toml import load_toml, write_toml
+from stackbounce.model.toml import load_toml
 from stackbounce.prediction.draws import DRAWS, Progress, Slopes, differentiate, solve_draws
 from stackbounce.prediction.inputs import FEWEST, read_inputs
 from stackbounce.prediction.result import Prediction
@@ -148,54 +148,6 @@ def read_scenario(path: str | os.PathLike[str]) -> tuple[Drop, dict[str, str]]:
         return Drop.from_mapping(plain), errors
     except ScenarioError as error:
         raise ScenarioError(f"{name}: {error}") from error
-
-
-def write_scenario(drop: Drop, errors: Mapping[str, Any]) -> str:
-    """Return a drop whose numbers have errors as the text of a scenario file.
-
-    Parameters
-    ----------
-    drop : Drop
-        All numbers; those in `errors` replace its own.
-    errors : mapping
-        Numbers with errors by path, as `predict` takes them.
-
-    Returns
-    -------
-    str
-        TOML, which `read_scenario` reads. Numbers are in SI units, and are written in full.
-
-    Raises
-    ------
-    InvalidValue
-        If the drop has no such number, or the errors are correlated or given as draws.
-    InvalidType
-        If something has the wrong type.
-    MissingExtra
-        If the extra `measure` is not installed.
-
-    Examples
-    --------
-    >>> import stackbounce as sb
-    >>> drop = sb.Drop([sb.Ball(0.057)], [sb.Spring(2e4)], height=0.63)
-    >>> print(write_scenario(drop, {"height": "63 ± 1 cm"}).splitlines()[1])
-    height = "0.63 ± 0.01 m"
-    """
-    need("measure", "a number with an error")
-    inputs = read_inputs(drop, errors)
-    if not inputs.independent:
-        raise InvalidValue("errors must be independent of each other in a scenario file")
-    mapping, values = inputs.drop.to_mapping(), inputs.values.tolist()
-    for number, value, error in zip(
-        inputs.numbers, values, inputs.deviations.tolist(), strict=True
-    ):
-        if error > 0.0:
-            place: Any = mapping[number.part] if number.part else mapping
-            if number.part and number.field:
-                place = place[number.index]
-            text = f"{value!r} ± {error!r} {number.unit}".rstrip()
-            place[number.field or number.index] = text
-    return write_toml(mapping)
 
 
 def split_errors(mapping: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, str]]:

@@ -10,9 +10,10 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
-from stackbounce.prediction.draws import Runs, Slopes, budget
+from stackbounce.prediction.draws import Slopes, budget, carry
 from stackbounce.prediction.inputs import FEWEST, Inputs, error_of_deviation, of_draws
 from stackbounce.prediction.sensitivity import Sensitivity, fit_slopes, linear_shares, sobol_indices
+from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options
 from stackbounce.run.quantities import QUANTITIES, Array, Solved
 from stackbounce.run.result import Result, Status
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 _CURVES = ("position", "velocity", "force", "compression")
 _ROUGH = 0.02  # the relative error of a standard deviation above which a note says so
 _RUNS = 1000  # single runs of draws, at most
+_ONE_SIGMA = (0.159, 0.841)
 _FLOATS = [name for name in QUANTITIES if name != "collisions"]
 
 
@@ -119,15 +121,17 @@ class Prediction:
         """The numbers with errors, by their paths, in SI units."""
         return dict(zip(self.inputs.paths, self.inputs.errors, strict=True))
 
-    @property
+    @functools.cached_property
     def result(self) -> Result:
         """The run with the values of the numbers."""
-        return self._runs.best
+        return solve_one(self.drop, self.options)
 
     @functools.cached_property
-    def _runs(self) -> Runs:
-        few = self.drawn[: min(_RUNS, self._affordable(3))] if self.reason else None
-        return Runs(self.inputs, self.options, few)
+    def _results(self) -> list[Result]:
+        """Single runs, for what a batch does not give: of some draws, or of `Inputs.neighbours`."""
+        few = self.drawn[: min(_RUNS, self._affordable(3))]
+        rows = few if self.reason else self.inputs.neighbours
+        return [solve_one(self.inputs.drop_at(x), self.options) for x in rows]
 
     def _affordable(self, each: int) -> int:
         """Return how often so many runs cost no more than all draws may; see `budget`."""
@@ -340,7 +344,7 @@ class Prediction:
                 found[ball, k, "time"], found[ball, k, "height"] = time, height
             return found
 
-        found = self._runs.carry(points)
+        found = carry(self.inputs, self._results, points, drawn=bool(self.reason))
         return [
             Apex(ball, k, time, found[ball, k, "height"][0], share)
             for (ball, k, what), (time, share) in sorted(found.items())
@@ -369,7 +373,8 @@ class Prediction:
         >>> str(forces["peak"])
         '121.8+/-1.0'
         """
-        return {name: value for name, (value, _) in self._runs.carry(function).items()}
+        found = carry(self.inputs, self._results, function, drawn=bool(self.reason))
+        return {name: value for name, (value, _) in found.items()}
 
     def band(self, times: Any, name: str = "position") -> tuple[Array, Array]:
         """Return the lower and the upper end of one standard deviation of a curve.
@@ -394,7 +399,14 @@ class Prediction:
         """
         if name not in _CURVES:
             raise InvalidValue(f"{shown(name)} is not a curve; {nearest(name, _CURVES)}")
-        return self._runs.band(times, name)
+        within = np.minimum(times, self.options.until)
+        curves = np.array([result.sample(within)[name].values for result in self._results])
+        if self.reason:
+            low, high = np.nanquantile(curves, _ONE_SIGMA, axis=0)
+            return low, high
+        each = np.tensordot(self.inputs.spread.T, self.inputs.slopes(curves), axes=1)
+        deviation = np.sqrt(np.sum(each**2, axis=0))
+        return curves[0] - deviation, curves[0] + deviation
 
     def as_dict(self) -> dict[str, Any]:
         """Return the prediction as plain values, for JSON."""

@@ -206,9 +206,6 @@ def check_together(numbers: Sequence[Number]) -> None:
 
 def _check_pairs(numbers: Sequence[Number], arrays: Sequence["xr.DataArray"]) -> None:
     """Raise if parameters share a dimension and have not as many values along it."""
-    own: dict[Any, Any] = {
-        number.path: array.dims for number, array in zip(numbers, arrays, strict=True)
-    }
     known: dict[Any, tuple[str, int]] = {}
     for number, array in zip(numbers, arrays, strict=True):
         for dim, size in array.sizes.items():
@@ -217,11 +214,6 @@ def _check_pairs(numbers: Sequence[Number], arrays: Sequence["xr.DataArray"]) ->
                 raise InvalidValue(
                     f"{number.path} must have as many values along {dim} as {path}, {other}, "
                     f"got {size}"
-                )
-            if own.get(dim, (dim,)) != (dim,):
-                raise InvalidValue(
-                    f"{number.path} varies along {dim}, so that {dim} must do so too, "
-                    f"got {' and '.join(map(str, own[dim])) or 'one number'}"
                 )
 
 

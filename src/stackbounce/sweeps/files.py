@@ -47,44 +47,35 @@ class Form:
         axes: Mapping[str, tuple[str, NDArray[np.float64]]],
         sides: Sequence[int],
     ) -> None:
-        self.attrs = sample.attrs
-        self.results = {str(name): variable for name, variable in sample.data_vars.items()}
-        self.coordinates = {str(name): variable for name, variable in sample.coords.items()}
-        own = {name: variable.values for name, variable in self.coordinates.items()}
-        self.values = own | {path: axis for path, (_, axis) in axes.items()}
-        self.sizes = {
-            str(variable.dims[0]): len(self.values[name])
-            for name, variable in self.coordinates.items()
-        }
+        import xarray as xr
+
+        self.sample, self.sides = sample, tuple(sides)
         self.grid = tuple({dim: len(axis) for dim, axis in axes.values()}.values())
-        self.sides = tuple(sides)
+        known = {path: axis for path, (_, axis) in axes.items()}
+        self.coordinates = xr.Dataset(
+            coords={
+                name: (variable.dims, known.get(str(name), variable.values), variable.attrs)
+                for name, variable in sample.coords.items()
+            }
+        )
         paired = " ".join(path for path, (dim, _) in axes.items() if dim != path)
-        self.marked = {**self.attrs, **({"coordinates": paired} if paired else {})}
+        self.marked = {**sample.attrs, **({"coordinates": paired} if paired else {})}
         """The attributes in a file; `coordinates` names those that have not their dimension's name,
         as xarray does."""
 
     def shape(self, one: "xr.DataArray") -> tuple[int, ...]:
         """Return the shape of a variable in the whole file."""
-        return tuple(self.sizes[str(dim)] for dim in one.dims)
-
-    def chunk(self, one: "xr.DataArray") -> tuple[int, ...]:
-        """Return the shape of one block of a variable."""
-        return self.sides + self.shape(one)[len(self.sides) :]
+        return tuple(self.coordinates.sizes[dim] for dim in one.dims)
 
     def is_of(self, found: "xr.Dataset") -> bool:
         """Return whether a file is of this sweep: with its attributes, coordinates and results."""
         return (
-            found.attrs == self.attrs
-            and all(
-                name in found.coords
-                and found[name].dims == self.coordinates[name].dims
-                and np.array_equal(found[name].values, values)
-                for name, values in self.values.items()
-            )
+            found.attrs == self.sample.attrs
+            and found.coords.to_dataset().equals(self.coordinates)
             and all(
                 name in found
                 and (found[name].dims, found[name].shape) == (variable.dims, self.shape(variable))
-                for name, variable in self.results.items()
+                for name, variable in self.sample.data_vars.items()
             )
         )
 
@@ -100,18 +91,18 @@ def create(path: Path, form: Form) -> None:
 
     made: dict[str, Any] = {}  # content by path
     group = zarr.create_group(MemoryStore(made), zarr_format=2, attributes=form.marked)
-    for name, variable in (form.results | form.coordinates).items():
-        own = name in form.coordinates
+    for name, variable in {**form.sample.data_vars, **form.coordinates.coords}.items():
+        shape, own = form.shape(variable), name in form.coordinates
         array = group.create_array(
-            name,
-            shape=form.shape(variable),
-            chunks=form.shape(variable) if own else form.chunk(variable),
+            str(name),
+            shape=shape,
+            chunks=shape if own else form.sides + shape[len(form.sides) :],
             dtype=variable.dtype,
             fill_value=math.nan if variable.dtype.kind == "f" else None,
             attributes={**variable.attrs, "_ARRAY_DIMENSIONS": [str(dim) for dim in variable.dims]},
         )
         if own:
-            array[...] = form.values[name]
+            array[...] = variable.values
     zarr.consolidate_metadata(group.store)
     for name in made:
         (path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -150,7 +141,7 @@ def lost(path: Path, form: Form) -> tuple[list[Block], int]:
     import zarr
 
     group: Any = zarr.open_group(path, mode="r")
-    arrays = {name: group[name] for name in form.results}
+    arrays = {str(name): group[name] for name in form.sample.data_vars}
     sides = tuple(next(iter(arrays.values())).chunks[: len(form.grid)])
     missing, count = [], 0
     for block in blocks(form.grid, sides):

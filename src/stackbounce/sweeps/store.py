@@ -15,7 +15,6 @@ import os
 import platform
 import re
 import shutil
-import stat
 import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -85,8 +84,6 @@ def _opened(path: Path, out: Path) -> Iterator[BinaryIO]:
     """
     for attempt in itertools.count():
         with os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+b", buffering=0) as file:
-            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-                raise FileError(f"{path} is no ordinary file: remove it")
             if not _locked(file):
                 writer = _writer(path)
                 if writer or attempt == _ATTEMPTS:
@@ -304,29 +301,26 @@ def _is_same(path: Path, form: Form) -> bool:
         ) from error
 
 
-def solve_block(drop: Drop, values: _Axes, options: Mapping[str, Any]) -> "xr.Dataset":
-    """Return the results of one block, which fits in memory."""
-    return sweep(drop, values, **options)
-
-
 def _solved(
     drop: Drop, axes: _Axes, todo: list[Block], options: Mapping[str, Any], client: "Client | None"
 ) -> _Done:
     """Yield blocks with their results as they are finished; few are in memory at a time."""
-    jobs = ((block, (drop, _part(axes, block), options)) for block in todo)
+    jobs = ((block, _part(axes, block)) for block in todo)
     if client is None:
-        return ((block, solve_block(*job)) for block, job in jobs)
-    return _on_cluster(client, list(jobs))
+        return ((block, sweep(drop, part, **options)) for block, part in jobs)
+    return _on_cluster(client, drop, list(jobs), options)
 
 
-def _on_cluster(cluster: Any, jobs: Sequence[tuple[Block, Any]]) -> _Done:
+def _on_cluster(
+    cluster: Any, drop: Drop, jobs: Sequence[tuple[Block, _Axes]], options: Mapping[str, Any]
+) -> _Done:
     """Yield blocks with their results, some for each thread of the cluster at a time."""
     with _cluster_errors():
         together = _TOGETHER * max(1, sum(cluster.nthreads().values()))
     for start in range(0, len(jobs), together):
         some = jobs[start : start + together]
         with _cluster_errors():
-            futures = [cluster.submit(solve_block, *job, pure=False) for _, job in some]
+            futures = [cluster.submit(sweep, drop, part, pure=False, **options) for _, part in some]
             found = cluster.gather(futures)
         yield from zip((block for block, _ in some), found, strict=True)
 

@@ -33,16 +33,13 @@ _GAPS = (0.0, 0.001, 0.005)
 _HEIGHT = 1.0  # m
 _MOST = 100_000  # drops
 _AT_THE_END = 1e-3  # relative distance of a mass from an end of its range that counts as none
-_MEANINGS = {
+_SWEPT = ("rebound_ratio", "energy_retained", "collisions", "status")
+_MEANINGS = {  # of the variables that a sweep does not have
     "balls": "the balls of the stack, the lowest first",
     "mass": "masses of the balls, the lowest first",
     "place": "place in the order of the top ball's rebound ratio",
-    "rebound_ratio": "velocity after the impact over the impact speed v0",
     "height_ratio": "height to which the top ball goes over that of the drop",
     "energy_share": "the top ball's kinetic energy over that of all balls before",
-    "energy_retained": "kinetic energy at the end over the one that came in",
-    "collisions": "contact intervals",
-    "status": "how the run ended",
 }
 
 
@@ -298,14 +295,14 @@ def _ranked(stacks: Sequence[_Stack], ds: "xr.Dataset") -> "xr.Dataset":
     top, order = ds.rebound_ratio.isel(ball=-1), _order(ds)
     mass = np.array([[ball.mass for ball in stack.drop.balls] for stack in stacks])
     ds["balls"] = ("stack", "ball"), [stack.names for stack in stacks]
-    ds["mass"] = ("stack", "ball"), mass, {"units": "kg"}
+    ds["mass"] = ("stack", "ball"), mass
     ds["place"] = top.dims, np.argsort(order, axis=0, kind="stable") + 1
     ds["height_ratio"] = top.clip(min=0.0) ** 2
     ds["energy_share"] = top**2 * (mass[:, -1] / mass.sum(axis=1))[:, None]
     labels = [" + ".join(stack.names) + stack.note for stack in stacks]
-    ds = ds[list(_MEANINGS)].assign_coords(stack=labels)
+    ds = ds[[*_MEANINGS, *_SWEPT]].assign_coords(stack=labels)
     ds = ds.isel(stack=order[:, 0])
     for name, meaning in _MEANINGS.items():
-        ds[name].attrs = {"units": "1", "long_name": meaning} | ds[name].attrs
+        ds[name].attrs = {"units": "kg" if name == "mass" else "1", "long_name": meaning}
     ds.attrs = {}  # those of the sweep describe one stack only
     return ds

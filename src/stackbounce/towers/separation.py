@@ -16,7 +16,6 @@ from stackbounce.run.result import Status
 _TRIES, _WIDER = 10, 4.0  # up to 250 000 times the distance fallen during the touching impact
 _STEADY = 1e-6  # relative; durations that do not depend on the gap differ by less
 _SAME_PACE = 1e-9  # over 1/v0; collisions that keep their distance in time have the same pace
-_NEGLIGIBLE = 1e-9  # of the largest impulse: touches of balls that are at rest but for round-off
 
 
 def replace_gaps(drop: Drop, only: int | None, gap: float) -> Drop:
@@ -118,15 +117,11 @@ def _check(drop: Drop, only: object) -> None:
 
 
 def _intervals(drop: Drop, rtol: float) -> NDArray[Any] | None:
-    """Return the contact intervals sorted by contact; None if the run does not finish.
-
-    Intervals with a negligible impulse are left out.
-    """
+    """Return the contact intervals sorted by contact; None if the run does not finish."""
     result = simulate(drop, rtol=rtol)
     if result.status is not Status.FINISHED:
         return None
     rows = result.intervals
-    rows = rows[rows["impulse"] > _NEGLIGIBLE * rows["impulse"].max(initial=0.0)]
     ordered: NDArray[Any] = rows[np.lexsort((rows["start"], rows["contact"]))]
     return ordered
 

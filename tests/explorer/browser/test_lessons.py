@@ -13,7 +13,7 @@ OUTSIDE = f"{SEEN} && !one.closest('.worksheet') && !one.querySelector('.workshe
 
 def opened(page, name):
     page.get_by_role("button", name="Lessons", exact=True).click()
-    page.get_by_role("button", name=read_lesson(name).title).click()
+    page.get_by_role("button", name=read_lesson(name)["title"]).click()
 
 
 @pytest.mark.parametrize("size", [{"width": 1440, "height": 900}, PHONE], ids=["wide", "phone"])

@@ -5,6 +5,7 @@ import json
 import math
 import random
 import re
+import tomllib
 
 import numpy as np
 import pytest
@@ -20,8 +21,8 @@ from stackbounce.explorer.schema import read_drop
 from stackbounce.json_values import plain
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS
 from stackbounce.model.toml import read_law
-from stackbounce.prediction import write_scenario
 from stackbounce.prediction.inputs import read_inputs
+from stackbounce.prediction.prediction import split_errors
 from stackbounce.run.paths import numbers_of
 
 SEED = 5
@@ -263,7 +264,13 @@ def compare_texts(asked, pairs):
             continue
         toml, python = (text["answer"] for text in texts)
         known = checked(drop, errors)
-        assert toml == (write_scenario(drop, known) if known else drop.to_toml())
+        without, written = split_errors(tomllib.loads(toml))
+        values = read_inputs(drop, written).errors if written else ()
+        varied = read_inputs(drop, known).drop if known else drop
+        assert sb.Drop.from_mapping(without) == varied
+        read = {path: (value.n, value.s) for path, value in zip(written, values, strict=True)}
+        assert read == {path: (value, error) for path, (value, error) in known.items() if error}
+        assert known or toml == drop.to_toml()
         lines, _, run = python.partition("result = ")
         exec(lines, found := {})
         assert (found["drop"], found.get("errors", {})) == (drop, known)

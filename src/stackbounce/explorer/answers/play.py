@@ -59,13 +59,14 @@ def play_drop(drop: Drop, until: float | None, frames: int) -> str:
     """
     result = run_drop(drop, until)
     times = choose_times(result, until, frames)
+    ends = result.intervals["end"]
     answer = {
         "stackbounce": __version__,
         "drop": drop.to_mapping(),
         "reference_speed": drop.reference_speed,
         **_list_numbers(result),
         "intervals": result.intervals,
-        "impact": [0.0, _find_last_release(result)],
+        "impact": [0.0, max(ends[np.isfinite(ends)], default=0.0)],
         "frames": _sample_frames(result, times),
         "separate": None if drop.rigid else _play_separate(drop, until, times),
     }
@@ -76,11 +77,6 @@ def _list_numbers(result: Result) -> dict[str, Any]:
     speeds = result.rebound_speeds
     heights = speeds * np.abs(speeds) / (2.0 * STANDARD_GRAVITY)
     return result.to_mapping() | {"rebound_heights": heights}
-
-
-def _find_last_release(result: Result) -> float:
-    ends = result.intervals["end"]
-    return float(max([0.0, *ends[np.isfinite(ends)]]))
 
 
 def choose_times(result: Result, until: float | None, frames: int) -> _Times:

@@ -11,7 +11,7 @@ from stackbounce.errors import InvalidValue, a_or_an, nearest, shown
 from stackbounce.explorer.answers.play import run_drop
 from stackbounce.fitting import Fit, fit
 from stackbounce.json_values import as_json
-from stackbounce.measure.finding import Branch, Curve
+from stackbounce.measure.finding import Branch
 from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.measurement import Measurement, measure_file
 from stackbounce.measure.messages import OptionHint
@@ -80,7 +80,10 @@ def measure_record(
         {
             "stackbounce": __version__,
             **one.to_mapping(),
-            "series": _describe_curves(one.curves),
+            "series": [
+                _thin(*curve[:4]) | {"unit": curve.unit, "index": i}
+                for i, curve in enumerate(one.curves)
+            ],
             "zero": one.first_touch,
             "measured": one.measured,
             "bounce": one.bounce,
@@ -174,10 +177,6 @@ def _wording(hint: OptionHint) -> str:
         text = ", ".join(f"{key}={one}" for key, one in several) if several else value
         entered.append(known[name] if value is None else f"{text} in {known[name]}")
     return " and ".join(entered)
-
-
-def _describe_curves(curves: Sequence[Curve]) -> list[_Series]:
-    return [_thin(*curve[:4]) | {"unit": curve.unit, "index": i} for i, curve in enumerate(curves)]
 
 
 def _thin(label: str, what: str, times: _Array, values: _Array) -> _Series:

@@ -9,13 +9,11 @@ others are settings that the explorer's address has, such as ``view=line``.
 import functools
 import re
 import tomllib
-from dataclasses import dataclass, field
 from importlib.resources import files
 from typing import Any, NamedTuple
 
 from stackbounce.cross2007.cases import explorer_address, list_cases
 from stackbounce.explorer.examples import list_examples
-from stackbounce.json_values import plain
 from stackbounce.model import Drop
 from stackbounce.model.catalogue import stack
 from stackbounce.units import quantity
@@ -26,64 +24,25 @@ NAMES = ("three-times", "stiffness", "gap", "own-ball")
 LANGUAGES = ("en", "de")
 """The codes of the languages that have all lessons, English first."""
 
-Table = list[list[str]]
-"""Rows of cells, the first one of headings; the cells that a row lacks are empty."""
 _LINK = re.compile(r"\[([^\]]+)\]\((explorer|lesson): ([^)]+)\)")
 
 
-@dataclass(frozen=True)
-class Step:
-    """A step: what it is called, how long it takes in minutes, and what to do."""
-
-    title: str
-    minutes: int
-    text: str
-
-
-@dataclass(frozen=True)
-class Item:
-    """An item of a worksheet: a text, perhaps with a table, a grid to draw in, and more text."""
-
-    text: str
-    table: Table = field(default_factory=list)
-    grid: bool = False
-    after: str = ""
-
-
-@dataclass(frozen=True)
-class Lesson:
-    """A lesson. Its texts have links, see `split_links`; `table` belongs to the answers."""
-
-    name: str
-    title: str
-    about: str
-    for_whom: str
-    minutes: int
-    needs: str
-    misconception: str
-    steps: list[Step]
-    questions: list[str]
-    answers: list[str]
-    remarks: list[str]
-    worksheet: list[Item]
-    table: Table = field(default_factory=list)
-    example: str = ""
-
-
 @functools.cache
-def read_lesson(name: str, language: str = "en") -> Lesson:
-    """Return a lesson of `NAMES` in one of `LANGUAGES`.
+def read_lesson(name: str, language: str = "en") -> dict[str, Any]:
+    """Return a lesson of `NAMES` in one of `LANGUAGES`, as its file has it.
+
+    Its `steps` have a `title`, `minutes` and a `text`. An item of its `worksheet` has a `text`, and
+    perhaps a `table`, a `grid` to draw in, and text `after` these; the lesson's own `table` belongs
+    to the answers. A table is a list of rows, the first one of headings; the cells that a row lacks
+    are empty.
 
     Examples
     --------
-    >>> read_lesson("gap").title, read_lesson("gap", "de").title
+    >>> read_lesson("gap")["title"], read_lesson("gap", "de")["title"]
     ('The gap', 'Der Abstand')
     """
     text = (files(__package__) / language / f"{name}.toml").read_text("utf-8")
-    known = _in_one_line(tomllib.loads(text))
-    known["steps"] = [Step(**step) for step in known["steps"]]
-    known["worksheet"] = [Item(**item) for item in known["worksheet"]]
-    return Lesson(name=name, **known)
+    return {"name": name, **_in_one_line(tomllib.loads(text))}
 
 
 def _in_one_line(value: Any) -> Any:
@@ -163,21 +122,19 @@ def list_lessons() -> dict[str, list[dict[str, Any]]]:
     ('Three times the speed?', 45)
     """
     return {
-        language: [_told(plain(read_lesson(name, language))) for name in NAMES]
-        for language in LANGUAGES
+        language: [_told(read_lesson(name, language)) for name in NAMES] for language in LANGUAGES
     }
 
 
 def _told(value: Any) -> Any:
     """Return a lesson, or a part of it, with its links taken out of its texts."""
     if isinstance(value, dict):
-        return {key: _told(one) for key, one in value.items() if one not in ("", [], False)}
+        return {key: _told(part) for key, part in value.items()}
     if isinstance(value, list):
         return [_told(item) for item in value]
-    parts = split_links(value) if isinstance(value, str) else []
-    return (
-        [_link(part) for part in parts] if any(isinstance(part, Link) for part in parts) else value
-    )
+    if isinstance(value, str) and _LINK.search(value):
+        return [_link(part) for part in split_links(value)]
+    return value
 
 
 def _link(part: str | Link) -> str | dict[str, str]:

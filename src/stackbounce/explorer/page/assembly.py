@@ -6,7 +6,6 @@ import hashlib
 import json
 import re
 from pathlib import Path
-from typing import NamedTuple
 
 from stackbounce.explorer.page.bundle import bundle
 from stackbounce.explorer.page.parts import made_file
@@ -19,16 +18,8 @@ _SCRIPT = re.compile(r'\s*<script type="module" src="([^"]+)"></script>')
 _CHARSET = '<meta charset="utf-8">'
 
 
-class Texts(NamedTuple):
-    """The HTML without its styles and its script, and these."""
-
-    html: str
-    styles: str
-    script: str
-
-
-def assemble(origin: str) -> Texts:
-    """Return the page with all modules in one classic script.
+def assemble(origin: str) -> tuple[str, str, str]:
+    """Return the page's HTML without its styles and its script, the styles, and one classic script.
 
     Parameters
     ----------
@@ -42,7 +33,7 @@ def assemble(origin: str) -> Texts:
 
     Examples
     --------
-    >>> assemble("one_file").html[:15]
+    >>> assemble("one_file")[0][:15]
     '<!doctype html>'
     """
     page = read_static("index.html")
@@ -50,7 +41,7 @@ def assemble(origin: str) -> Texts:
     assert begin is not None
     styles = "".join(read_static(name) for name in _STYLE.findall(page))
     script = bundle(functools.partial(_module, origin), begin[1], "js/engine/worker.js")
-    return Texts(_SCRIPT.sub("", _STYLE.sub("", page)), styles, script)
+    return _SCRIPT.sub("", _STYLE.sub("", page)), styles, script
 
 
 def with_policy(html: str, policy: str) -> str:

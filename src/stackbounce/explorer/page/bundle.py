@@ -17,8 +17,8 @@ _PASSED = re.compile(r'^export\s*\{([^}]*)\}(?:\s*from\s*"([^"]+)")?;$', re.MULT
 _DECLARED = re.compile(
     r"^export ((?:async )?function\*?|class|const|let) (\{[^}]*\}|\w+)", re.MULTILINE
 )
-_LEFT = re.compile(r"^\s*(?:import|export)\b(?!\()|\bimport\.meta\b", re.MULTILINE)
 _COMMENT = re.compile(r"^\s*(?://.*|/\*(?:(?!Copyright)[^*]|\*(?!/))*\*/)[^\S\n]*\n", re.MULTILINE)
+_LEFT = re.compile(r"^\s*(?:import|export)\b(?!\()|\bimport\.meta\b", re.MULTILINE)
 
 
 def bundle(read: Callable[[str], str], page: str, worker: str) -> str:
@@ -97,10 +97,7 @@ def _rewritten(path: str, text: str) -> tuple[str, list[str]]:
             exported[part.strip()] = part.strip()
         return f"{kind} {name}"
 
-    text = _COMMENT.sub("", text)
-    if all(line.count("`") % 2 == 0 for line in text.splitlines()):  # no text has several lines
-        text = re.sub(r"^[ \t]+", "", text, flags=re.MULTILINE)
-    text = _IMPORT.sub(imported, text)
+    text = _IMPORT.sub(imported, _COMMENT.sub("", text))  # an export in a comment is none
     text = _LATER.sub(lambda match: f"Promise.resolve().then(() => {used(match[1])})", text)
     text = _DECLARED.sub(declared, _PASSED.sub(passed, text))
     left = _LEFT.search(text)

@@ -8,6 +8,7 @@ which asks pint.
 import dataclasses
 import functools
 import itertools
+import math
 import re
 import sys
 import tomllib
@@ -16,6 +17,7 @@ from importlib.resources import files
 from typing import Any
 
 from stackbounce.cross2007.cases import list_cases, list_lines
+from stackbounce.cross2007.drops import bisect
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.explorer.answers import play
 from stackbounce.explorer.examples import list_examples
@@ -30,6 +32,9 @@ from stackbounce.version import __version__
 
 WORDS: dict[str, Any] = tomllib.loads((files(__package__) / "words.toml").read_text("utf-8"))
 """What the page calls numbers of laws, what maps show, and the ratios that they vary."""
+
+_TOLD = ("says", "formula", "source", "form", "rigid", "exact", "loss", "least_restitution")
+"""What the page takes of a law as it is."""
 
 _LOSSY = Hysteretic  # the paper's own way to lose energy
 MAP_RTOL = 1e-8
@@ -59,18 +64,11 @@ def _describe_law(kind: type[ContactLaw]) -> dict[str, Any]:
     """Return what the page shows of a law and computes with, and what it is in the engine."""
     return {
         "law": kind.__name__,
-        "says": kind.says,
-        "formula": kind.formula,
-        "source": kind.source,
+        **{name: getattr(kind, name) for name in _TOLD},
         "fields": [_describe_number(kind, name) for name in kind.quantities()],
-        "form": kind.form,
         "parameters": (kind.third_number, kind.fourth_number),
-        "rigid": kind.rigid,
-        "exact": kind.exact,
-        "loss": kind.loss,
         "loss_fields": list(kind.loss_fields()),
         "constant_loss": not kind.loss_depends_on,
-        "least_restitution": kind.least_restitution,
         "exponent": kind.fixed_exponent(),
         "usual_exponent": kind.default_exponent(),
         "needs": {"linear": kind.calibration_needs(1.0), "other": kind.calibration_needs(2.0)},
@@ -136,15 +134,9 @@ def _last(holds: Callable[[float], bool], inside: float, outside: float) -> floa
     """Return the last number from `inside` towards `outside` for which something holds."""
     if holds(outside):
         return outside
-    near, far = inside, outside
-    middle = 0.5 * (near + far)
-    while middle not in (near, far):
-        if holds(middle):
-            near = middle
-        else:
-            far = middle
-        middle = 0.5 * (near + far)
-    return near
+    low, high = sorted([inside, outside])
+    end = bisect(lambda value: 1.0 if holds(value) else -1.0, low, high)
+    return 0.0 + (end if holds(end) else math.nextafter(end, inside))  # not -0.0
 
 
 @functools.cache
@@ -183,9 +175,7 @@ def _list_lines() -> list[dict[str, Any]]:
     """Return the paper's lines: a drop each, what varies, and what was measured of each ball."""
     return [
         {
-            "name": line.name,
-            "title": line.title,
-            "says": line.says,
+            **{name: getattr(line, name) for name in ("name", "title", "says")},
             "drop": line.drop.to_mapping(),
             "x": dataclasses.asdict(line.across),
             "measured": [{"value": value, "error": error} for value, error in line.measured],

@@ -107,8 +107,5 @@ def one_file() -> str:
 
 def _data(name: str) -> str:
     """Return an element with data in JSON, in which nothing can end the element."""
-    text = json.dumps(
-        json.loads(made_file(f"{name}.json")), ensure_ascii=False, separators=(",", ":")
-    )
-    inside = text.replace("<", "\\u003c")
+    inside = made_file(f"{name}.json").decode().replace("<", "\\u003c")
     return f'<script type="application/json" id="{name}">{inside}</script>'
