@@ -124,7 +124,7 @@ def draw_by_number(
         unit, _ = show_in_handy_unit(above.yaxis, above.get_yticks(), QUANTITIES[quantity].unit)
         above.set_ylabel(f"{words} ({unit})" if unit else words)
         name = _NAMES.get(number.path, "gap" if number.part == "gaps" else number.path)
-        label((above, *below)[-1], "x", name, Scale(values, False, [], number.unit))
+        label((above, *below)[-1], "x", name, Scale(values, False, number.unit))
 
 
 def _places(fit: Any, number: Number) -> Array:
