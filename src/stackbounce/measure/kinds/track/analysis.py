@@ -3,14 +3,14 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.drag import Drag, with_difference, with_error_of_drag
 from stackbounce.measure.kinds.track import motion
-from stackbounce.measure.kinds.track.free_flight import comparable, no_flight, no_gain, what_is_seen
+from stackbounce.measure.kinds.track.free_flight import no_flight, no_gain, what_is_seen
 from stackbounce.measure.kinds.track.motion import shape_of
 from stackbounce.measure.kinds.track.parabolas import Parabolas
 from stackbounce.measure.kinds.track.paths import Columns, Upward, flights_of, positions_of, upward
@@ -24,7 +24,7 @@ from stackbounce.measure.kinds.track.steadiness import (
 )
 from stackbounce.measure.kinds.track.time_base import SI, TrackUnits, check_time_base, units_of
 from stackbounce.measure.messages import Message, OptionHint
-from stackbounce.measure.quantities import Array, nominal
+from stackbounce.measure.quantities import Array, known_to, nominal
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
@@ -50,10 +50,7 @@ def track(
     data: Any,
     *,
     gravity: float = STANDARD_GRAVITY,
-    axis: Literal["x", "y", "-x", "-y"] | None = None,
     floor: float | None = None,
-    frame_rate_factor: float = 1.0,
-    scale: float = 1.0,
     drag: Drag | None = None,
 ) -> Tracks:
     """Analyse the drop and the bounces in a track of one ball or more.
@@ -68,16 +65,10 @@ def track(
         As `stackbounce.read` gives it, or arrays in s and m; NaN where a point is missing.
     gravity : float, optional
         In m/s², above 0, to compare with.
-    axis : {"x", "y", "-x", "-y"}, optional
-        The one that is up; found by the way the ball falls by default.
     floor : float, optional
-        The height in m, along that axis and as tracked (before `scale`), of the tracked point while
-        the ball just touches the floor: of its middle, one radius above the floor. By default a
-        bounce is where two parabolas meet; for soft balls give it, see Notes.
-    frame_rate_factor : float, optional
-        How many times higher the true frame rate is than the one that the times were made with.
-    scale : float, optional
-        What lengths are to be multiplied by.
+        The height in m, along the upward axis and as tracked, of the tracked point while the ball
+        just touches the floor: of its middle, one radius above the floor. By default a bounce is
+        where two parabolas meet; for soft balls give it, see Notes.
     drag : Drag, optional
         Of the air, on the one ball of a track in m and s; by default there is none.
 
@@ -118,16 +109,15 @@ def track(
     from uncertainties import ufloat
 
     gravity = positive("gravity", gravity, "m/s^2")
-    clock = positive("frame_rate_factor", frame_rate_factor)
-    ruler = positive("scale", scale)
-    found = positions_of(data, clock, ruler)
+    found = positions_of(data)
     notes: list[str] = []
     if found.many > 1:
         notes.append(f"It is so long that means of {found.many} neighbouring points were taken.")
-    up = upward(found, axis, gravity)
-    if axis is None and up.sign < 0.0:
+    up = upward(found, gravity)
+    if up.sign < 0.0:
         notes.append(f"{up.axis} points down; heights are counted upwards.")
-    compared = gravity if comparable(data) else None
+    units = units_of(data)
+    compared = gravity if units.known else None
 
     def seen_along(up: Upward) -> tuple[list[_Flown], list[str]]:
         return _bouncing(found, up, _flights(found, up, gravity), compared)
@@ -138,8 +128,7 @@ def track(
         up = up._replace(tilt=turn.angle)
         flown, left_out = seen_along(up)
     notes.extend(left_out)
-    level = None if floor is None else ruler * finite("floor", floor, "metres")
-    units = units_of(data)
+    level = None if floor is None else finite("floor", floor, "metres")
 
     def found_at(tilt: float) -> list[Track]:
         seen = [_seen_at(ball, found, up, tilt) for ball in flown]
@@ -312,8 +301,9 @@ def _track(
         impacts = tuple(speed - one for speed, one in zip(impacts, off, strict=True))
         rebounds = tuple(speed + one for speed, one in zip(rebounds, off, strict=True))
         gravity += ufloat(0.0, _ON_THE_WHOLE * sway**2 / size)
-    scale = _uncertain(shape.scatter, _RESTITUTION_OFF * shape.bent)  # after over before
-    place = _uncertain(_HEIGHT_BY_SCATTER * shape.scatter, _HEIGHT_OFF * shape.bent)
+    # the scale after a bounce over that before, and the scale of heights
+    ratio = known_to(1.0, math.hypot(shape.scatter, _RESTITUTION_OFF * shape.bent))
+    place = known_to(1.0, math.hypot(_HEIGHT_BY_SCATTER * shape.scatter, _HEIGHT_OFF * shape.bent))
     height, time = motion.fallen(impacts[0], numbers[bounces[0]][0], drag)
     fall_time = time or impacts[0] / gravity
     found = Track(
@@ -327,7 +317,7 @@ def _track(
             motion.risen(speed, numbers[flight + 1][0], drag) * place
             for flight, speed in zip(bounces, rebounds, strict=True)
         ),
-        restitutions=tuple(out / into * scale for into, out in zip(impacts, rebounds, strict=True)),
+        restitutions=tuple(out / into * ratio for into, out in zip(impacts, rebounds, strict=True)),
         gravity=gravity,
         times=fit.times,
         heights=ball.fit.heights,
@@ -345,14 +335,6 @@ def _track(
     if floor is None and units.known:
         notes += stays_long(found, alone=alone)
     return replace(found, notes=tuple(notes))
-
-
-def _uncertain(scatter: float, bent: float) -> Any:
-    """Return the scale in a part of the picture: 1, with an error where flights show one."""
-    from uncertainties import ufloat
-
-    error = math.hypot(scatter, bent)
-    return ufloat(1.0, error) if error > 0.0 else 1.0
 
 
 def _bounce(

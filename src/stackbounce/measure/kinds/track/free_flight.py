@@ -43,19 +43,6 @@ _INSTEAD = Message(
 )
 
 
-def comparable(data: Any) -> bool:
-    """Return whether lengths are in m and times in s, so that gravity can be compared with.
-
-    Plain arrays and a Dataset that has no units are taken to be so.
-    """
-    if not hasattr(data, "data_vars"):
-        return True
-    expected = {"x": "m", "y": "m", "position": "m", "time": "s"}
-    units = [(data[name].attrs.get("units", unit), unit) for name, unit in expected.items()
-             if name in data.variables]  # fmt: skip
-    return all(said == unit for said, unit in units)
-
-
 def no_flight(fit: Parabolas, bounces: Sequence[int], axis: str, gravity: float | None) -> str:
     """Return why flights and bounces are none, or nothing where they are.
 

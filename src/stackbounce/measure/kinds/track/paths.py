@@ -6,7 +6,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.track.motion import curvatures, own_noise
 from stackbounce.measure.kinds.track.parabolas import Flight, Parabolas, find_flights, unexplained
 from stackbounce.measure.quantities import Array
@@ -26,7 +26,6 @@ _LEAST_FALL = 5  # points that a fall keeps
 _ALIKE = 0.05  # relative difference of two accelerations that are one guess
 _DIFFER = 1.5  # scatter around one acceleration, over that around each flight's own
 _BESIDE = 3  # points between two pieces of one flight, at most
-_AXES = {"x": ("x", 1.0), "y": ("y", 1.0), "-x": ("x", -1.0), "-y": ("y", -1.0)}
 
 
 Bounced: TypeAlias = tuple[Parabolas, list[int]]
@@ -61,8 +60,8 @@ class Upward(NamedTuple):
         return math.cos(self.tilt) * along + math.sin(self.tilt) * across
 
 
-def positions_of(data: Any, clock: float, ruler: float) -> Columns:
-    """Return times over `clock`, and positions times `ruler`, of a Dataset or plain arrays."""
+def positions_of(data: Any) -> Columns:
+    """Return times and positions of a Dataset or plain arrays."""
     if hasattr(data, "data_vars"):
         found = _from_dataset(data)
     else:
@@ -78,8 +77,8 @@ def positions_of(data: Any, clock: float, ruler: float) -> Columns:
         )
     if not found.positions:
         raise InvalidValue("data must hold the track of a ball, got none")
-    positions = [{axis: ruler * value[good] for axis, value in p.items()} for p in found.positions]
-    return _thinned(Columns(times / clock, found.names, positions))
+    positions = [{axis: value[good] for axis, value in p.items()} for p in found.positions]
+    return _thinned(Columns(times, found.names, positions))
 
 
 def _thinned(found: Columns) -> Columns:
@@ -114,15 +113,8 @@ def _from_dataset(data: Any) -> Columns:
     return Columns(times, [str(name) for name in known], positions)
 
 
-def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
+def upward(found: Columns, gravity: float) -> Upward:
     """Return the upward direction: the one in which constant downward acceleration fits best."""
-    if axis is not None:
-        if axis not in _AXES:
-            raise InvalidValue(f"axis must be x, y, -x or -y, got {shown(axis)}")
-        name, sign = _AXES[axis]
-        if name not in found.positions[0]:
-            raise InvalidValue(f"axis must be one of the track's, got {shown(axis)}")
-        return Upward(name, sign)
     best, most = Upward("y" if "y" in found.positions[0] else "x", 1.0), 0.0
     for name in found.positions[0]:
         each = [_gains(found.times, position[name], gravity) for position in found.positions]
