@@ -21,12 +21,30 @@ class Curve(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """A way in or out of a press curve: compression in m and force in N of its points and fit."""
+    """A way in or out of a press curve: the points, and the power law through them.
+
+    Attributes
+    ----------
+    label : str
+        Which way it is.
+    compression : ndarray
+        (N,) from the contact on, in m; negative in the slack.
+    force : ndarray
+        (N,) in N, less its zero.
+    fit : ndarray
+        (N,) in N, the power law.
+    misfit : float
+        Root mean square of the residuals' moving averages, over the peak force.
+    fits : bool
+        Whether that is below 1 % of the peak force, or not significant in the noise.
+    """
 
     label: str
     compression: Array
     force: Array
     fit: Array
+    misfit: float
+    fits: bool
 
 
 class Listed(NamedTuple):

@@ -17,31 +17,6 @@ _STEEP = 1e-6  # of the mean rise: the smallest rise of the loading from point t
 _FIRM = 1e3  # weight of the condition that unloading begins where loading ends, over all points
 
 
-@dataclass(frozen=True)
-class Curve:
-    """The points of one branch and the curve through them.
-
-    Parameters
-    ----------
-    compression : ndarray
-        (N,) from the contact on, in m; negative in the slack.
-    force : ndarray
-        (N,) in N, less its zero.
-    fit : ndarray
-        (N,) in N, the power law.
-    misfit : float
-        Root mean square of the residuals' moving averages, over the peak force.
-    fits : bool
-        Whether that is below 1 % of the peak force, or not significant in the noise.
-    """
-
-    compression: Array
-    force: Array
-    fit: Array
-    misfit: float
-    fits: bool
-
-
 @dataclass(frozen=True, kw_only=True)
 class Press(Finding):
     """The result of the analysis of a press curve; see `press`. None stands for unknown numbers.
@@ -81,7 +56,7 @@ class Press(Finding):
         By how much the force dropped at the turn, in N.
     cycle : str or None
         Which cycle of how many this is, counted from 1; None where the record has one.
-    loading, unloading : Curve, and Curve or None
+    loading, unloading : Branch, and Branch or None
         Points and fits.
     tabulated : bool
         Whether the contact is the table of the curve, see `parts`.
@@ -110,8 +85,8 @@ class Press(Finding):
     zero: Annotated[Number, Listed("force with nothing pressed, as recorded", "N")]
     relaxed: Annotated[Number | None, Listed("drop of the force at the turn", "N")] = None
     cycle: Annotated[str | None, Listed("cycle")] = None
-    loading: Curve
-    unloading: Curve | None = None
+    loading: Branch
+    unloading: Branch | None = None
     tabulated: bool = False
     notes: tuple[str, ...] = ()
 
@@ -132,8 +107,7 @@ class Press(Finding):
 
     def branches(self) -> list[Branch]:
         """Return loading and unloading, as far as they were recorded."""
-        ways = (("pressed in", self.loading), ("let go", self.unloading))
-        return [Branch(label, way.compression, way.force, way.fit) for label, way in ways if way]
+        return [way for way in (self.loading, self.unloading) if way is not None]
 
     def table(self, points: int = MOST_POINTS) -> Tabulated:
         """Return the curve itself as a law: a `Tabulated` one, with as many points.
@@ -177,7 +151,7 @@ class Press(Finding):
         return {"contact": contact}
 
 
-def _table(loading: Curve, unloading: Curve | None, points: int) -> Tabulated:
+def _table(loading: Branch, unloading: Branch | None, points: int) -> Tabulated:
     """Return the law of the points of loading and, if they are known, of unloading.
 
     It goes through the many points of a branch by monotone least squares; those with a compression
@@ -205,7 +179,7 @@ def _table(loading: Curve, unloading: Curve | None, points: int) -> Tabulated:
     return Tabulated(knots.tolist(), force.tolist(), back.tolist())
 
 
-def _pressed(name: str, curve: Curve) -> tuple[Array, Array]:
+def _pressed(name: str, curve: Branch) -> tuple[Array, Array]:
     """Return the points of a branch at which the ball is pressed."""
     keep = curve.compression >= 0.0
     if keep.sum() < _FEWEST or not np.any(curve.compression > 0.0):

@@ -202,11 +202,11 @@ def _seen_at(ball: _Flown, found: Columns, up: Upward, tilt: float) -> _Flown:
 def _flights(found: Columns, up: Upward, gravity: float) -> list[_Flown]:
     """Return the balls that have flights and bounces."""
     flown = []
-    ranges = {name: _range(up, position) for name, position in zip(*found[1:3], strict=True)}
-    for name, position in zip(found.names, found.positions, strict=True):
-        heights = up.heights(position)
+    every = [up.heights(position) for position in found.positions]
+    widest = max(map(_range, every))
+    for name, heights in zip(found.names, every, strict=True):
         good = np.isfinite(heights)
-        if good.sum() < 5 or ranges[name] <= _LEAST_RANGE * max(ranges.values()):
+        if good.sum() < 5 or _range(heights) <= _LEAST_RANGE * widest:
             continue
         flights = flights_of(found.times[good], heights[good], gravity)
         if flights is not None:
@@ -214,8 +214,7 @@ def _flights(found: Columns, up: Upward, gravity: float) -> list[_Flown]:
     return flown
 
 
-def _range(up: Upward, position: dict[str, Array]) -> float:
-    heights = up.heights(position)
+def _range(heights: Array) -> float:
     known = heights[np.isfinite(heights)]
     return float(np.ptp(known)) if known.size else 0.0
 
@@ -241,12 +240,11 @@ def _bouncing(
 
 def _seen(found: Columns, up: Upward, gravity: float | None) -> str:
     """Return what the track of the ball that moves most shows."""
-    axis = up.axis if "y" not in found.positions[0] else "y"
-    every = [position[axis] for position in found.positions]
-    known = [heights[np.isfinite(heights)] for heights in every]
-    most = int(np.argmax([float(np.ptp(heights)) if heights.size else 0.0 for heights in known]))
-    sign = up.sign if axis == up.axis else 1.0
-    return what_is_seen(found.times[np.isfinite(every[most])], known[most] * sign, axis, gravity)
+    if up.axis == "x" and "y" in found.positions[0]:
+        up = Upward("y", 1.0)
+    heights = max((up.heights(position) for position in found.positions), key=_range)
+    known = np.isfinite(heights)
+    return what_is_seen(found.times[known], heights[known], up.axis, gravity)
 
 
 def _track_in_air(flown: list[_Flown], level: float | None, units: TrackUnits, drag: Drag) -> Track:

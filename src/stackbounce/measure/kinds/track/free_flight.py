@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.measure.kinds.track.motion import curvatures, shape_of
+from stackbounce.measure.kinds.track.motion import accelerations, shape_of
 from stackbounce.measure.kinds.track.parabolas import Flight, Parabolas
 from stackbounce.measure.kinds.track.time_base import is_usual
 from stackbounce.measure.messages import Message, OptionHint
@@ -35,7 +35,6 @@ _LARGEST_GAIN = 0.02  # of a restitution above 1, or 3 standard errors
 _ONE_PARABOLA = 0.03  # of the range: a track is one parabola if it is nearer to it
 _STILL = 8.0  # errors of a point, within which nothing moves
 _WINDOWS = (5, 7, 11, 17, 25, 51, 101, 201, 401)  # points that tell an acceleration
-_MOST_WINDOWS = 400  # that are looked at
 _INSTEAD = Message(
     "if it does fall, but on an incline or with a wrong scale, ",
     OptionHint({"gravity": None}),
@@ -177,10 +176,7 @@ def _usual_acceleration(times: Array, heights: Array) -> float:
     for wide in _WINDOWS:
         if wide > len(heights):
             break
-        windows = np.lib.stride_tricks.sliding_window_view
-        some = slice(None, None, max(1, len(heights) // _MOST_WINDOWS))
-        t, u = (windows(array, wide)[some] for array in (times, heights))
-        found = float(np.median(np.abs(curvatures(t, u))))
+        found = float(np.median(np.abs(accelerations(times, heights, wide))))
         if noise * math.sqrt(720.0 / wide**5) / step**2 < 0.03 * found:
             break
     return found

@@ -159,8 +159,15 @@ def _polynomial(
     return terms, np.sqrt((inverse**2).sum(axis=1)), half, level - design @ terms
 
 
-def curvatures(times: Array, heights: Array) -> Array:
-    """Return the second derivatives of parabolas through windows of points, (N, n) both."""
+def accelerations(times: Array, heights: Array, wide: int, least: float = -1.0) -> Array:
+    """Return the accelerations of parabolas through windows of points, where it moves by more."""
+    if len(heights) < wide:
+        return np.zeros(0)
+    times, heights = (
+        np.lib.stride_tricks.sliding_window_view(array, wide) for array in (times, heights)
+    )
+    moves = np.ptp(heights, axis=1) > least
+    times, heights = times[moves], heights[moves]
     since = times - times.mean(axis=1, keepdims=True)
     # Least squares of 1, t, t² in each window, by making t² orthogonal to the others.
     square = since**2

@@ -7,10 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.measure.kinds.track.motion import curvatures, own_noise
+from stackbounce.measure.kinds.track.motion import accelerations, own_noise
 from stackbounce.measure.kinds.track.parabolas import Flight, Parabolas, find_flights, unexplained
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns, resolution
+from stackbounce.measure.statistics.ar_noise import difference_noise
 
 _LEAST_MOTION = 0.03  # of the range of a track, within a window that tells an acceleration
 _CLEAR_JUMP = 5.0  # standard errors of a velocity's jump that may be a bounce
@@ -141,21 +142,11 @@ def _guesses(times: Array, heights: Array, gravity: float) -> Array:
     """Return accelerations to try: gravity, gravity/16 (fourfold slow motion), those of windows."""
     guesses = [gravity, gravity / 16.0]
     for wide in _WIDTHS:
-        falls = -_accelerations(times, heights, wide)
+        falls = -accelerations(times, heights, wide, _LEAST_MOTION * float(np.ptp(heights)))
         one = float(np.median(falls)) if len(falls) else 0.0
         if one > 0.0 and all(abs(one / other - 1.0) > _ALIKE for other in guesses):
             guesses.append(one)
     return np.array(guesses)
-
-
-def _accelerations(times: Array, heights: Array, wide: int) -> Array:
-    """Return the accelerations of parabolas through windows of points in which the ball moves."""
-    if len(heights) < wide:
-        return np.zeros(0)
-    t, u = (np.lib.stride_tricks.sliding_window_view(array, wide) for array in (times, heights))
-    moves = np.ptp(u, axis=1) > _LEAST_MOTION * np.ptp(heights)
-    t, u = t[moves], u[moves]
-    return curvatures(t, u)
 
 
 def flights_of(times: Array, heights: Array, gravity: float) -> Bounced | None:
@@ -224,9 +215,7 @@ def _released(fitted: Parabolas, bounces: list[int]) -> list[Flight]:
 
 def _noise(heights: Array) -> float:
     """Return the error of a point from third differences, most of which lie within one flight."""
-    third = np.abs(np.diff(heights, 3))
-    quartile = float(np.quantile(third, 0.25)) if len(third) else 0.0
-    return max(quartile / 0.3186 / math.sqrt(20.0), _noise_floor(heights))
+    return max(difference_noise(heights, 3), _noise_floor(heights))
 
 
 def _noise_floor(heights: Array) -> float:
