@@ -103,7 +103,6 @@ def test_three_points_a_flight():
 def test_a_track_that_begins_late_says_so():
     found = track(tracked(FALL, before=-0.25, seed=1))
     assert any("begins 0.2" in note for note in found.notes)
-    assert not any("go together" in note for note in found.notes)
 
 
 def test_frames_may_come_at_uneven_times():
@@ -150,8 +149,7 @@ def test_a_ball_that_slows_down_across_turns_no_camera(slowing, tilt):
     assert near(kept, 0.8)
     assert kept.std_dev < 0.004
     assert found.tilt == pytest.approx(tilt, abs=0.005)
-    (note,) = [note for note in found.notes if "slow down across" in note]
-    assert "without this turn the first restitution is" in note
+    assert any("slow down across" in note for note in found.notes)
 
 
 def test_after_one_bounce_air_and_a_turned_camera_are_the_same():
@@ -162,7 +160,7 @@ def test_after_one_bounce_air_and_a_turned_camera_are_the_same():
         kept = found.balls[0].restitutions[0]
         assert abs(kept.nominal_value - 0.8) < 1.5 * kept.std_dev
         assert kept.std_dev > 0.02
-        assert any("without this turn" in note for note in found.notes)
+        assert any("degrees off the vertical" in note for note in found.notes)
 
 
 def test_heights_alone_tell_of_no_turn():
@@ -184,21 +182,11 @@ def test_a_camera_that_sways_widens_the_errors(seed):
     assert not any("levels that differ" in note for note in still.notes)
 
 
-def test_a_mark_at_rest_is_no_ball():
-    ball = tracked(FALL, frame_rate=60.0, seed=1)
-    mark = 0.01 * tracked(FALL, frame_rate=60.0, noise=0.01, seed=1) - 0.1
-    found = track(xr.concat([ball, mark.assign_coords(track=["mark"])], "track"))
-    assert [one.name for one in found.balls] == ["ball 0"]
-    assert any("mark: no bounce was found" in note for note in found.notes)
-    assert near(found.time_base.gravity, 9.80665)
-
-
 def test_no_second_ball_gains_speed():
     ball, hit = (tracked(fall, until=1.2, seed=1) for fall in (FALL, falls(0.3, lambda _: 1.3)))
     hit["y"] = hit.y + 0.1
-    found = track(xr.concat([ball, hit.assign_coords(track=["hit"])], "track"))
-    assert [one.name for one in found.balls] == ["ball 0"]
-    assert any("hit: it is left out, as it shows a restitution of" in one for one in found.notes)
+    with pytest.raises(InvalidValue, match=r"a restitution of 1\.3.* it is hit or thrown there"):
+        track(xr.concat([ball, hit.assign_coords(track=["hit"])], "track"))
 
 
 @pytest.mark.parametrize(
@@ -302,7 +290,7 @@ def test_twenty_thousand_rows_take_seconds(period):
 
 
 def test_a_very_long_track_is_shortened_and_says_so():
-    data = tracked(FALL, frame_rate=20_000.0, until=1.2, seed=1)
+    data = tracked(FALL, frame_rate=10_000.0, until=1.2, seed=1)
     found = track(data)
     assert any("means of 2 neighbouring points" in note for note in found.notes)
     assert nominal(found.balls[0].restitutions)[0] == pytest.approx(0.8, abs=1e-3)

@@ -29,7 +29,6 @@ from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 _TOGETHER = 0.15  # of the time of fall, within which two balls' impacts are one drop's
-_LEAST_RANGE = 0.05  # of the widest one, below which a track is that of a mark at rest
 _RESTITUTION_OFF = 0.07  # of the change within a flight: restitutions in simulated distortions
 _HEIGHT_OFF = 0.12  # the same of heights
 _HEIGHT_BY_SCATTER = 0.7  # of the accelerations' scatter, by which heights are off there
@@ -138,50 +137,42 @@ def track(
 
     balls = found_at(up.tilt)
     if turn is not None:
-        plain, other = found_at(0.0), found_at(turn.other)
-        moved = zip(balls, other, balls, strict=True)
+        moved = zip(balls, found_at(turn.other), balls, strict=True)
         off = ufloat(0.0, 1.0)
         balls = [with_difference(*row, off=off) for row in moved]
-        without = plain[0].restitutions[0]
-        notes.append(f"{turn.words} (without this turn the first restitution is {without:.1uS}).")
+        notes.append(f"{turn.words}.")
     if drag is not None:
         notes.append(drag.note(_track(flown[0], level, units, alone=True).restitutions[0]))
     notes.extend(note for ball in balls for note in ball.notes)
     balls.sort(key=lambda ball: float(ball.levels[0].nominal_value))
-    if gains := no_gain(balls[0].restitutions, balls[0].impact_times):
-        raise InvalidValue(_WANTED + gains)
     rate = float(1.0 / np.median(np.diff(found.times)))
     base = check_time_base(_common_gravity(balls), gravity, rate, units)
     notes.extend([base.note] * (not base.agrees))
     ratios = _rebound_ratios(balls, notes)
-    alone = [] if ratios else balls
-    gained = {ball.name: no_gain(ball.restitutions, ball.impact_times) for ball in alone}
-    notes.extend(
-        f"{name}: it is left out, as it shows {why}." for name, why in gained.items() if why
-    )
-    balls = [ball for ball in balls if not gained.get(ball.name)]
+    for ball in balls[:1] if ratios else balls:
+        if gains := no_gain(ball.restitutions, ball.impact_times):
+            raise InvalidValue(_WANTED + gains)
     upwards = up.axis if up.sign > 0.0 else f"-{up.axis}"
     first = balls[0].impact_times[0]
     return Tracks(tuple(balls), ratios, first, base, upwards, up.tilt, tuple(notes), units, drag)
 
 
 def _turn(flown: list[_Flown], found: Columns, up: Upward) -> Turn | None:
-    """Return the turn of the camera that flights and floor show, None where there is none."""
+    """Return the turn of the camera that the lowest ball and its floor show, None for none."""
     side = "x" if up.axis == "y" else "y"
     if side not in found.positions[0]:
         return None
-    sides = [_position(ball, found, up)[side] for ball in flown]
-    slow = acceleration_angle([ball.fit for ball in flown], sides)
-    seen = [_track(ball, None, SI, alone=False) for ball in flown]
-    lowest = min(range(len(seen)), key=lambda k: nominal(seen[k].levels[0]))
-    known = np.isfinite(sides[lowest])
+    ball = min(flown, key=lambda ball: float(ball.fit.heights.min()))
+    across = _position(ball, found, up)[side]
+    known = np.isfinite(across)
     if known.sum() < 2:
         return None
-    times, across = seen[lowest].times[known], sides[lowest][known]
-    moments = [nominal(moment) for moment in seen[lowest].impact_times]
-    floor = floor_angle(seen[lowest].levels, np.interp(moments, times, across))
-    speed = float(np.polyfit(times, across, 1)[0])
-    return turn_of(slow, floor, speed / nominal(seen[lowest].impact_speeds[0]), up.axis)
+    seen = _track(ball, None, SI, alone=False)
+    times, moments = ball.fit.times[known], [nominal(moment) for moment in seen.impact_times]
+    floor = floor_angle(seen.levels, np.interp(moments, times, across[known]))
+    speed = float(np.polyfit(times, across[known], 1)[0])
+    slow = acceleration_angle(ball.fit, across)
+    return turn_of(slow, floor, speed / nominal(seen.impact_speeds[0]), up.axis)
 
 
 def _position(ball: _Flown, found: Columns, up: Upward) -> dict[str, Array]:
@@ -202,21 +193,15 @@ def _seen_at(ball: _Flown, found: Columns, up: Upward, tilt: float) -> _Flown:
 def _flights(found: Columns, up: Upward, gravity: float) -> list[_Flown]:
     """Return the balls that have flights and bounces."""
     flown = []
-    every = [up.heights(position) for position in found.positions]
-    widest = max(map(_range, every))
-    for name, heights in zip(found.names, every, strict=True):
+    for name, position in zip(found.names, found.positions, strict=True):
+        heights = up.heights(position)
         good = np.isfinite(heights)
-        if good.sum() < 5 or _range(heights) <= _LEAST_RANGE * widest:
+        if good.sum() < 5:
             continue
         flights = flights_of(found.times[good], heights[good], gravity)
         if flights is not None:
             flown.append(_Flown(name, *flights))
     return flown
-
-
-def _range(heights: Array) -> float:
-    known = heights[np.isfinite(heights)]
-    return float(np.ptp(known)) if known.size else 0.0
 
 
 def _bouncing(
@@ -242,7 +227,10 @@ def _seen(found: Columns, up: Upward, gravity: float | None) -> str:
     """Return what the track of the ball that moves most shows."""
     if up.axis == "x" and "y" in found.positions[0]:
         up = Upward("y", 1.0)
-    heights = max((up.heights(position) for position in found.positions), key=_range)
+    every = [up.heights(position) for position in found.positions]
+    heights = max(
+        every, key=lambda seen: np.nanmax(seen, initial=-np.inf) - np.nanmin(seen, initial=np.inf)
+    )
     known = np.isfinite(heights)
     return what_is_seen(found.times[known], heights[known], up.axis, gravity)
 

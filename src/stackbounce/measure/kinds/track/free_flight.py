@@ -13,11 +13,10 @@ import numpy as np
 
 from stackbounce.measure.kinds.track.motion import accelerations, shape_of
 from stackbounce.measure.kinds.track.parabolas import Flight, Parabolas
+from stackbounce.measure.kinds.track.paths import noise_of
 from stackbounce.measure.kinds.track.time_base import is_usual
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.samples import resolution
-from stackbounce.measure.statistics.ar_noise import difference_noise
 
 _GRAVITY_RATIO = (0.6, 1.6)  # of the flights' acceleration to gravity, by a wrong scale or clock
 _UNSCALED = 30.0  # the same ratio, from which on only another unit of length explains it
@@ -25,10 +24,7 @@ _KNOWN_WITHIN = 0.05  # relative error of an acceleration that tells a slow moti
 _SEEN_WITHIN = 0.25  # relative error of an acceleration that is one at all
 _LARGEST_CHANGE = 0.4  # of the acceleration within a flight, relative
 _CLEAR_CHANGE = 4.0  # standard errors of that change
-_LARGEST_SCATTER = 0.3  # of the flights' own accelerations, over their mean
 _LONGEST_CONTACT = 0.12  # s; longer ones are those of legs or hands
-_LONGEST_SHARE = 0.5  # of the flights beside it, that a contact may last, where no clock is known
-_LONGEST_FRAMES = 4  # that a contact may last, where no clock is known
 _MOST_BOUNCES = 100  # of a ball
 _CLOSE = 3  # frames between two pieces of one flight, at most
 _LARGEST_GAIN = 0.02  # of a restitution above 1, or 3 standard errors
@@ -42,14 +38,14 @@ _INSTEAD = Message(
 )
 
 
-def no_flight(fit: Parabolas, bounces: Sequence[int], axis: str, gravity: float | None) -> str:
+def no_flight(fit: Parabolas, bounces: list[int], axis: str, gravity: float | None) -> str:
     """Return why flights and bounces are none, or nothing where they are.
 
     Parameters
     ----------
     fit : Parabolas
         The parabolas.
-    bounces : sequence of int
+    bounces : list of int
         After which flights it bounces.
     axis : str
         The one that is up.
@@ -72,12 +68,7 @@ def no_flight(fit: Parabolas, bounces: Sequence[int], axis: str, gravity: float 
             "the middle to the ends, where that of a fall stays; a ball that swings, or an "
             "oscillation?"
         )
-    if shape.scatter > _LARGEST_SCATTER:
-        return (
-            f"no free flight: the accelerations of the flights differ by {shape.scatter:.0%}; a "
-            "ball that rolls, or is held?"
-        )
-    return _lasting(fit, bounces, None if gravity is None else fall / gravity)
+    return "" if gravity is None else _lasting(fit, bounces, fall / gravity)
 
 
 def no_gain(restitutions: Sequence[Any], moments: Sequence[Any]) -> str:
@@ -145,33 +136,22 @@ def _arcs(flights: Sequence[Flight], bounces: Sequence[int]) -> list[Flight]:
     return arcs
 
 
-def _lasting(fit: Parabolas, bounces: Sequence[int], ratio: float | None) -> str:
+def _lasting(fit: Parabolas, bounces: list[int], ratio: float) -> str:
     """Return why contacts are too long; `ratio` of the acceleration to gravity tells the clock."""
-    times, flights = fit.times, fit.flights
-    step = float(np.median(np.diff(times)))
-    lasts, shares = [], []
-    for j in bounces:
-        before, after = flights[j], flights[j + 1]
-        gap = float(times[after.first] - times[before.last - 1]) - step
-        beside = min(float(times[last - 1] - times[first]) for first, last in (before, after))
-        lasts.append(gap)
-        shares.append(gap / max(beside, step))
-    last = float(np.median(lasts))
-    if ratio is None:
-        if last > _LONGEST_FRAMES * step and float(np.median(shares)) > _LONGEST_SHARE:
-            return "no bounce: the contacts last for more than half of the flights beside them"
-    elif last * math.sqrt(ratio) > _LONGEST_CONTACT:
+    step = float(np.median(np.diff(fit.times)))
+    lasts = fit.times[fit.firsts[1:]] - fit.times[fit.lasts[:-1] - 1] - step
+    last = float(np.median(lasts[bounces])) * math.sqrt(ratio)
+    if last > _LONGEST_CONTACT:
         return (
-            f"no bounce: between the flights it is on the floor for {last * math.sqrt(ratio):.2g} s"
-            "; legs or a trampoline? A ball's contact takes some hundredths of a second"
+            f"no bounce: between the flights it is on the floor for {last:.2g} s; legs or a "
+            "trampoline? A ball's contact takes some hundredths of a second"
         )
     return ""
 
 
 def _usual_acceleration(times: Array, heights: Array) -> float:
     """Return the typical size of the accelerations, in windows that are long enough to tell it."""
-    noise = max(difference_noise(heights, 3), resolution(heights) / math.sqrt(12.0))
-    step = float(np.median(np.diff(times)))
+    noise, step = noise_of(heights), float(np.median(np.diff(times)))
     found = 0.0
     for wide in _WINDOWS:
         if wide > len(heights):

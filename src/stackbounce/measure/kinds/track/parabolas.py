@@ -293,11 +293,6 @@ class Parabolas:
         error = np.sqrt(weights @ (spread + (each - jump) ** 2))
         return jump, error, weights @ (speeds[:, :-1] - falls * since)
 
-    @property
-    def correlation(self) -> float:
-        """That of the errors of neighbouring points."""
-        return float(self.weights @ self.tried)
-
     @cached_property
     def values(self) -> Array:
         """Acceleration, then level and speed of each flight, (1 + 2 N,)."""

@@ -17,9 +17,7 @@ _LEAST_MOTION = 0.03  # of the range of a track, within a window that tells an a
 _CLEAR_JUMP = 5.0  # standard errors of a velocity's jump that may be a bounce
 _LEAST_JUMP = 0.1  # of the largest jump; smaller ones are caused by a hand
 _ROUNDS = 4  # of cutting the track, each with the acceleration and error of the one before
-_MOST_POINTS = 20_000  # of a track; of more, means of neighbours are taken
-_STRETCH = 256  # points of a stretch of a long track
-_STRETCHES = 8  # that tell the acceleration: those in which the ball moves most
+_MOST_POINTS = 10_000  # of a track; of more, means of neighbours are taken
 _AT_ONCE = 4  # one in so many of the weakest jumps is taken out before the next fit
 _WIDTHS = (3, 5, 7, 11, 17, 25)  # points of a window
 _SEEN_FALL = 4.0  # errors of a point by which a ball has fallen where its flight begins
@@ -130,11 +128,10 @@ def _gains(times: Array, heights: Array, gravity: float) -> tuple[float, float]:
     good = np.isfinite(heights)
     if good.sum() < 5 or np.ptp(heights[good]) == 0.0:
         return 0.0, 0.0
-    told = _moving(times[good], heights[good])
-    times, heights = times[good][told], heights[good][told]
+    times, heights = times[good], heights[good]
     falls = _guesses(times, heights, gravity)
     both = np.concatenate([[0.0], falls, -_guesses(times, -heights, gravity)])
-    none, *costs = unexplained(times, heights, _noise(heights), both).tolist()
+    none, *costs = unexplained(times, heights, noise_of(heights), both).tolist()
     return none - min(costs[: len(falls)]), none - min(costs[len(falls) :])
 
 
@@ -143,54 +140,37 @@ def _guesses(times: Array, heights: Array, gravity: float) -> Array:
     guesses = [gravity, gravity / 16.0]
     for wide in _WIDTHS:
         falls = -accelerations(times, heights, wide, _LEAST_MOTION * float(np.ptp(heights)))
-        one = float(np.median(falls)) if len(falls) else 0.0
-        if one > 0.0 and all(abs(one / other - 1.0) > _ALIKE for other in guesses):
-            guesses.append(one)
+        usual = float(np.median(falls)) if len(falls) else 0.0
+        if usual > 0.0 and all(abs(usual / other - 1.0) > _ALIKE for other in guesses):
+            guesses.append(usual)
     return np.array(guesses)
 
 
 def flights_of(times: Array, heights: Array, gravity: float) -> Bounced | None:
     """Return the flights of a ball, and after which of them it bounces, None where it never does.
 
-    The acceleration is fitted, as the frame rate and the scale of the track may be wrong. In a long
-    track it is found where the ball moves most.
+    The acceleration is fitted, as the frame rate and the scale of the track may be wrong.
     """
-    told = _moving(times, heights)
-    t, u = times[told], heights[told]
-    sigma = _noise(heights)
-    guesses = _guesses(t, u, gravity)
-    acceleration = float(guesses[np.argmin(unexplained(t, u, sigma, guesses))])
+    sigma = noise_of(heights)
+    guesses = _guesses(times, heights, gravity)
+    acceleration = float(guesses[np.argmin(unexplained(times, heights, sigma, guesses))])
     found: Bounced | None = None
     for _ in range(_ROUNDS):
-        found = _joined(t, u, find_flights(t, u, sigma, acceleration))
+        found = _joined(times, heights, find_flights(times, heights, sigma, acceleration))
         if found is None:
             return None
         new, wider = found[0].fall, max(_noise_floor(heights), _spread(found[0]))
         steady = abs(new / acceleration - 1.0) < 1e-3 and abs(wider / sigma - 1.0) < 0.05
-        if new <= 0.0 or steady:
+        if steady:
             break
         acceleration, sigma = new, wider
-    if len(t) < len(times):
-        found = _joined(times, heights, find_flights(times, heights, sigma, acceleration))
-    if found is None or found[0].fall <= 0.0:
-        return None
-    return Parabolas(times, heights, _released(*found)), found[1]
+    return found and (Parabolas(times, heights, _released(*found)), found[1])
 
 
 def _spread(fitted: Parabolas) -> float:
     """Return the error of a point; where flights differ in acceleration, that beside their own."""
     own = own_noise(fitted.times, fitted.heights, fitted.flights)
     return own if fitted.sigma > _DIFFER * own else fitted.sigma
-
-
-def _moving(times: Array, heights: Array) -> NDArray[np.intp] | slice:
-    """Return the points of a long track in the stretches in which the ball moves most."""
-    if len(times) <= _STRETCH * _STRETCHES:
-        return slice(None)
-    starts = np.arange(0, len(times) - _STRETCH + 1, _STRETCH)
-    ranges = [float(np.ptp(heights[start : start + _STRETCH])) for start in starts.tolist()]
-    most = np.sort(starts[np.argsort(ranges)[-_STRETCHES:]])
-    return np.concatenate([np.arange(start, start + _STRETCH) for start in most.tolist()])
 
 
 def _released(fitted: Parabolas, bounces: list[int]) -> list[Flight]:
@@ -213,7 +193,7 @@ def _released(fitted: Parabolas, bounces: list[int]) -> list[Flight]:
     return flights
 
 
-def _noise(heights: Array) -> float:
+def noise_of(heights: Array) -> float:
     """Return the error of a point from third differences, most of which lie within one flight."""
     return max(difference_noise(heights, 3), _noise_floor(heights))
 

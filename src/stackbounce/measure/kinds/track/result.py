@@ -13,7 +13,6 @@ from stackbounce.measure.kinds.track.time_base import SI, TimeBase, TrackUnits
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, Number, Row, nominal
 
-_CORRELATED = 0.2  # correlation of neighbouring points' errors that is mentioned
 _NOTICED = 1.0  # standard errors of a speed, from which on its bias is mentioned
 
 
@@ -164,7 +163,18 @@ class Tracks(Finding):
 def notes_of(ball: Track, shape: Shape, fall_time: Any, unit: str) -> list[str]:
     """Return the notes on a ball's track; its time of fall from rest is in a unit."""
     name, fit = ball.name, ball.fit
-    notes = _uneven(name, shape)
+    notes = []
+    if shape.widening > 1.0:
+        notes.append(
+            f"{name}: the accelerations of its flights differ by {shape.scatter:.1%}, as where a "
+            "lens or the distance to the camera changes the scale; each flight has its own, and "
+            "heights and restitutions are as uncertain"
+        )
+    if shape.bent:
+        notes.append(
+            f"{name}: within its flights the acceleration changes by {shape.change:+.0%}, as where "
+            "a lens or air changes it; the errors of heights and restitutions allow for it"
+        )
     first = fit.flights[ball.bounces[0]]
     late = float(fit.times[first.first] - (ball.impact_times[0] - fall_time).nominal_value)
     if late > 0.2 * fall_time.nominal_value:
@@ -179,11 +189,6 @@ def notes_of(ball: Track, shape: Shape, fall_time: Any, unit: str) -> list[str]:
     least = min(last - start for start, last in fit.flights)
     if least < 5:
         notes.append(f"{name}: a flight has only {least} points; a higher frame rate would help.")
-    if fit.correlation > _CORRELATED:
-        notes.append(
-            f"{name}: the errors of neighbouring points go together (correlation "
-            f"{fit.correlation:.2g}), as when a mark drifts on the ball; the errors allow for it."
-        )
     return notes
 
 
@@ -204,20 +209,3 @@ def stays_long(ball: Track, *, alone: bool) -> list[str]:
         return [f"{biased}; what is fitted to them is off by as much"]
     hint = OptionHint({"floor": None})
     return [Message(f"{biased}; ", hint, " tells the floor's level, for those at the touch")]
-
-
-def _uneven(name: str, shape: Shape) -> list[str]:
-    """Return notes where the acceleration differs between flights, or changes within them."""
-    notes: list[str] = []
-    if shape.widening > 1.0:
-        notes.append(
-            f"{name}: the accelerations of its flights differ by {shape.scatter:.1%}, as where a "
-            "lens or the distance to the camera changes the scale; each flight has its own, and "
-            "heights and restitutions are as uncertain"
-        )
-    if shape.bent:
-        notes.append(
-            f"{name}: within its flights the acceleration changes by {shape.change:+.0%}, as where "
-            "a lens or air changes it; the errors of heights and restitutions allow for it"
-        )
-    return notes
