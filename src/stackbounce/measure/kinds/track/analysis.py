@@ -38,11 +38,17 @@ _WANTED = "data must hold a ball that falls and bounces, got "
 
 
 class _Flown(NamedTuple):
-    """A ball, the flights in its track, and after which of them it bounces."""
+    """A ball, its positions by axis, the flights in its track, and after which it bounces."""
 
     name: str
+    position: dict[str, Array]
     fit: Parabolas
     bounces: list[int]
+
+    def along(self, up: Upward) -> "_Flown":
+        """Return the same flights, with heights along another direction."""
+        heights = up.heights(self.position)
+        return self._replace(fit=Parabolas(self.fit.times, heights, self.fit.flights))
 
 
 def track(
@@ -122,7 +128,7 @@ def track(
         return _bouncing(found, up, _flights(found, up, gravity), compared)
 
     flown, left_out = seen_along(up)
-    turn = _turn(flown, found, up)
+    turn = _turn(flown, up)
     if turn is not None:
         up = up._replace(tilt=turn.angle)
         flown, left_out = seen_along(up)
@@ -130,7 +136,7 @@ def track(
     level = None if floor is None else finite("floor", floor, "metres")
 
     def found_at(tilt: float) -> list[Track]:
-        seen = [_seen_at(ball, found, up, tilt) for ball in flown]
+        seen = [ball.along(up._replace(tilt=tilt)) for ball in flown]
         if drag is not None:
             return [_track_in_air(seen, level, units, drag)]
         return [_track(ball, level, units, alone=len(seen) == 1) for ball in seen]
@@ -153,17 +159,16 @@ def track(
         if gains := no_gain(ball.restitutions, ball.impact_times):
             raise InvalidValue(_WANTED + gains)
     upwards = up.axis if up.sign > 0.0 else f"-{up.axis}"
-    first = balls[0].impact_times[0]
-    return Tracks(tuple(balls), ratios, first, base, upwards, up.tilt, tuple(notes), units, drag)
+    return Tracks(tuple(balls), ratios, base, upwards, up.tilt, tuple(notes), units, drag)
 
 
-def _turn(flown: list[_Flown], found: Columns, up: Upward) -> Turn | None:
+def _turn(flown: list[_Flown], up: Upward) -> Turn | None:
     """Return the turn of the camera that the lowest ball and its floor show, None for none."""
     side = "x" if up.axis == "y" else "y"
-    if side not in found.positions[0]:
-        return None
     ball = min(flown, key=lambda ball: float(ball.fit.heights.min()))
-    across = _position(ball, found, up)[side]
+    if side not in ball.position:
+        return None
+    across = ball.position[side]
     known = np.isfinite(across)
     if known.sum() < 2:
         return None
@@ -173,21 +178,6 @@ def _turn(flown: list[_Flown], found: Columns, up: Upward) -> Turn | None:
     speed = float(np.polyfit(times, across[known], 1)[0])
     slow = acceleration_angle(ball.fit, across)
     return turn_of(slow, floor, speed / nominal(seen.impact_speeds[0]), up.axis)
-
-
-def _position(ball: _Flown, found: Columns, up: Upward) -> dict[str, Array]:
-    """Return the positions of a ball, by axis, at the times of its flights."""
-    position = found.positions[found.names.index(ball.name)]
-    good = np.isfinite(up.heights(position))
-    return {axis: values[good] for axis, values in position.items()}
-
-
-def _seen_at(ball: _Flown, found: Columns, up: Upward, tilt: float) -> _Flown:
-    """Return a ball with the same flights, seen with another tilt."""
-    if tilt == up.tilt:
-        return ball
-    heights = up._replace(tilt=tilt).heights(_position(ball, found, up))
-    return ball._replace(fit=Parabolas(ball.fit.times, heights, ball.fit.flights))
 
 
 def _flights(found: Columns, up: Upward, gravity: float) -> list[_Flown]:
@@ -200,7 +190,8 @@ def _flights(found: Columns, up: Upward, gravity: float) -> list[_Flown]:
             continue
         flights = flights_of(found.times[good], heights[good], gravity)
         if flights is not None:
-            flown.append(_Flown(name, *flights))
+            known = {axis: values[good] for axis, values in position.items()}
+            flown.append(_Flown(name, known, *flights))
     return flown
 
 
@@ -211,7 +202,7 @@ def _bouncing(
 
     `gravity` is None where the scale or the clock is not known.
     """
-    reasons = {ball.name: no_flight(*ball[1:], up.axis, gravity) for ball in flown}
+    reasons = {ball.name: no_flight(ball.fit, ball.bounces, up.axis, gravity) for ball in flown}
     kept = [ball for ball in flown if not reasons[ball.name]]
     if kept:
         names = [ball.name for ball in kept]
@@ -264,7 +255,7 @@ def _track(
     """Return a ball's bounces from its parabolas; a drag is taken to be exact."""
     from uncertainties import ufloat
 
-    name, fit, bounces = ball
+    name, _, fit, bounces = ball
     if drag is not None:
         fit = motion.straightened(fit, drag)
     shape = shape_of(fit.times, fit.heights, fit.flights)
@@ -305,7 +296,6 @@ def _track(
         ),
         restitutions=tuple(out / into * ratio for into, out in zip(impacts, rebounds, strict=True)),
         gravity=gravity,
-        times=fit.times,
         heights=ball.fit.heights,
         fit=fit,
         bounces=tuple(bounces),

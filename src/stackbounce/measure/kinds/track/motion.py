@@ -82,13 +82,10 @@ def own_noise(times: Array, heights: Array, flights: Sequence[Flight]) -> float:
     >>> round(own_noise(times, 3.0 * times**2 + noise, [Flight(0, 1000)]), 4)
     0.001
     """
-    square, freedom = 0.0, 0
-    for first, last in flights:
-        if last - first >= OWN:
-            *_, rest = _polynomial(times, heights, Flight(first, last), 2)
-            square += float(rest @ rest)
-            freedom += last - first - 3
-    return math.sqrt(square / freedom) if freedom else math.inf
+    own = [flight for flight in flights if flight.last - flight.first >= OWN]
+    rests = [_polynomial(times, heights, flight, 2)[-1] for flight in own]
+    freedom = sum(len(rest) - 3 for rest in rests)
+    return math.sqrt(sum(float(rest @ rest) for rest in rests) / freedom) if own else math.inf
 
 
 def _scatter(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[float, float]:
@@ -152,11 +149,10 @@ def _polynomial(
     part = slice(*flight)
     half = 0.5 * float(times[part][-1] - times[part][0])
     z = (times[part] - times[part][0]) / half - 1.0
-    design = np.vander(z, degree + 1, increasing=True)
-    inverse = np.linalg.pinv(design)
     level = heights[part] - heights[part].mean()
-    terms = inverse @ level
-    return terms, np.sqrt((inverse**2).sum(axis=1)), half, level - design @ terms
+    terms, covariance = np.polyfit(z, level, degree, cov="unscaled")
+    errors = np.sqrt(np.diag(covariance))
+    return terms[::-1], errors[::-1], half, level - np.polyval(terms, z)
 
 
 def accelerations(times: Array, heights: Array, wide: int, least: float = -1.0) -> Array:

@@ -38,10 +38,10 @@ class Track:
         Of each bounce: rebound over impact speed.
     gravity : ufloat
         Of the flights, as tracked, in m/s².
-    times, heights : ndarray
-        (N,) of the points, in s and m, up-positive.
+    heights : ndarray
+        (N,) of the points, in m, up-positive.
     fit : Parabolas
-        Those of the flights.
+        Those of the flights, with the times of the points.
     bounces : tuple of int
         After which flights it bounces.
     notes : tuple of str
@@ -57,7 +57,6 @@ class Track:
     apex_heights: tuple[Number, ...]
     restitutions: tuple[Number, ...]
     gravity: Number
-    times: Array
     heights: Array
     fit: Parabolas
     bounces: tuple[int, ...]
@@ -75,8 +74,6 @@ class Tracks(Finding):
     rebound_ratios : tuple of ufloat
         Of a stacked drop: each ball's rebound speed over the lowest one's impact speed; empty for
         one ball, or where the balls do not bounce together.
-    first_impact : ufloat
-        When the lowest ball first bounces, in s.
     time_base : TimeBase
         The track's frame rate and scale, checked against gravity.
     axis : str
@@ -96,7 +93,6 @@ class Tracks(Finding):
 
     balls: tuple[Track, ...]
     rebound_ratios: tuple[Number, ...]
-    first_impact: Number
     time_base: TimeBase
     axis: str
     tilt: float
@@ -151,13 +147,15 @@ class Tracks(Finding):
         """Return each ball's height above where it first bounces."""
         unit = self.units.length
         return [
-            Curve(ball.name, "position", ball.times, ball.heights - nominal(ball.levels[0]), unit)
+            Curve(
+                ball.name, "position", ball.fit.times, ball.heights - nominal(ball.levels[0]), unit
+            )
             for ball in self.balls
         ]
 
     def first_touch(self) -> float | None:
         """Return when the lowest ball first bounces, in s; None where the clock is not known."""
-        return nominal(self.first_impact) if self.units.time == "s" else None
+        return nominal(self.balls[0].impact_times[0]) if self.units.time == "s" else None
 
 
 def notes_of(ball: Track, shape: Shape, fall_time: Any, unit: str) -> list[str]:
