@@ -50,22 +50,17 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
 
 def _draw_ball(axes: "Axes", ball: Any, color: str, found: Any) -> None:
     named = len(found.balls) > 1
-    used = np.isfinite(ball.fit.residuals)
+    times, used = ball.fit.times, np.isfinite(ball.fit.residuals)
+    label = _label(ball, named, found.units.speed)
     dots: Any = {"marker": "o", "linestyle": "", "color": color, "markersize": 3.4}
     hollow: Any = dots | {"markerfacecolor": "white", "markeredgewidth": 0.9}
-    axes.plot(
-        ball.fit.times[used],
-        ball.heights[used],
-        label=_label(ball, named, found.units.speed),
-        **dots,
-    )
-    axes.plot(ball.fit.times[~used], ball.heights[~used], **hollow)
-    impacts = dict(
-        zip(ball.bounces, (time.nominal_value for time in ball.impact_times), strict=True)
-    )
+    axes.plot(times[used], ball.heights[used], label=label, **dots)
+    axes.plot(times[~used], ball.heights[~used], **hollow)
+    met = [time.nominal_value for time in ball.impact_times]
+    impacts = dict(zip(ball.bounces, met, strict=True))
     for j, (first, last) in enumerate(ball.fit.flights):
-        start = impacts.get(j - 1, ball.fit.times[first])
-        stop = impacts.get(j, ball.fit.times[last - 1])
+        start = impacts.get(j - 1, times[first])
+        stop = impacts.get(j, times[last - 1])
         at = np.linspace(start, stop, _SAMPLES)
         axes.plot(at, found.fitted(ball, j, at), color=color, linewidth=1.4)
     rows = zip(ball.impact_times, ball.levels, ball.restitutions, strict=True)

@@ -145,13 +145,11 @@ class Tracks(Finding):
 
     def curves(self, data: Any) -> list[Curve]:  # noqa: ARG002
         """Return each ball's height above where it first bounces."""
-        unit = self.units.length
-        return [
-            Curve(
-                ball.name, "position", ball.fit.times, ball.heights - nominal(ball.levels[0]), unit
-            )
-            for ball in self.balls
-        ]
+        curves = []
+        for ball in self.balls:
+            above = ball.heights - nominal(ball.levels[0])
+            curves.append(Curve(ball.name, "position", ball.fit.times, above, self.units.length))
+        return curves
 
     def first_touch(self) -> float | None:
         """Return when the lowest ball first bounces, in s; None where the clock is not known."""
