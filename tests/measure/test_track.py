@@ -318,12 +318,6 @@ def test_a_fall_without_g(rate):
     assert any("record the acceleration with g" in note for note in found.notes)
 
 
-def test_linear_acceleration_is_told_by_its_rest():
-    record = record_of(falls(0.8, LAW, mass=0.2, bounces=4), linear=True, before=1.5, seed=4)
-    record.attrs["format"] = "table of numbers"
-    assert accelerometer(record).mean.nominal_value == pytest.approx(0.6, abs=0.02)
-
-
 def test_a_fall_to_the_end_of_the_record():
     record = record_of(falls(1.5, LAW, mass=0.2), linear=True, seed=1)
     cut = record.isel(time=record.time.values < 0.5 + 0.5)
