@@ -114,13 +114,12 @@ def _from_dataset(data: Any) -> Columns:
 
 def upward(found: Columns, gravity: float) -> Upward:
     """Return the upward direction: the one in which constant downward acceleration fits best."""
-    best, most = Upward("y" if "y" in found.positions[0] else "x", 1.0), 0.0
-    for name in found.positions[0]:
+    gains: dict[Upward, float] = {}
+    for name in sorted(found.positions[0], reverse=True):  # y first, where nothing falls
         each = [_gains(found.times, position[name], gravity) for position in found.positions]
-        for sign, gain in zip((1.0, -1.0), map(sum, zip(*each, strict=True)), strict=True):
-            if gain > most:
-                best, most = Upward(name, sign), gain
-    return best
+        up, down = map(sum, zip(*each, strict=True))
+        gains |= {Upward(name, 1.0): up, Upward(name, -1.0): down}
+    return max(gains, key=gains.__getitem__)
 
 
 def _gains(times: Array, heights: Array, gravity: float) -> tuple[float, float]:

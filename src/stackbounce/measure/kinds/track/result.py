@@ -178,10 +178,6 @@ def notes_of(ball: Track, shape: Shape, fall_time: Any, unit: str) -> list[str]:
             f"{name}: its track begins {late:.2g} {unit} after the fall did; the drop height is "
             "that of a fall from rest with the same impact speed."
         )
-    elif late < -0.1 * fall_time.nominal_value:
-        notes.append(
-            f"{name}: it goes up before it falls; the drop height is that of its highest point."
-        )
     least = min(last - start for start, last in fit.flights)
     if least < 5:
         notes.append(f"{name}: a flight has only {least} points; a higher frame rate would help.")
@@ -196,12 +192,10 @@ def stays_long(ball: Track, *, alone: bool) -> list[str]:
     excess = 0.5 * ball.gravity.nominal_value * lasts
     if excess < _NOTICED * ball.impact_speeds[0].std_dev:
         return []
+    hint = ("; ", OptionHint({"floor": None}), " tells the floor's level, for those at the touch")
     biased = (
         f"{ball.name} is in contact for {1e3 * lasts:.0f} ms or more: its speeds, where the "
         f"flights before and after meet, are too high by {excess:.2g} m/s or more, beyond their "
         "errors, and so are its heights"
     )
-    if not alone:
-        return [f"{biased}; what is fitted to them is off by as much"]
-    hint = OptionHint({"floor": None})
-    return [Message(f"{biased}; ", hint, " tells the floor's level, for those at the touch")]
+    return [Message(biased, *hint * alone)]
