@@ -122,17 +122,13 @@ def track(
     if up.sign < 0.0:
         notes.append(f"{up.axis} points down; heights are counted upwards.")
     units = units_of(data)
-    compared = gravity if units.known else None
-
-    def seen_along(up: Upward) -> tuple[list[_Flown], list[str]]:
-        return _bouncing(found, up, _flights(found, up, gravity), compared)
-
-    flown, left_out = seen_along(up)
+    flown = _bouncing(found, up, gravity, units)
     turn = _turn(flown, up)
     if turn is not None:
         up = up._replace(tilt=turn.angle)
-        flown, left_out = seen_along(up)
-    notes.extend(left_out)
+        flown = _bouncing(found, up, gravity, units)
+    left_out = [name for name in found.names if name not in {ball.name for ball in flown}]
+    notes.extend(f"{name}: no bounce was found, and it is left out." for name in left_out)
     level = None if floor is None else finite("floor", floor, "metres")
 
     def found_at(tilt: float) -> list[Track]:
@@ -180,35 +176,24 @@ def _turn(flown: list[_Flown], up: Upward) -> Turn | None:
     return turn_of(slow, floor, speed / nominal(seen.impact_speeds[0]), up.axis)
 
 
-def _flights(found: Columns, up: Upward, gravity: float) -> list[_Flown]:
-    """Return the balls that have flights and bounces."""
-    flown = []
+def _bouncing(found: Columns, up: Upward, gravity: float, units: TrackUnits) -> list[_Flown]:
+    """Return the balls that fly freely and bounce; refuse a track without any."""
+    flown, reasons = [], []
+    compared = gravity if units.known else None
     for name, position in zip(found.names, found.positions, strict=True):
         heights = up.heights(position)
         good = np.isfinite(heights)
-        if good.sum() < 5:
+        flights = flights_of(found.times[good], heights[good], gravity) if good.sum() > 4 else None
+        if flights is None:
             continue
-        flights = flights_of(found.times[good], heights[good], gravity)
-        if flights is not None:
+        if reason := no_flight(*flights, up.axis, compared):
+            reasons.append(reason)
+        else:
             known = {axis: values[good] for axis, values in position.items()}
             flown.append(_Flown(name, known, *flights))
-    return flown
-
-
-def _bouncing(
-    found: Columns, up: Upward, flown: list[_Flown], gravity: float | None
-) -> tuple[list[_Flown], list[str]]:
-    """Return the balls that fly freely and bounce, with notes on the others.
-
-    `gravity` is None where the scale or the clock is not known.
-    """
-    reasons = {ball.name: no_flight(ball.fit, ball.bounces, up.axis, gravity) for ball in flown}
-    kept = [ball for ball in flown if not reasons[ball.name]]
-    if kept:
-        names = [ball.name for ball in kept]
-        without = [name for name in found.names if name not in names]
-        return kept, [f"{name}: no bounce was found, and it is left out." for name in without]
-    reason = next(iter(reasons.values()), "") or _seen(found, up, gravity)
+    if flown:
+        return flown
+    reason = reasons[0] if reasons else _seen(found, up, compared)
     part = OptionHint({"start": None, "stop": None})
     many = (f" (means of {found.many} of its points were taken: ", part, " choose the bounces)")
     raise InvalidValue(Message(_WANTED, reason, *many[: 3 * (found.many > 1)]))

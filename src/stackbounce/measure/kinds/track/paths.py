@@ -209,13 +209,12 @@ def _joined(times: Array, heights: Array, flights: list[Flight]) -> Bounced | No
         if fitted.freedom < 1 or fitted.fall <= 0.0:
             return None
         jumps, errors, before = fitted.jumps()
-        weak = np.flatnonzero(np.abs(jumps) < _CLEAR_JUMP * errors)
+        size = np.abs(jumps)
+        weak = np.flatnonzero(size < _CLEAR_JUMP * errors)
+        if not weak.size:
+            weak = _small(fitted, jumps)
         if weak.size:
-            flights = _united(flights, weak[np.argsort(np.abs(jumps[weak]))])
-            continue
-        small = _small(fitted, jumps)
-        if small.size:
-            flights = _united(flights, small)
+            flights = _united(flights, weak[np.argsort(size[weak])])
             continue
         bouncing = (before < 0.0) & (before + jumps > 0.0)
         bounces = np.flatnonzero(bouncing & (jumps > _LEAST_JUMP * jumps.max(initial=0.0))).tolist()
@@ -229,17 +228,15 @@ def _joined(times: Array, heights: Array, flights: list[Flight]) -> Bounced | No
 
 
 def _small(fitted: Parabolas, jumps: Array) -> NDArray[np.intp]:
-    """Return the jumps within a flight, smallest first, that a scale which changes makes.
+    """Return the jumps within a flight that a scale which changes makes.
 
     A lens, or a distance to the camera that changes, gives the pieces of one flight accelerations
     of their own. The pieces of a hand are shorter, or apart.
     """
     first, last = fitted.firsts, fitted.lasts
-    size = np.abs(jumps)
     count = last - first
     beside = (first[1:] - last[:-1] <= _BESIDE) & (np.minimum(count[:-1], count[1:]) > _LEAST_FALL)
-    small = np.flatnonzero(beside & (size < _LEAST_JUMP * jumps.max(initial=0.0)))
-    return small[np.argsort(size[small])]
+    return np.flatnonzero(beside & (np.abs(jumps) < _LEAST_JUMP * jumps.max(initial=0.0)))
 
 
 def _united(flights: list[Flight], weakest: NDArray[np.intp]) -> list[Flight]:
