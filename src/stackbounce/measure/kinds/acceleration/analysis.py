@@ -161,7 +161,7 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
     speeds = [g * lasting[0]] * held + [g * lasts / 2.0 for lasts in flights]  # at the end of each
     before, after = speeds[:-1], speeds[1:]
     kept = [out / into for into, out in zip(before, after, strict=True)]
-    refuse_gain(kept, [float(times[flight.last]) for flight in series])
+    refuse_gain(kept, [float(times[flight.last]) for flight in series[:-1]])
     pulses = list(pairwise(series))
     counts = [other.first - flight.last - 1 for flight, other in pulses]
     tops = [values[flight.last + 1 : other.first] for flight, other in pulses]

@@ -5,7 +5,7 @@ from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, whole
+from stackbounce.errors import InvalidValue
 from stackbounce.measure.finding import Branch, Finding, Listed
 from stackbounce.measure.quantities import Array, Number, Row, measured, nominal
 from stackbounce.model import Tabulated
@@ -109,20 +109,17 @@ class Press(Finding):
         """Return loading and unloading, as far as they were recorded."""
         return [way for way in (self.loading, self.unloading) if way is not None]
 
-    def table(self, points: int = MOST_POINTS) -> Tabulated:
-        """Return the curve itself as a law: a `Tabulated` one, with as many points.
+    def table(self) -> Tabulated:
+        """Return the curve itself as a law: a `Tabulated` one.
 
-        Parameters
-        ----------
-        points : int, optional
-            3 to 16, at equal distances from the contact to the peak.
+        Its points are at equal distances from the contact to the peak.
 
         Raises
         ------
         InvalidValue
             If it has too few points.
         """
-        return _table(self.loading, self.unloading, points)
+        return _table(self.loading, self.unloading)
 
     def parts(self) -> dict[str, Any]:
         """Return the contact, as a drop's TOML has it.
@@ -151,7 +148,7 @@ class Press(Finding):
         return {"contact": contact}
 
 
-def _table(loading: Branch, unloading: Branch | None, points: int) -> Tabulated:
+def _table(loading: Branch, unloading: Branch | None) -> Tabulated:
     """Return the law of the points of loading and, if they are known, of unloading.
 
     It goes through the many points of a branch by monotone least squares; those with a compression
@@ -159,21 +156,22 @@ def _table(loading: Branch, unloading: Branch | None, points: int) -> Tabulated:
     """
     from scipy.interpolate import PchipInterpolator
 
-    whole("points", points, 3, MOST_POINTS)
     c, f = _pressed("loading", loading)
-    knots = np.linspace(0.0, float(c.max()), points)
-    force, bulge = np.zeros(points), np.zeros(len(c))
+    knots = np.linspace(0.0, float(c.max()), MOST_POINTS)
+    force, bulge = np.zeros(MOST_POINTS), np.zeros(len(c))
     for _ in range(2):  # the second time by how much the law's spline is off straight lines
         force = np.append(0.0, np.cumsum(_rises(_ramps(knots, c), f - bulge)))
         bulge = PchipInterpolator(knots, force)(c) - np.interp(c, knots, force)
-    force[1:] += _STEEP * force[-1] * np.arange(1, points) / points
+    force[1:] += _STEEP * force[-1] * np.arange(1, MOST_POINTS) / MOST_POINTS
     if unloading is None:
         return Tabulated(knots.tolist(), force.tolist())
     c, f = _pressed("unloading", unloading)
     # The share of the loading rises to 1: all rises together are 1, by a firm condition.
     ramps = np.insert(_ramps(knots, c)[:, 1:], 0, 1.0, axis=1) * np.interp(c, knots, force)[:, None]
     firm = _FIRM * len(c) ** 0.5 * force[-1]
-    shares = np.cumsum(_rises(np.vstack([ramps, np.full(points - 1, firm)]), np.append(f, firm)))
+    shares = np.cumsum(
+        _rises(np.vstack([ramps, np.full(MOST_POINTS - 1, firm)]), np.append(f, firm))
+    )
     shares[-1] = 1.0
     back = np.append(0.0, force[1:] * np.minimum(shares, 1.0))
     return Tabulated(knots.tolist(), force.tolist(), back.tolist())

@@ -9,8 +9,9 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.drag import Drag, with_difference, with_error_of_drag
+from stackbounce.measure.finding import no_gain
 from stackbounce.measure.kinds.track import motion
-from stackbounce.measure.kinds.track.free_flight import no_flight, no_gain, what_is_seen
+from stackbounce.measure.kinds.track.free_flight import no_flight, what_is_seen
 from stackbounce.measure.kinds.track.motion import shape_of
 from stackbounce.measure.kinds.track.parabolas import Parabolas
 from stackbounce.measure.kinds.track.paths import Columns, Upward, flights_of, positions_of, upward
@@ -34,6 +35,7 @@ _HEIGHT_OFF = 0.12  # the same of heights
 _HEIGHT_BY_SCATTER = 0.7  # of the accelerations' scatter, by which heights are off there
 _SPEED_POWER = 0.67  # of the scale of heights, which is that of speeds there
 _ON_THE_WHOLE = 0.25  # of a swaying camera's acceleration, in the mean of simulated flights
+_NEWTON_ROUNDS = 3  # from the middle between two flights in air to where they meet
 _WANTED = "data must hold a ball that falls and bounces, got "
 
 
@@ -309,11 +311,16 @@ def _bounce(
     both = slice(flight, flight + 2)
     before, after = fit.flights[both]
     time = 0.5 * (fit.times[before.last - 1] + fit.times[after.first])
-    time += motion.meeting(numbers[both], fit.origins[both], time, drag)
-    (low, into, fall), (high, out, back) = (
-        motion.state(flight, float(time - origin), drag)
-        for flight, origin in zip(numbers[both], fit.origins[both], strict=True)
-    )
+
+    def states(time: float) -> list[tuple[Any, Any, Any]]:
+        sides = zip(numbers[both], fit.origins[both], strict=True)
+        return [motion.state(side, float(time - origin), drag) for side, origin in sides]
+
+    # parabolas meet where straight lines do whose speeds differ as much
+    for _ in range(_NEWTON_ROUNDS if drag else 0):
+        (low, into, _), (high, out, _) = states(time)
+        time += nominal((low - high) / (out - into))
+    (low, into, fall), (high, out, back) = states(time)
     since = (low - high) / (out - into)
     if floor is not None:
         speeds = _at_level(into, low - floor, fall), _at_level(out, high - floor, back)

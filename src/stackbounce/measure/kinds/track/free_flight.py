@@ -7,7 +7,6 @@ and a short contact between them.
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -27,7 +26,6 @@ _CLEAR_CHANGE = 4.0  # standard errors of that change
 _LONGEST_CONTACT = 0.12  # s; longer ones are those of legs or hands
 _MOST_BOUNCES = 100  # of a ball
 _CLOSE = 3  # frames between two pieces of one flight, at most
-_LARGEST_GAIN = 0.02  # of a restitution above 1, or 3 standard errors
 _ONE_PARABOLA = 0.03  # of the range: a track is one parabola if it is nearer to it
 _STILL = 8.0  # errors of a point, within which nothing moves
 _WINDOWS = (5, 7, 11, 17, 25, 51, 101, 201, 401)  # points that tell an acceleration
@@ -69,19 +67,6 @@ def no_flight(fit: Parabolas, bounces: list[int], axis: str, gravity: float | No
             "oscillation?"
         )
     return "" if gravity is None else _lasting(fit, bounces, fall / gravity)
-
-
-def no_gain(restitutions: Sequence[Any], moments: Sequence[Any]) -> str:
-    """Return why restitutions are none: above 1, or not above 0; nothing where they are."""
-    for k, (kept, moment) in enumerate(zip(restitutions, moments, strict=True)):
-        value, error = kept.nominal_value, kept.std_dev
-        if value <= 0.0 or value > 1.0 + max(_LARGEST_GAIN, 3.0 * error):
-            return (
-                f"a restitution of {kept:.1uS} at {moment.nominal_value:.3g} (bounce {k}): a ball "
-                "alone rebounds with 0 to 1 of its speed; it is hit or thrown there, or bounces on "
-                "a ball whose track is not here"
-            )
-    return ""
 
 
 def what_is_seen(times: Array, heights: Array, axis: str, gravity: float | None) -> str:

@@ -24,7 +24,6 @@ _MOST_ROUNDS = 30  # of taking the drag away; each leaves a tenth of the change 
 _SETTLED = 1e-10  # relative change of all numbers of the flights in the last of these rounds
 _STRANGE = 7.0  # times the median residual, 4.7 standard deviations: a point of another flight
 _LEAST_POINTS = 5  # of a flight whose ends are cut off where they are strange
-_NEWTON_ROUNDS = 3  # from the middle between two flights to where they meet
 
 Numbers: TypeAlias = tuple[Any, Any, Any]
 """Acceleration, level and speed of a flight at its middle: numbers with errors."""
@@ -280,26 +279,6 @@ def state(numbers: Numbers, since: float, drag: Drag | None) -> tuple[Any, Any, 
     then = wrap(lambda speed, fall: flown(rate, speed, since, fall)[1])
     later = then(speed, fall)
     return level + way(speed, fall), later, fall + rate * later * abs(nominal(later))
-
-
-def meeting(flights: Sequence[Numbers], middles: Array, near: float, drag: Drag | None) -> float:
-    """Return how much later than some time two flights in air meet, in s.
-
-    Parabolas meet where straight lines do whose speeds differ as much: for them it is 0.
-
-    Examples
-    --------
-    >>> meeting([(10.0, 0.0, -1.0), (10.0, 0.5, 1.0)], np.array([0.0, 0.2]), 0.1, None)
-    0.0
-    """
-    later = 0.0
-    for _ in range(0 if drag is None else _NEWTON_ROUNDS):
-        (low, before, _), (high, after, _) = (
-            state(flight, float(near - middle) + later, drag)
-            for flight, middle in zip(flights, middles, strict=True)
-        )
-        later += nominal((low - high) / (after - before))
-    return later
 
 
 def fallen(speed: Any, fall: Any, drag: Drag | None) -> tuple[Any, Any]:
