@@ -169,9 +169,8 @@ def _table(loading: Branch, unloading: Branch | None) -> Tabulated:
     # The share of the loading rises to 1: all rises together are 1, by a firm condition.
     ramps = np.insert(_ramps(knots, c)[:, 1:], 0, 1.0, axis=1) * np.interp(c, knots, force)[:, None]
     firm = _FIRM * len(c) ** 0.5 * force[-1]
-    shares = np.cumsum(
-        _rises(np.vstack([ramps, np.full(MOST_POINTS - 1, firm)]), np.append(f, firm))
-    )
+    firmly = np.vstack([ramps, np.full_like(ramps[:1], firm)])
+    shares = np.cumsum(_rises(firmly, np.append(f, firm)))
     shares[-1] = 1.0
     back = np.append(0.0, force[1:] * np.minimum(shares, 1.0))
     return Tabulated(knots.tolist(), force.tolist(), back.tolist())
