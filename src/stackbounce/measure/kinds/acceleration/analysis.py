@@ -163,8 +163,7 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
     kept = [out / into for into, out in zip(before, after, strict=True)]
     refuse_gain(kept, [float(times[flight.last]) for flight in series[:-1]])
     pulses = list(pairwise(series))
-    counts = [other.first - flight.last - 1 for flight, other in pulses]
-    tops = [values[flight.last + 1 : other.first] for flight, other in pulses]
+    counts = [first - last - 1 for (_, last), (first, _) in pulses]
     notes += _notes(times, counts, held)
     return Accelerometer(
         fall=fall,
@@ -178,7 +177,7 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
             starts[k + 1] - ends[k] if count >= _CONTACT_SAMPLES else None
             for k, count in enumerate(counts)
         ),
-        peaks=tuple(float(top.max()) for top in tops),
+        peaks=tuple(float(values[last + 1 : first].max()) for (_, last), (first, _) in pulses),
         notes=tuple(notes),
         times=times,
         values=values,

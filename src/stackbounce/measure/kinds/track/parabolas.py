@@ -307,10 +307,8 @@ class Parabolas:
         covariance = (along * (weights * fits.variance / fits.strength)[:, None]).T @ along
         covariance += (off * weights[:, None]).T @ off
         blocks = np.einsum("k,knij->nij", weights * fits.variance, fits.inverse)
-        at = 1 + 2 * np.arange(len(self.flights))
-        for i in (0, 1):
-            for j in (0, 1):
-                covariance[at + i, at + j] += blocks[:, i, j]
+        at = 1 + np.arange(2 * len(self.flights)).reshape(-1, 2)
+        covariance[at[:, :, None], at[:, None, :]] += blocks
         return np.asarray(covariance)
 
     @cached_property
