@@ -252,13 +252,10 @@ def _without_strange_ends(flight: Flight, residuals: Array) -> Flight:
 
 def curve(fit: Parabolas, flight: int, times: Array, drag: Drag | None) -> Array:
     """Return the heights of a flight at some times, in air or on its parabola."""
-    level, speed = fit.values[1 + 2 * flight : 3 + 2 * flight]
-    fall, since = fit.values[0], times - fit.origins[flight]
-    if drag is None:
-        return np.asarray(level + speed * since - 0.5 * fall * since**2)
-    rate = nominal(drag.rate)
-    ways = [flown(rate, float(speed), time, float(fall))[0] for time in since.tolist()]
-    return np.asarray(level + np.array(ways))
+    fall, level, speed = fit.values[[0, 1 + 2 * flight, 2 + 2 * flight]].tolist()
+    rate = nominal(drag.rate) if drag else 0.0
+    since = (times - fit.origins[flight]).tolist()
+    return np.asarray([level + flown(rate, speed, time, fall)[0] for time in since])
 
 
 def state(numbers: Numbers, since: float, drag: Drag | None) -> tuple[Any, Any, Any]:

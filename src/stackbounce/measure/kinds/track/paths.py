@@ -105,11 +105,11 @@ def _from_dataset(data: Any) -> Columns:
     times = np.asarray(data["time"].values, dtype=np.float64)
     if "track" not in data[axes[0]].dims:
         data = data[axes].expand_dims(track=["ball"])
-    count = data.sizes["track"]
-    known = data["track"].values if "track" in data.coords else [f"ball {k}" for k in range(count)]
-    whole = {axis: data[axis].transpose("track", "time").values.astype(float) for axis in axes}
-    positions = [{axis: whole[axis][k] for axis in axes} for k in range(count)]
-    return Columns(times, [str(name) for name in known], positions)
+    positions = [
+        {axis: data[axis].isel(track=k).values.astype(float) for axis in axes}
+        for k in range(data.sizes["track"])
+    ]
+    return Columns(times, [str(name) for name in data["track"].values], positions)
 
 
 def upward(found: Columns, gravity: float) -> Upward:
