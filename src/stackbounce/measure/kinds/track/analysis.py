@@ -255,21 +255,17 @@ def _track(
         gravity = ufloat(fit.values[0], wider * math.sqrt(fit.covariance[0, 0]))
     size, sway = 0.0, 0.0
     if alone and floor is None:
-        gaps = [
-            fit.times[fit.flights[j + 1].first] - fit.times[fit.flights[j].last - 1]
-            for j in bounces
-        ]
-        size, sway = sway_of(moments, levels, impacts, max(gaps))
+        gaps = fit.times[fit.firsts[1:]] - fit.times[fit.lasts[:-1] - 1]
+        size, sway = sway_of(moments, levels, impacts, float(gaps[bounces].max()))
     if sway > 0.0:
         off = [ufloat(0.0, sway) for _ in bounces]  # the camera's speed at each
-        impacts = tuple(speed - one for speed, one in zip(impacts, off, strict=True))
-        rebounds = tuple(speed + one for speed, one in zip(rebounds, off, strict=True))
+        impacts = tuple(speed - sways for speed, sways in zip(impacts, off, strict=True))
+        rebounds = tuple(speed + sways for speed, sways in zip(rebounds, off, strict=True))
         gravity += ufloat(0.0, _ON_THE_WHOLE * sway**2 / size)
     # the scale after a bounce over that before, and the scale of heights
     ratio = known_to(1.0, math.hypot(shape.scatter, _RESTITUTION_OFF * shape.bent))
     place = known_to(1.0, math.hypot(_HEIGHT_BY_SCATTER * shape.scatter, _HEIGHT_OFF * shape.bent))
-    height, time = motion.fallen(impacts[0], numbers[bounces[0]][0], drag)
-    fall_time = time or impacts[0] / gravity
+    height, fall_time = motion.fallen(impacts[0], numbers[bounces[0]][0], drag)
     found = Track(
         name=name,
         impact_times=moments,

@@ -279,9 +279,9 @@ def state(numbers: Numbers, since: float, drag: Drag | None) -> tuple[Any, Any, 
 
 
 def fallen(speed: Any, fall: Any, drag: Drag | None) -> tuple[Any, Any]:
-    """Return height and time of the fall from rest to a speed; no time without drag."""
+    """Return height and time of the fall from rest to a speed."""
     if drag is None:
-        return speed**2 / (2.0 * fall), None
+        return speed**2 / (2.0 * fall), speed / fall
     height = drag.fall_height(speed, fall)
     if height is None:
         raise OverflowError("faster than the terminal speed")
