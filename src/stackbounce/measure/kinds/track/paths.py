@@ -76,22 +76,13 @@ def positions_of(data: Any) -> Columns:
         )
     if not found.positions:
         raise InvalidValue("data must hold the track of a ball, got none")
-    positions = [{axis: value[good] for axis, value in p.items()} for p in found.positions]
-    return _thinned(Columns(times, found.names, positions))
-
-
-def _thinned(found: Columns) -> Columns:
-    """Return a very long track with means of neighbours; those of a parabola lie on one."""
-    many = -(-len(found.times) // _MOST_POINTS)
-    if many < 2:
-        return found
-    count = len(found.times) // many
-
-    def means(values: Array) -> Array:
-        return np.asarray(values[: count * many].reshape(count, many).mean(axis=1))
-
-    positions = [{axis: means(value) for axis, value in own.items()} for own in found.positions]
-    return Columns(means(found.times), found.names, positions, many)
+    many = -(-len(times) // _MOST_POINTS)
+    kept = np.flatnonzero(good)[: len(times) // many * many].reshape(-1, many)
+    # means of neighbours on a parabola lie on one, too
+    positions = [
+        {axis: values[kept].mean(axis=1) for axis, values in own.items()} for own in found.positions
+    ]
+    return Columns(found.times[kept].mean(axis=1), found.names, positions, many)
 
 
 def _from_dataset(data: Any) -> Columns:
