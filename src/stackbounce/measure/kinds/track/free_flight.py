@@ -29,11 +29,6 @@ _CLOSE = 3  # frames between two pieces of one flight, at most
 _ONE_PARABOLA = 0.03  # of the range: a track is one parabola if it is nearer to it
 _STILL = 8.0  # errors of a point, within which nothing moves
 _WINDOWS = (5, 7, 11, 17, 25, 51, 101, 201, 401)  # points that tell an acceleration
-_INSTEAD = Message(
-    "if it does fall, but on an incline or with a wrong scale, ",
-    OptionHint({"gravity": None}),
-    " tells how fast",
-)
 
 
 def no_flight(fit: Parabolas, bounces: list[int], axis: str, gravity: float | None) -> str:
@@ -109,7 +104,10 @@ def _other(fall: float, gravity: float, axis: str) -> str:
     if fall > _GRAVITY_RATIO[1] * gravity:
         unit = OptionHint({"units": {axis: "cm"}})
         return Message(f"{seen}are its lengths in another unit (", unit, "), or in pixels?")
-    return Message(f"{seen}a ball that rolls, swings or is held? (", _INSTEAD, ")")
+    doubt = (
+        "a ball that rolls, swings or is held? (if it does fall, but on an incline or with a wrong "
+    )
+    return Message(f"{seen}{doubt}scale, ", OptionHint({"gravity": None}), " tells how fast)")
 
 
 def _arcs(flights: Sequence[Flight], bounces: Sequence[int]) -> list[Flight]:

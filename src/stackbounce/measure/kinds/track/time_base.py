@@ -62,8 +62,6 @@ class TimeBase(NamedTuple):
     ----------
     gravity : ufloat
         Of the flights as tracked, in m/s².
-    ratio : ufloat
-        Ratio of `gravity` to the true gravity.
     frame_rate_factor : float or None
         By which the true frame rate is higher: that of two usual frame rates, near the one that
         gravity requires. None where gravity agrees, or no usual frame rates make such a factor.
@@ -74,7 +72,6 @@ class TimeBase(NamedTuple):
     """
 
     gravity: Number
-    ratio: Number
     frame_rate_factor: float | None
     agrees: bool
     note: str
@@ -116,9 +113,9 @@ def check_time_base(
         note = "restitutions do not depend on frame rate and scale, heights and speeds do."
         if units.time == "s":
             note = f"if that is free fall, the scale is {1.0 / value:.3g} m for a pixel."
-        return TimeBase(gravity, ratio, None, False, seen + note)
+        return TimeBase(gravity, None, False, seen + note)
     if abs(value - 1.0) < max(_CALIBRATION, 3.0 * float(ratio.std_dev)):
-        return TimeBase(gravity, ratio, None, True, "")
+        return TimeBase(gravity, None, True, "")
     factor = math.sqrt(1.0 / value)
     clock = f"the frame rate is wrong by a factor of {factor:.3g}"
     rates = _misread(frame_rate, factor, max(_NEAR, 1.5 * float(ratio.std_dev) / value))
@@ -132,7 +129,7 @@ def check_time_base(
         f"Gravity comes out as {gravity:.2uS} m/s^2 instead of {true:g}: either {clock}, or all "
         f"lengths must be multiplied by {1.0 / value:.3g}. Nothing has been corrected."
     )
-    return TimeBase(gravity, ratio, usual, False, note)
+    return TimeBase(gravity, usual, False, note)
 
 
 def is_usual(ratio: float, frame_rate: float) -> bool:
