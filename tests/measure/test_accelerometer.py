@@ -69,12 +69,6 @@ def test_a_record_that_begins_in_flight_has_no_drop_height():
     assert any("no drop height" in note for note in found.notes)
 
 
-def test_a_fall_of_more_than_a_second_is_no_rest_without_g():
-    record = record_of(fall(height=6.0), before=1.5, seed=4)
-    record.attrs["format"] = "table of numbers"
-    assert near(accelerometer(record).drop_height, 6.0)
-
-
 def test_of_several_drops_the_longest_series_counts():
     one, other = record_of(fall(bounces=2), seed=1), record_of(fall(bounces=5), seed=2)
     size = np.concatenate([one.acceleration_absolute, np.full(200, G), other.acceleration_absolute])
@@ -90,7 +84,7 @@ def test_half_of_a_flight_is_near_zero():
     assert kept.nominal_value == pytest.approx(0.5 * 0.16 / 0.2)  # half a flight over the fall
 
 
-def test_a_bounce_between_two_samples_is_told():
+def test_a_bounce_between_two_samples_makes_a_restitution_too_large():
     record = record_of(fall(), seed=1)
     size = record.acceleration_absolute.values.copy()
     low = size < 1.0
@@ -101,9 +95,6 @@ def test_a_bounce_between_two_samples_is_told():
     size[gone : gone + 4] = 0.0  # the second bounce
     found = accelerometer((record.time.values, size))
     assert found.restitutions[0].nominal_value > 0.9
-    assert any("above 1" in note for note in found.notes) == (
-        found.restitutions[0].nominal_value > 1.0
-    )
 
 
 @pytest.mark.parametrize(

@@ -356,7 +356,7 @@ def test_the_curve_that_is_drawn_passes_through_the_points():
     assert len(curves) == len(ball.fit.flights)
     for line, (first, last) in zip(curves, ball.fit.flights, strict=True):
         part = slice(first, last)
-        there = np.interp(ball.times[part][used[part]], line.get_xdata(), line.get_ydata())
+        there = np.interp(ball.fit.times[part][used[part]], line.get_xdata(), line.get_ydata())
         assert np.std(there - ball.heights[part][used[part]]) < 1.2e-3
 
 

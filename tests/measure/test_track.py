@@ -67,9 +67,6 @@ def test_axes_are_found_and_told():
     assert track(tracked(FALL, down=True, seed=1)).axis == "-y"
     data = tracked(FALL, seed=1).rename(x="y", y="x")
     assert track(data).axis == "x"
-    assert track(data, axis="x").balls[0].restitutions
-    with pytest.raises(InvalidValue, match="axis must be"):
-        track(data, axis="z")
 
 
 @pytest.mark.parametrize(("rate", "read"), [(240, 60), (240, 30), (60, 30), (30, 60)])
@@ -81,7 +78,7 @@ def test_a_wrong_frame_rate_is_told_never_corrected(rate, read):
     assert f"{rate:.0f} frames per second read as {read:.0f}" in note
     assert "lengths must be" in note
     assert found.balls[0].drop_height.nominal_value == pytest.approx(1.0, abs=0.02)
-    right = track(data, frame_rate_factor=rate / read)
+    right = track(data.assign_coords(time=data.time * (read / rate)))
     assert right.time_base.agrees
     assert near(right.balls[0].impact_speeds[0], FALL.speeds[0])
 
@@ -106,7 +103,6 @@ def test_three_points_a_flight():
 def test_a_track_that_begins_late_says_so():
     found = track(tracked(FALL, before=-0.25, seed=1))
     assert any("begins 0.2" in note for note in found.notes)
-    assert not any("go together" in note for note in found.notes)
 
 
 def test_frames_may_come_at_uneven_times():
@@ -153,8 +149,7 @@ def test_a_ball_that_slows_down_across_turns_no_camera(slowing, tilt):
     assert near(kept, 0.8)
     assert kept.std_dev < 0.004
     assert found.tilt == pytest.approx(tilt, abs=0.005)
-    (note,) = [note for note in found.notes if "slow down across" in note]
-    assert "without this turn the first restitution is" in note
+    assert any("slow down across" in note for note in found.notes)
 
 
 def test_after_one_bounce_air_and_a_turned_camera_are_the_same():
@@ -165,7 +160,7 @@ def test_after_one_bounce_air_and_a_turned_camera_are_the_same():
         kept = found.balls[0].restitutions[0]
         assert abs(kept.nominal_value - 0.8) < 1.5 * kept.std_dev
         assert kept.std_dev > 0.02
-        assert any("without this turn" in note for note in found.notes)
+        assert any("degrees off the vertical" in note for note in found.notes)
 
 
 def test_heights_alone_tell_of_no_turn():
@@ -187,21 +182,11 @@ def test_a_camera_that_sways_widens_the_errors(seed):
     assert not any("levels that differ" in note for note in still.notes)
 
 
-def test_a_mark_at_rest_is_no_ball():
-    ball = tracked(FALL, frame_rate=60.0, seed=1)
-    mark = 0.01 * tracked(FALL, frame_rate=60.0, noise=0.01, seed=1) - 0.1
-    found = track(xr.concat([ball, mark.assign_coords(track=["mark"])], "track"))
-    assert [one.name for one in found.balls] == ["ball 0"]
-    assert any("mark: no bounce was found" in note for note in found.notes)
-    assert near(found.time_base.gravity, 9.80665)
-
-
 def test_no_second_ball_gains_speed():
     ball, hit = (tracked(fall, until=1.2, seed=1) for fall in (FALL, falls(0.3, lambda _: 1.3)))
     hit["y"] = hit.y + 0.1
-    found = track(xr.concat([ball, hit.assign_coords(track=["hit"])], "track"))
-    assert [one.name for one in found.balls] == ["ball 0"]
-    assert any("hit: it is left out, as it shows a restitution of" in one for one in found.notes)
+    with pytest.raises(InvalidValue, match=r"a restitution of 1\.3.* it is hit or thrown there"):
+        track(xr.concat([ball, hit.assign_coords(track=["hit"])], "track"))
 
 
 @pytest.mark.parametrize(
@@ -268,7 +253,7 @@ def test_a_wrong_scale_is_warned_of_not_refused(scale):
     found = track(data)
     assert not found.time_base.agrees
     assert any(f"multiplied by {1.0 / scale:g}" in note for note in found.notes)
-    assert near(track(data, scale=1.0 / scale).balls[0].drop_height, 1.0)
+    assert near(track(data / scale).balls[0].drop_height, 1.0)
     assert nominal(found.balls[0].restitutions)[0] == pytest.approx(0.8, abs=0.005)
 
 
@@ -305,7 +290,7 @@ def test_twenty_thousand_rows_take_seconds(period):
 
 
 def test_a_very_long_track_is_shortened_and_says_so():
-    data = tracked(FALL, frame_rate=20_000.0, until=1.2, seed=1)
+    data = tracked(FALL, frame_rate=10_000.0, until=1.2, seed=1)
     found = track(data)
     assert any("means of 2 neighbouring points" in note for note in found.notes)
     assert nominal(found.balls[0].restitutions)[0] == pytest.approx(0.8, abs=1e-3)
@@ -333,12 +318,6 @@ def test_a_fall_without_g(rate):
     assert any("record the acceleration with g" in note for note in found.notes)
 
 
-def test_linear_acceleration_is_told_by_its_rest():
-    record = record_of(falls(0.8, LAW, mass=0.2, bounces=4), linear=True, before=1.5, seed=4)
-    record.attrs["format"] = "table of numbers"
-    assert accelerometer(record).mean.nominal_value == pytest.approx(0.6, abs=0.02)
-
-
 def test_a_fall_to_the_end_of_the_record():
     record = record_of(falls(1.5, LAW, mass=0.2), linear=True, seed=1)
     cut = record.isel(time=record.time.values < 0.5 + 0.5)
@@ -357,7 +336,7 @@ def test_a_soft_pulse_is_no_bounce_and_a_gain_is_none():
     with pytest.raises(InvalidValue, match="above 2 g"):
         accelerometer(felt((1.5, 1.56), 2.0, 1.3 * G))
     assert len(accelerometer(felt((1.5, 1.56), 2.0, 15.0 * G)).restitutions) == 1
-    with pytest.raises(InvalidValue, match="nothing rebounds faster than it came"):
+    with pytest.raises(InvalidValue, match="0 to 1 of its speed"):
         accelerometer(felt((1.2, 1.22), 1.9, 200.0))
 
 

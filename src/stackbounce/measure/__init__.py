@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from stackbounce.measure.kinds.bounces.analysis import bounces as bounces
     from stackbounce.measure.kinds.heights.analysis import heights as heights
     from stackbounce.measure.kinds.press.analysis import press as press
-    from stackbounce.measure.kinds.press.series import series_stiffness as series_stiffness
     from stackbounce.measure.kinds.press.series import split_series as split_series
     from stackbounce.measure.kinds.sound.analysis import knocks as knocks
     from stackbounce.measure.kinds.track.analysis import track as track
@@ -53,7 +52,7 @@ _MODULES = {
     "kinds.bounces.analysis": "bounces",
     "kinds.heights.analysis": "heights",
     "kinds.press.analysis": "press",
-    "kinds.press.series": "series_stiffness split_series",
+    "kinds.press.series": "split_series",
     "kinds.sound.analysis": "knocks",
     "kinds.track.analysis": "track",
     "kinds.waveform.analysis": "waveform",

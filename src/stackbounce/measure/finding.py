@@ -9,6 +9,8 @@ from stackbounce.measure.quantities import Array, Number, Row, known_rows, nomin
 if TYPE_CHECKING:
     import xarray as xr
 
+_LARGEST_GAIN = 0.02  # of a restitution above 1, or 3 standard errors
+
 
 class Curve(NamedTuple):
     """A curve over time, to be drawn: a position, a force or anything else, in SI units."""
@@ -21,12 +23,30 @@ class Curve(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """A way in or out of a press curve: compression in m and force in N of its points and fit."""
+    """A way in or out of a press curve: the points, and the power law through them.
+
+    Attributes
+    ----------
+    label : str
+        Which way it is.
+    compression : ndarray
+        (N,) from the contact on, in m; negative in the slack.
+    force : ndarray
+        (N,) in N, less its zero.
+    fit : ndarray
+        (N,) in N, the power law.
+    misfit : float
+        Root mean square of the residuals' moving averages, over the peak force.
+    fits : bool
+        Whether that is below 1 % of the peak force, or not significant in the noise.
+    """
 
     label: str
     compression: Array
     force: Array
     fit: Array
+    misfit: float
+    fits: bool
 
 
 class Listed(NamedTuple):
@@ -119,6 +139,26 @@ def rigid_contact(restitution: Number) -> dict[str, Any]:
     """
     kept = nominal(restitution)
     return {"contact": {"law": "Rigid", "restitution": kept}} if 0.0 <= kept <= 1.0 else {}
+
+
+def no_gain(restitutions: Iterable[Number], moments: Iterable[Any]) -> str:
+    """Return why restitutions are those of no ball, above 1 or not above 0; nothing where they are.
+
+    Examples
+    --------
+    >>> from uncertainties import ufloat
+    >>> no_gain([ufloat(0.75, 0.02)], [0.4]), no_gain([ufloat(1.3, 0.02)], [0.4])[:38]
+    ('', 'a restitution of 1.30(2) at 0.4 (bounc')
+    """
+    for k, (kept, moment) in enumerate(zip(restitutions, moments, strict=True)):
+        value, error = kept.nominal_value, kept.std_dev
+        if value <= 0.0 or value > 1.0 + max(_LARGEST_GAIN, 3.0 * error):
+            return (
+                f"a restitution of {kept:.1uS} at {nominal(moment):.3g} (bounce {k}): a ball alone "
+                "rebounds with 0 to 1 of its speed; it is hit or thrown there, swings or jumps, or "
+                "the record lacks a bounce or a ball"
+            )
+    return ""
 
 
 def force_channels(data: "xr.Dataset") -> list[str]:

@@ -194,8 +194,8 @@ def _thin(label: str, what: str, times: _Array, values: _Array) -> _Series:
 def _sorted(branch: Branch) -> dict[str, Any]:
     """Return some points of a branch in the order of compression, to be drawn."""
     kept = np.argsort(branch.compression)[:: max(1, len(branch.force) // _POINTS)]
-    columns = {name: values[kept] for name, values in branch._asdict().items() if name != "label"}
-    return {"label": branch.label, **columns}
+    names = ("compression", "force", "fit")
+    return {"label": branch.label, **{name: getattr(branch, name)[kept] for name in names}}
 
 
 def _find_channel(drop: Drop, what: str, which: str, record: Measurement) -> "xr.DataArray":

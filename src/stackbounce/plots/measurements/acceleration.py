@@ -37,17 +37,14 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         # Texts stand in the middle of a flight or a bounce, at a share of the picture's height.
         at: Any = {"xycoords": axes.get_xaxis_transform(), "ha": "center", "va": "top"}
         box = {"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 0.5}
-        for k, (first, last) in enumerate(found.spans):
-            falls = k == 0 and found.fall is not None
-            color = COLORS[1] if falls else COLORS[0]
+        fallen = [] if found.fall is None else [found.drop_height]
+        heights = zip(found.spans, [*fallen, *found.apex_heights], strict=True)
+        for k, ((first, last), height) in enumerate(heights):
+            color = COLORS[int(k < len(fallen))]
             axes.axvspan(first, last, color=color, alpha=0.13, linewidth=0)
-            height = (
-                found.drop_height if falls else found.apex_heights[k - (found.fall is not None)]
-            )
             annotate(axes, f"{100.0 * height:.1uS} cm", (0.5 * (first + last), 0.96), color, **at)
-        skipped = len(found.spans) - 1 - len(found.restitutions)
         for k, kept in enumerate(found.restitutions):
-            place = 0.5 * (found.spans[k + skipped][1] + found.spans[k + skipped + 1][0])
+            place = 0.5 * (found.spans[k][1] + found.spans[k + 1][0])
             annotate(axes, f"e = {kept:.1uS}", (place, 0.86), "black", bbox=box, **at)
         axes.set_yscale("symlog", linthresh=20.0, linscale=1.2)
         top = float(values.max())

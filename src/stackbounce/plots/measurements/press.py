@@ -60,7 +60,7 @@ def draw(data: Any, found: Any) -> "Figure":
             _shade(above, found, np.linspace(0.0, end, 400))
         below.axhline(0.0, color="#808080", linewidth=0.8)
         above.set_ylabel("force (N)")
-        above.set_title(_title(data, found), loc="left", fontsize=10)
+        above.set_title(file_of(data), loc="left", fontsize=10)
         above.legend(frameon=False, loc="upper left")
         below.set_ylabel("force − fit (N)")
         below.set_xlabel("compression from contact (mm)")
@@ -86,15 +86,3 @@ def _shade(axes: "Axes", found: Any, at: Any) -> None:
         arrowprops={"arrowstyle": "-", "color": "#808080", "linewidth": 0.8},
         **text,
     )
-
-
-def _title(data: Any, found: Any) -> str:
-    """Return one line: the file, the exponent and the restitution."""
-    source = file_of(data)
-    words = [source] if source and source != "synthetic" else []
-    for name in ("exponent", "restitution"):
-        value = getattr(found, name)
-        if value is not None:
-            short = f"{value:.1uP}" if value.std_dev > 0.0 else f"{value.nominal_value:.3g}"
-            words.append(f"{name} {short}")
-    return ", ".join(words)

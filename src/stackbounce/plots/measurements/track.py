@@ -35,7 +35,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         for k, ball in enumerate(found.balls):
             _draw_ball(above, ball, color_of(k), found)
             left = many * ball.fit.residuals
-            below.plot(ball.times, left, "o", color=color_of(k), markersize=2.6)
+            below.plot(ball.fit.times, left, "o", color=color_of(k), markersize=2.6)
             sigma = many * ball.fit.sigma
             below.axhspan(-sigma, sigma, color=color_of(k), alpha=0.10, linewidth=0)
         below.axhline(0.0, color="#808080", linewidth=0.8)
@@ -50,19 +50,17 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
 
 def _draw_ball(axes: "Axes", ball: Any, color: str, found: Any) -> None:
     named = len(found.balls) > 1
-    used = np.isfinite(ball.fit.residuals)
+    times, used = ball.fit.times, np.isfinite(ball.fit.residuals)
+    label = _label(ball, named, found.units.speed)
     dots: Any = {"marker": "o", "linestyle": "", "color": color, "markersize": 3.4}
     hollow: Any = dots | {"markerfacecolor": "white", "markeredgewidth": 0.9}
-    axes.plot(
-        ball.times[used], ball.heights[used], label=_label(ball, named, found.units.speed), **dots
-    )
-    axes.plot(ball.times[~used], ball.heights[~used], **hollow)
-    impacts = dict(
-        zip(ball.bounces, (time.nominal_value for time in ball.impact_times), strict=True)
-    )
+    axes.plot(times[used], ball.heights[used], label=label, **dots)
+    axes.plot(times[~used], ball.heights[~used], **hollow)
+    met = [time.nominal_value for time in ball.impact_times]
+    impacts = dict(zip(ball.bounces, met, strict=True))
     for j, (first, last) in enumerate(ball.fit.flights):
-        start = impacts.get(j - 1, ball.times[first])
-        stop = impacts.get(j, ball.times[last - 1])
+        start = impacts.get(j - 1, times[first])
+        stop = impacts.get(j, times[last - 1])
         at = np.linspace(start, stop, _SAMPLES)
         axes.plot(at, found.fitted(ball, j, at), color=color, linewidth=1.4)
     rows = zip(ball.impact_times, ball.levels, ball.restitutions, strict=True)

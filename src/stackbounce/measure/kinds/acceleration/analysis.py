@@ -134,11 +134,10 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
     The longest series of flights with short pulses between them is used. Its first flight is a fall
     from rest if the sensor was at rest before it. Air and spin are neglected.
 
-    A pulse is above 2 g, and its impulse is not far below the change of speed that the flights
-    tell, where it has enough samples to know. Restitutions above 1 by more than their errors are
-    refused: what swings, jumps or is thrown shows the like. Where a phone has subtracted gravity
-    (linear acceleration), it reads g in free flight and zero at rest; then the fall must begin from
-    rest.
+    A pulse is above 2 g, where it has enough samples to know. Restitutions above 1 by more than
+    their errors are refused: what swings, jumps or is thrown shows the like. Where a phone has
+    subtracted gravity (linear acceleration), it reads g in free flight and zero at rest; then the
+    fall must begin from rest.
 
     Examples
     --------
@@ -162,11 +161,10 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
     speeds = [g * lasting[0]] * held + [g * lasts / 2.0 for lasts in flights]  # at the end of each
     before, after = speeds[:-1], speeds[1:]
     kept = [out / into for into, out in zip(before, after, strict=True)]
-    refuse_gain(kept, [float(times[flight.last]) for flight in series])
+    refuse_gain(kept, [float(times[flight.last]) for flight in series[:-1]])
     pulses = list(pairwise(series))
-    counts = [other.first - flight.last - 1 for flight, other in pulses]
-    tops = [values[flight.last + 1 : other.first] for flight, other in pulses]
-    notes += _notes(times, counts, kept, held)
+    counts = [first - last - 1 for (_, last), (first, _) in pulses]
+    notes += _notes(times, counts, held)
     return Accelerometer(
         fall=fall,
         flights=tuple(flights),
@@ -179,7 +177,7 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
             starts[k + 1] - ends[k] if count >= _CONTACT_SAMPLES else None
             for k, count in enumerate(counts)
         ),
-        peaks=tuple(float(top.max()) for top in tops),
+        peaks=tuple(float(values[last + 1 : first].max()) for (_, last), (first, _) in pulses),
         notes=tuple(notes),
         times=times,
         values=values,
@@ -195,7 +193,7 @@ def _edge(times: Array, k: int) -> Any:
     return ufloat(0.5 * float(times[k] + times[k - 1]), step / math.sqrt(12.0))
 
 
-def _notes(times: Array, counts: list[int], kept: list[Any], held: bool) -> list[str]:
+def _notes(times: Array, counts: list[int], held: bool) -> list[str]:
     step = float(np.median(np.diff(times)))
     notes = []
     if min(counts) < _CONTACT_SAMPLES:
@@ -207,8 +205,4 @@ def _notes(times: Array, counts: list[int], kept: list[Any], held: bool) -> list
         notes.append("the drop height supposes a fall from rest: a hand that follows adds to it")
     else:
         notes.append("what came before the first flight is not in the record: no drop height")
-    if any(restitution.nominal_value > 1.0 + 2.0 * restitution.std_dev for restitution in kept):
-        notes.append(
-            "a restitution above 1: a bounce fell between two samples before it, or it was thrown"
-        )
     return notes

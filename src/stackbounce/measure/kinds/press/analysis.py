@@ -98,9 +98,9 @@ def _press(data: Any, compliance: float, number: int | None) -> Press:
     record = record_of(data, compliance)
     found = cycles(record)
     # a cycle with both branches is preferred to a loading alone
-    whole_ones = [k for k, one in enumerate(found) if len(one.loading) and len(one.unloading)]
-    pressed = whole_ones or [k for k, one in enumerate(found) if len(one.loading)] or [-1]
-    chosen = pressed[-1]
+    pressed = [k for k, cycle in enumerate(found) if len(cycle.loading)]
+    both = [k for k in pressed if len(found[k].unloading)]
+    chosen = (both or pressed or [-1])[-1]
     if number is not None:
         chosen = whole("cycle", number, -len(found), len(found) - 1) % len(found)
     if not len(found[chosen].loading):

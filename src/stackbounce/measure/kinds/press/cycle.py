@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue
+from stackbounce.measure.finding import Branch
 from stackbounce.measure.kinds.press.record import Cycle, Record
-from stackbounce.measure.kinds.press.result import Curve, Press
+from stackbounce.measure.kinds.press.result import Press
 from stackbounce.measure.quantities import Array, known_to
 from stackbounce.measure.samples import quantisation_error, trapezoid
 from stackbounce.measure.statistics.ar_noise import correlation_factor
@@ -29,7 +30,7 @@ _GRID_POINTS = 300  # of the curve that are compared on that grid, for speed
 _LARGEST_LOG = 20.0  # of a parameter, so that no power overflows
 
 
-class _Branch(NamedTuple):
+class _Points(NamedTuple):
     """The points of a branch: compression, force, and the columns of the force's zero, (N, 0-2)."""
 
     x: Array
@@ -93,7 +94,7 @@ def result_of(record: Record, cycle: Cycle) -> Press:
         "work_in": top * length / (p + 1.0) + worked,
         "contact": peak - c,
         "zero": zero[0] if zero else known_to(0.0, 0.0),
-        "loading": _curve(up, law, peak - law.length, law.values[0]),
+        "loading": _curve("pressed in", up, law, peak - law.length, law.values[0]),
     }
     if not len(down.x):
         return Press(**found)
@@ -106,11 +107,11 @@ def result_of(record: Record, cycle: Cycle) -> Press:
     more = {"work_out": kept * found["work_in"], "loss": 1.0 - kept, "relaxed": top - end}
     if kept.nominal_value > 0.0:
         more |= {"restitution": kept**0.5, "energy_exponent": (p + 1.0) / kept - 1.0}
-    curve = _curve(down, back, peak - law.length, law.values[0])
+    curve = _curve("let go", down, back, peak - law.length, law.values[0])
     return Press(**found, **more, unloading_exponent=n, unloading=curve)
 
 
-def _branches(record: Record, cycle: Cycle) -> tuple[_Branch, _Branch, tuple[Array, Array, float]]:
+def _branches(record: Record, cycle: Cycle) -> tuple[_Points, _Points, tuple[Array, Array, float]]:
     """Return loading and unloading less the force's zero, and that.
 
     It is the mean of the slack, or a line in time with slack before and after. Without slack it is
@@ -133,7 +134,7 @@ def _branches(record: Record, cycle: Cycle) -> tuple[_Branch, _Branch, tuple[Arr
     y = y - line @ levels
     unseen = quantisation_error(record.step, float(y[slack].std())) if len(levels) else 0.0
     up, down = (
-        _Branch(x[part], y[part], line[part]) for part in (slice(count), slice(count, None))
+        _Points(x[part], y[part], line[part]) for part in (slice(count), slice(count, None))
     )
     return up, down, (levels, weights, unseen)
 
@@ -144,7 +145,7 @@ def _averaged(values: Array) -> Array:
     return np.asarray(np.add.reduceat(values, edges) / np.diff(np.append(edges, len(values))))
 
 
-def _fitted(record: Record, branch: _Branch, peak: float, first: Array, free: int) -> _Law:
+def _fitted(record: Record, branch: _Points, peak: float, first: Array, free: int) -> _Law:
     """Return the fit of a branch, in which points weigh as their noise.
 
     That is the noise of the force, and that of the compression times the slope.
@@ -203,7 +204,7 @@ def _density(law: _Law, free: int) -> float:
     )
 
 
-def _sums_in(up: _Branch, peak: float, law: _Law) -> Array:
+def _sums_in(up: _Points, peak: float, law: _Law) -> Array:
     """Return weights of the residuals that correct the loading's law, (3, N).
 
     They correct the force at the peak, the work, and the slope of the straight line through the
@@ -218,7 +219,7 @@ def _sums_in(up: _Branch, peak: float, law: _Law) -> Array:
     return sums
 
 
-def _sum_out(down: _Branch, peak: float, law: _Law) -> Array:
+def _sum_out(down: _Points, peak: float, law: _Law) -> Array:
     """Return weights of the residuals that correct the work of the unloading's law, (1, N)."""
     sums = np.zeros((1, len(down.x)))
     inside = np.flatnonzero((down.x > peak - law.length) & (down.x < peak))
@@ -228,7 +229,7 @@ def _sum_out(down: _Branch, peak: float, law: _Law) -> Array:
     return sums
 
 
-def _curve(branch: _Branch, law: _Law, contact: float, peak: float) -> Curve:
+def _curve(label: str, branch: _Points, law: _Law, contact: float, peak: float) -> Branch:
     """Return a branch with its fit, and by how much that is off beyond the noise."""
     from scipy.ndimage import uniform_filter1d
 
@@ -237,7 +238,8 @@ def _curve(branch: _Branch, law: _Law, contact: float, peak: float) -> Curve:
     off, rest = (float(np.sqrt(np.mean(part**2))) for part in (smooth, law.residual - smooth))
     share = off / peak if peak > 0.0 else np.inf
     fits = share < _SMALL_MISFIT or off < _CLEAR_MISFIT * rest / np.sqrt(width)
-    return Curve(branch.x - contact, branch.y, branch.y - law.residual, share, fits)
+    fit = branch.y - law.residual
+    return Branch(label, branch.x - contact, branch.y, fit, share, fits)
 
 
 def _power(ratio: Array, exponent: float) -> Array:

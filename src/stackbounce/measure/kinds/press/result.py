@@ -5,7 +5,7 @@ from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, whole
+from stackbounce.errors import InvalidValue
 from stackbounce.measure.finding import Branch, Finding, Listed
 from stackbounce.measure.quantities import Array, Number, Row, measured, nominal
 from stackbounce.model import Tabulated
@@ -15,31 +15,6 @@ _AGREES = 2.0  # standard errors
 _FEWEST = 6  # points of a branch that is a table
 _STEEP = 1e-6  # of the mean rise: the smallest rise of the loading from point to point
 _FIRM = 1e3  # weight of the condition that unloading begins where loading ends, over all points
-
-
-@dataclass(frozen=True)
-class Curve:
-    """The points of one branch and the curve through them.
-
-    Parameters
-    ----------
-    compression : ndarray
-        (N,) from the contact on, in m; negative in the slack.
-    force : ndarray
-        (N,) in N, less its zero.
-    fit : ndarray
-        (N,) in N, the power law.
-    misfit : float
-        Root mean square of the residuals' moving averages, over the peak force.
-    fits : bool
-        Whether that is below 1 % of the peak force, or not significant in the noise.
-    """
-
-    compression: Array
-    force: Array
-    fit: Array
-    misfit: float
-    fits: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,7 +56,7 @@ class Press(Finding):
         By how much the force dropped at the turn, in N.
     cycle : str or None
         Which cycle of how many this is, counted from 1; None where the record has one.
-    loading, unloading : Curve, and Curve or None
+    loading, unloading : Branch, and Branch or None
         Points and fits.
     tabulated : bool
         Whether the contact is the table of the curve, see `parts`.
@@ -110,8 +85,8 @@ class Press(Finding):
     zero: Annotated[Number, Listed("force with nothing pressed, as recorded", "N")]
     relaxed: Annotated[Number | None, Listed("drop of the force at the turn", "N")] = None
     cycle: Annotated[str | None, Listed("cycle")] = None
-    loading: Curve
-    unloading: Curve | None = None
+    loading: Branch
+    unloading: Branch | None = None
     tabulated: bool = False
     notes: tuple[str, ...] = ()
 
@@ -132,23 +107,19 @@ class Press(Finding):
 
     def branches(self) -> list[Branch]:
         """Return loading and unloading, as far as they were recorded."""
-        ways = (("pressed in", self.loading), ("let go", self.unloading))
-        return [Branch(label, way.compression, way.force, way.fit) for label, way in ways if way]
+        return [way for way in (self.loading, self.unloading) if way is not None]
 
-    def table(self, points: int = MOST_POINTS) -> Tabulated:
-        """Return the curve itself as a law: a `Tabulated` one, with as many points.
+    def table(self) -> Tabulated:
+        """Return the curve itself as a law: a `Tabulated` one.
 
-        Parameters
-        ----------
-        points : int, optional
-            3 to 16, at equal distances from the contact to the peak.
+        Its points are at equal distances from the contact to the peak.
 
         Raises
         ------
         InvalidValue
             If it has too few points.
         """
-        return _table(self.loading, self.unloading, points)
+        return _table(self.loading, self.unloading)
 
     def parts(self) -> dict[str, Any]:
         """Return the contact, as a drop's TOML has it.
@@ -177,7 +148,7 @@ class Press(Finding):
         return {"contact": contact}
 
 
-def _table(loading: Curve, unloading: Curve | None, points: int) -> Tabulated:
+def _table(loading: Branch, unloading: Branch | None) -> Tabulated:
     """Return the law of the points of loading and, if they are known, of unloading.
 
     It goes through the many points of a branch by monotone least squares; those with a compression
@@ -185,27 +156,27 @@ def _table(loading: Curve, unloading: Curve | None, points: int) -> Tabulated:
     """
     from scipy.interpolate import PchipInterpolator
 
-    whole("points", points, 3, MOST_POINTS)
     c, f = _pressed("loading", loading)
-    knots = np.linspace(0.0, float(c.max()), points)
-    force, bulge = np.zeros(points), np.zeros(len(c))
+    knots = np.linspace(0.0, float(c.max()), MOST_POINTS)
+    force, bulge = np.zeros(MOST_POINTS), np.zeros(len(c))
     for _ in range(2):  # the second time by how much the law's spline is off straight lines
         force = np.append(0.0, np.cumsum(_rises(_ramps(knots, c), f - bulge)))
         bulge = PchipInterpolator(knots, force)(c) - np.interp(c, knots, force)
-    force[1:] += _STEEP * force[-1] * np.arange(1, points) / points
+    force[1:] += _STEEP * force[-1] * np.arange(1, MOST_POINTS) / MOST_POINTS
     if unloading is None:
         return Tabulated(knots.tolist(), force.tolist())
     c, f = _pressed("unloading", unloading)
     # The share of the loading rises to 1: all rises together are 1, by a firm condition.
     ramps = np.insert(_ramps(knots, c)[:, 1:], 0, 1.0, axis=1) * np.interp(c, knots, force)[:, None]
     firm = _FIRM * len(c) ** 0.5 * force[-1]
-    shares = np.cumsum(_rises(np.vstack([ramps, np.full(points - 1, firm)]), np.append(f, firm)))
+    firmly = np.vstack([ramps, np.full_like(ramps[:1], firm)])
+    shares = np.cumsum(_rises(firmly, np.append(f, firm)))
     shares[-1] = 1.0
     back = np.append(0.0, force[1:] * np.minimum(shares, 1.0))
     return Tabulated(knots.tolist(), force.tolist(), back.tolist())
 
 
-def _pressed(name: str, curve: Curve) -> tuple[Array, Array]:
+def _pressed(name: str, curve: Branch) -> tuple[Array, Array]:
     """Return the points of a branch at which the ball is pressed."""
     keep = curve.compression >= 0.0
     if keep.sum() < _FEWEST or not np.any(curve.compression > 0.0):

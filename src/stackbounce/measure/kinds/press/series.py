@@ -3,10 +3,9 @@
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from stackbounce.errors import InvalidValue, between, positive, shown
+from stackbounce.errors import InvalidValue, shown
 from stackbounce.measure.finding import Finding, Listed
 from stackbounce.measure.quantities import Number, measured
-from stackbounce.model.laws import STEEPEST, PowerLaw, series
 
 
 @dataclass(frozen=True)
@@ -112,41 +111,3 @@ def split_series(lower: Any, upper: Any, both: Any, *, force: Any) -> Split:
         note = "Both give way by less than the two alone, which springs in series never do."
     floor, ball = at / bottom, at / closer
     return Split(closer / bottom, floor, ball, bottom, top, above, closer, excess, at, (note,))
-
-
-def series_stiffness(stiffness_a: Any, stiffness_b: Any, *, exponent: float = 1.0) -> Number:
-    """Return the stiffness of two contacts in series, ``k**(-1/p) = k1**(-1/p) + k2**(-1/p)``.
-
-    Parameters
-    ----------
-    stiffness_a, stiffness_b : float or UFloat
-        In N/m**exponent.
-    exponent : float, optional
-        p of both; 1 by default, and then ``1/k = 1/k1 + 1/k2``.
-
-    Returns
-    -------
-    UFloat
-        In N/m**exponent; the law is `stackbounce.series`.
-
-    Raises
-    ------
-    InvalidValue
-        If a number is out of its range.
-    InvalidType
-        If it is none.
-
-    Examples
-    --------
-    >>> from uncertainties import ufloat
-    >>> print(series_stiffness(ufloat(5.4e4, 0.25e4), ufloat(3.6e4, 0.28e4)))
-    (2.16+/-0.11)e+04
-    """
-    a = measured("stiffness_a", stiffness_a, "N/m**exponent")
-    b = measured("stiffness_b", stiffness_b, "N/m**exponent")
-    p = between("exponent", exponent, 1.0, STEEPEST)
-    k1, k2 = float(a.nominal_value), float(b.nominal_value)
-    both = positive("series", series(PowerLaw(k1, p), PowerLaw(k2, p)).stiffness)
-    # dk/k1 = (k/k1)**(1 + 1/p)
-    slopes = [(both / k) ** (1.0 + 1.0 / p) for k in (k1, k2)]
-    return both + slopes[0] * (a - k1) + slopes[1] * (b - k2)

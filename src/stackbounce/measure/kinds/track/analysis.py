@@ -3,14 +3,15 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.drag import Drag, with_difference, with_error_of_drag
+from stackbounce.measure.finding import no_gain
 from stackbounce.measure.kinds.track import motion
-from stackbounce.measure.kinds.track.free_flight import comparable, no_flight, no_gain, what_is_seen
+from stackbounce.measure.kinds.track.free_flight import no_flight, what_is_seen
 from stackbounce.measure.kinds.track.motion import shape_of
 from stackbounce.measure.kinds.track.parabolas import Parabolas
 from stackbounce.measure.kinds.track.paths import Columns, Upward, flights_of, positions_of, upward
@@ -24,36 +25,39 @@ from stackbounce.measure.kinds.track.steadiness import (
 )
 from stackbounce.measure.kinds.track.time_base import SI, TrackUnits, check_time_base, units_of
 from stackbounce.measure.messages import Message, OptionHint
-from stackbounce.measure.quantities import Array, nominal
+from stackbounce.measure.quantities import Array, known_to, nominal
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 _TOGETHER = 0.15  # of the time of fall, within which two balls' impacts are one drop's
-_LEAST_RANGE = 0.05  # of the widest one, below which a track is that of a mark at rest
 _RESTITUTION_OFF = 0.07  # of the change within a flight: restitutions in simulated distortions
 _HEIGHT_OFF = 0.12  # the same of heights
 _HEIGHT_BY_SCATTER = 0.7  # of the accelerations' scatter, by which heights are off there
 _SPEED_POWER = 0.67  # of the scale of heights, which is that of speeds there
 _ON_THE_WHOLE = 0.25  # of a swaying camera's acceleration, in the mean of simulated flights
+_NEWTON_ROUNDS = 3  # from the middle between two flights in air to where they meet
 _WANTED = "data must hold a ball that falls and bounces, got "
 
 
 class _Flown(NamedTuple):
-    """A ball, the flights in its track, and after which of them it bounces."""
+    """A ball, its positions by axis, the flights in its track, and after which it bounces."""
 
     name: str
+    position: dict[str, Array]
     fit: Parabolas
     bounces: list[int]
+
+    def along(self, up: Upward) -> "_Flown":
+        """Return the same flights, with heights along another direction."""
+        heights = up.heights(self.position)
+        return self._replace(fit=Parabolas(self.fit.times, heights, self.fit.flights))
 
 
 def track(
     data: Any,
     *,
     gravity: float = STANDARD_GRAVITY,
-    axis: Literal["x", "y", "-x", "-y"] | None = None,
     floor: float | None = None,
-    frame_rate_factor: float = 1.0,
-    scale: float = 1.0,
     drag: Drag | None = None,
 ) -> Tracks:
     """Analyse the drop and the bounces in a track of one ball or more.
@@ -68,16 +72,10 @@ def track(
         As `stackbounce.read` gives it, or arrays in s and m; NaN where a point is missing.
     gravity : float, optional
         In m/s², above 0, to compare with.
-    axis : {"x", "y", "-x", "-y"}, optional
-        The one that is up; found by the way the ball falls by default.
     floor : float, optional
-        The height in m, along that axis and as tracked (before `scale`), of the tracked point while
-        the ball just touches the floor: of its middle, one radius above the floor. By default a
-        bounce is where two parabolas meet; for soft balls give it, see Notes.
-    frame_rate_factor : float, optional
-        How many times higher the true frame rate is than the one that the times were made with.
-    scale : float, optional
-        What lengths are to be multiplied by.
+        The height in m, along the upward axis and as tracked, of the tracked point while the ball
+        just touches the floor: of its middle, one radius above the floor. By default a bounce is
+        where two parabolas meet; for soft balls give it, see Notes.
     drag : Drag, optional
         Of the air, on the one ball of a track in m and s; by default there is none.
 
@@ -118,133 +116,86 @@ def track(
     from uncertainties import ufloat
 
     gravity = positive("gravity", gravity, "m/s^2")
-    clock = positive("frame_rate_factor", frame_rate_factor)
-    ruler = positive("scale", scale)
-    found = positions_of(data, clock, ruler)
+    found = positions_of(data)
     notes: list[str] = []
     if found.many > 1:
         notes.append(f"It is so long that means of {found.many} neighbouring points were taken.")
-    up = upward(found, axis, gravity)
-    if axis is None and up.sign < 0.0:
+    up = upward(found, gravity)
+    if up.sign < 0.0:
         notes.append(f"{up.axis} points down; heights are counted upwards.")
-    compared = gravity if comparable(data) else None
-
-    def seen_along(up: Upward) -> tuple[list[_Flown], list[str]]:
-        return _bouncing(found, up, _flights(found, up, gravity), compared)
-
-    flown, left_out = seen_along(up)
-    turn = _turn(flown, found, up)
+    units = units_of(data)
+    flown = _bouncing(found, up, gravity, units)
+    turn = _turn(flown, up)
     if turn is not None:
         up = up._replace(tilt=turn.angle)
-        flown, left_out = seen_along(up)
-    notes.extend(left_out)
-    level = None if floor is None else ruler * finite("floor", floor, "metres")
-    units = units_of(data)
+        flown = _bouncing(found, up, gravity, units)
+    left_out = [name for name in found.names if name not in {ball.name for ball in flown}]
+    notes.extend(f"{name}: no bounce was found, and it is left out." for name in left_out)
+    level = None if floor is None else finite("floor", floor, "metres")
 
     def found_at(tilt: float) -> list[Track]:
-        seen = [_seen_at(ball, found, up, tilt) for ball in flown]
+        seen = [ball.along(up._replace(tilt=tilt)) for ball in flown]
         if drag is not None:
             return [_track_in_air(seen, level, units, drag)]
         return [_track(ball, level, units, alone=len(seen) == 1) for ball in seen]
 
     balls = found_at(up.tilt)
     if turn is not None:
-        plain, other = found_at(0.0), found_at(turn.other)
-        moved = zip(balls, other, balls, strict=True)
+        moved = zip(balls, found_at(turn.other), balls, strict=True)
         off = ufloat(0.0, 1.0)
         balls = [with_difference(*row, off=off) for row in moved]
-        without = plain[0].restitutions[0]
-        notes.append(f"{turn.words} (without this turn the first restitution is {without:.1uS}).")
+        notes.append(f"{turn.words}.")
     if drag is not None:
         notes.append(drag.note(_track(flown[0], level, units, alone=True).restitutions[0]))
     notes.extend(note for ball in balls for note in ball.notes)
     balls.sort(key=lambda ball: float(ball.levels[0].nominal_value))
-    if gains := no_gain(balls[0].restitutions, balls[0].impact_times):
-        raise InvalidValue(_WANTED + gains)
     rate = float(1.0 / np.median(np.diff(found.times)))
     base = check_time_base(_common_gravity(balls), gravity, rate, units)
     notes.extend([base.note] * (not base.agrees))
     ratios = _rebound_ratios(balls, notes)
-    alone = [] if ratios else balls
-    gained = {ball.name: no_gain(ball.restitutions, ball.impact_times) for ball in alone}
-    notes.extend(
-        f"{name}: it is left out, as it shows {why}." for name, why in gained.items() if why
-    )
-    balls = [ball for ball in balls if not gained.get(ball.name)]
+    for ball in balls[:1] if ratios else balls:
+        if gains := no_gain(ball.restitutions, ball.impact_times):
+            raise InvalidValue(_WANTED + gains)
     upwards = up.axis if up.sign > 0.0 else f"-{up.axis}"
-    first = balls[0].impact_times[0]
-    return Tracks(tuple(balls), ratios, first, base, upwards, up.tilt, tuple(notes), units, drag)
+    return Tracks(tuple(balls), ratios, base, upwards, up.tilt, tuple(notes), units, drag)
 
 
-def _turn(flown: list[_Flown], found: Columns, up: Upward) -> Turn | None:
-    """Return the turn of the camera that flights and floor show, None where there is none."""
+def _turn(flown: list[_Flown], up: Upward) -> Turn | None:
+    """Return the turn of the camera that the lowest ball and its floor show, None for none."""
     side = "x" if up.axis == "y" else "y"
-    if side not in found.positions[0]:
+    ball = min(flown, key=lambda ball: float(ball.fit.heights.min()))
+    if side not in ball.position:
         return None
-    sides = [_position(ball, found, up)[side] for ball in flown]
-    slow = acceleration_angle([ball.fit for ball in flown], sides)
-    seen = [_track(ball, None, SI, alone=False) for ball in flown]
-    lowest = min(range(len(seen)), key=lambda k: nominal(seen[k].levels[0]))
-    known = np.isfinite(sides[lowest])
+    across = ball.position[side]
+    known = np.isfinite(across)
     if known.sum() < 2:
         return None
-    times, across = seen[lowest].times[known], sides[lowest][known]
-    moments = [nominal(moment) for moment in seen[lowest].impact_times]
-    floor = floor_angle(seen[lowest].levels, np.interp(moments, times, across))
-    speed = float(np.polyfit(times, across, 1)[0])
-    return turn_of(slow, floor, speed / nominal(seen[lowest].impact_speeds[0]), up.axis)
+    seen = _track(ball, None, SI, alone=False)
+    times, moments = ball.fit.times[known], [nominal(moment) for moment in seen.impact_times]
+    floor = floor_angle(seen.levels, np.interp(moments, times, across[known]))
+    speed = float(np.polyfit(times, across[known], 1)[0])
+    slow = acceleration_angle(ball.fit, across)
+    return turn_of(slow, floor, speed / nominal(seen.impact_speeds[0]), up.axis)
 
 
-def _position(ball: _Flown, found: Columns, up: Upward) -> dict[str, Array]:
-    """Return the positions of a ball, by axis, at the times of its flights."""
-    position = found.positions[found.names.index(ball.name)]
-    good = np.isfinite(up.heights(position))
-    return {axis: values[good] for axis, values in position.items()}
-
-
-def _seen_at(ball: _Flown, found: Columns, up: Upward, tilt: float) -> _Flown:
-    """Return a ball with the same flights, seen with another tilt."""
-    if tilt == up.tilt:
-        return ball
-    heights = up._replace(tilt=tilt).heights(_position(ball, found, up))
-    return ball._replace(fit=Parabolas(ball.fit.times, heights, ball.fit.flights))
-
-
-def _flights(found: Columns, up: Upward, gravity: float) -> list[_Flown]:
-    """Return the balls that have flights and bounces."""
-    flown = []
-    ranges = {name: _range(up, position) for name, position in zip(*found[1:3], strict=True)}
+def _bouncing(found: Columns, up: Upward, gravity: float, units: TrackUnits) -> list[_Flown]:
+    """Return the balls that fly freely and bounce; refuse a track without any."""
+    flown, reasons = [], []
+    compared = gravity if units.known else None
     for name, position in zip(found.names, found.positions, strict=True):
         heights = up.heights(position)
         good = np.isfinite(heights)
-        if good.sum() < 5 or ranges[name] <= _LEAST_RANGE * max(ranges.values()):
+        flights = flights_of(found.times[good], heights[good], gravity) if good.sum() > 4 else None
+        if flights is None:
             continue
-        flights = flights_of(found.times[good], heights[good], gravity)
-        if flights is not None:
-            flown.append(_Flown(name, *flights))
-    return flown
-
-
-def _range(up: Upward, position: dict[str, Array]) -> float:
-    heights = up.heights(position)
-    known = heights[np.isfinite(heights)]
-    return float(np.ptp(known)) if known.size else 0.0
-
-
-def _bouncing(
-    found: Columns, up: Upward, flown: list[_Flown], gravity: float | None
-) -> tuple[list[_Flown], list[str]]:
-    """Return the balls that fly freely and bounce, with notes on the others.
-
-    `gravity` is None where the scale or the clock is not known.
-    """
-    reasons = {ball.name: no_flight(*ball[1:], up.axis, gravity) for ball in flown}
-    kept = [ball for ball in flown if not reasons[ball.name]]
-    if kept:
-        names = [ball.name for ball in kept]
-        without = [name for name in found.names if name not in names]
-        return kept, [f"{name}: no bounce was found, and it is left out." for name in without]
-    reason = next(iter(reasons.values()), "") or _seen(found, up, gravity)
+        if reason := no_flight(*flights, up.axis, compared):
+            reasons.append(reason)
+        else:
+            known = {axis: values[good] for axis, values in position.items()}
+            flown.append(_Flown(name, known, *flights))
+    if flown:
+        return flown
+    reason = reasons[0] if reasons else _seen(found, up, compared)
     part = OptionHint({"start": None, "stop": None})
     many = (f" (means of {found.many} of its points were taken: ", part, " choose the bounces)")
     raise InvalidValue(Message(_WANTED, reason, *many[: 3 * (found.many > 1)]))
@@ -252,12 +203,14 @@ def _bouncing(
 
 def _seen(found: Columns, up: Upward, gravity: float | None) -> str:
     """Return what the track of the ball that moves most shows."""
-    axis = up.axis if "y" not in found.positions[0] else "y"
-    every = [position[axis] for position in found.positions]
-    known = [heights[np.isfinite(heights)] for heights in every]
-    most = int(np.argmax([float(np.ptp(heights)) if heights.size else 0.0 for heights in known]))
-    sign = up.sign if axis == up.axis else 1.0
-    return what_is_seen(found.times[np.isfinite(every[most])], known[most] * sign, axis, gravity)
+    if up.axis == "x" and "y" in found.positions[0]:
+        up = Upward("y", 1.0)
+    every = [up.heights(position) for position in found.positions]
+    heights = max(
+        every, key=lambda seen: np.nanmax(seen, initial=-np.inf) - np.nanmin(seen, initial=np.inf)
+    )
+    known = np.isfinite(heights)
+    return what_is_seen(found.times[known], heights[known], up.axis, gravity)
 
 
 def _track_in_air(flown: list[_Flown], level: float | None, units: TrackUnits, drag: Drag) -> Track:
@@ -289,7 +242,7 @@ def _track(
     """Return a ball's bounces from its parabolas; a drag is taken to be exact."""
     from uncertainties import ufloat
 
-    name, fit, bounces = ball
+    name, _, fit, bounces = ball
     if drag is not None:
         fit = motion.straightened(fit, drag)
     shape = shape_of(fit.times, fit.heights, fit.flights)
@@ -302,20 +255,17 @@ def _track(
         gravity = ufloat(fit.values[0], wider * math.sqrt(fit.covariance[0, 0]))
     size, sway = 0.0, 0.0
     if alone and floor is None:
-        gaps = [
-            fit.times[fit.flights[j + 1].first] - fit.times[fit.flights[j].last - 1]
-            for j in bounces
-        ]
-        size, sway = sway_of(moments, levels, impacts, max(gaps))
+        gaps = fit.times[fit.firsts[1:]] - fit.times[fit.lasts[:-1] - 1]
+        size, sway = sway_of(moments, levels, impacts, float(gaps[bounces].max()))
     if sway > 0.0:
         off = [ufloat(0.0, sway) for _ in bounces]  # the camera's speed at each
-        impacts = tuple(speed - one for speed, one in zip(impacts, off, strict=True))
-        rebounds = tuple(speed + one for speed, one in zip(rebounds, off, strict=True))
+        impacts = tuple(speed - sways for speed, sways in zip(impacts, off, strict=True))
+        rebounds = tuple(speed + sways for speed, sways in zip(rebounds, off, strict=True))
         gravity += ufloat(0.0, _ON_THE_WHOLE * sway**2 / size)
-    scale = _uncertain(shape.scatter, _RESTITUTION_OFF * shape.bent)  # after over before
-    place = _uncertain(_HEIGHT_BY_SCATTER * shape.scatter, _HEIGHT_OFF * shape.bent)
-    height, time = motion.fallen(impacts[0], numbers[bounces[0]][0], drag)
-    fall_time = time or impacts[0] / gravity
+    # the scale after a bounce over that before, and the scale of heights
+    ratio = known_to(1.0, math.hypot(shape.scatter, _RESTITUTION_OFF * shape.bent))
+    place = known_to(1.0, math.hypot(_HEIGHT_BY_SCATTER * shape.scatter, _HEIGHT_OFF * shape.bent))
+    height, fall_time = motion.fallen(impacts[0], numbers[bounces[0]][0], drag)
     found = Track(
         name=name,
         impact_times=moments,
@@ -327,9 +277,8 @@ def _track(
             motion.risen(speed, numbers[flight + 1][0], drag) * place
             for flight, speed in zip(bounces, rebounds, strict=True)
         ),
-        restitutions=tuple(out / into * scale for into, out in zip(impacts, rebounds, strict=True)),
+        restitutions=tuple(out / into * ratio for into, out in zip(impacts, rebounds, strict=True)),
         gravity=gravity,
-        times=fit.times,
         heights=ball.fit.heights,
         fit=fit,
         bounces=tuple(bounces),
@@ -347,14 +296,6 @@ def _track(
     return replace(found, notes=tuple(notes))
 
 
-def _uncertain(scatter: float, bent: float) -> Any:
-    """Return the scale in a part of the picture: 1, with an error where flights show one."""
-    from uncertainties import ufloat
-
-    error = math.hypot(scatter, bent)
-    return ufloat(1.0, error) if error > 0.0 else 1.0
-
-
 def _bounce(
     fit: Parabolas,
     numbers: Sequence[motion.Numbers],
@@ -366,11 +307,16 @@ def _bounce(
     both = slice(flight, flight + 2)
     before, after = fit.flights[both]
     time = 0.5 * (fit.times[before.last - 1] + fit.times[after.first])
-    time += motion.meeting(numbers[both], fit.origins[both], time, drag)
-    (low, into, fall), (high, out, back) = (
-        motion.state(flight, float(time - origin), drag)
-        for flight, origin in zip(numbers[both], fit.origins[both], strict=True)
-    )
+
+    def states(time: float) -> list[tuple[Any, Any, Any]]:
+        sides = zip(numbers[both], fit.origins[both], strict=True)
+        return [motion.state(side, float(time - origin), drag) for side, origin in sides]
+
+    # parabolas meet where straight lines do whose speeds differ as much
+    for _ in range(_NEWTON_ROUNDS if drag else 0):
+        (low, into, _), (high, out, _) = states(time)
+        time += nominal((low - high) / (out - into))
+    (low, into, fall), (high, out, back) = states(time)
     since = (low - high) / (out - into)
     if floor is not None:
         speeds = _at_level(into, low - floor, fall), _at_level(out, high - floor, back)

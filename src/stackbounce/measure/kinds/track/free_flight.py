@@ -7,17 +7,15 @@ and a short contact between them.
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
-from stackbounce.measure.kinds.track.motion import curvatures, shape_of
+from stackbounce.measure.kinds.track.motion import accelerations, shape_of
 from stackbounce.measure.kinds.track.parabolas import Flight, Parabolas
+from stackbounce.measure.kinds.track.paths import noise_of
 from stackbounce.measure.kinds.track.time_base import is_usual
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.samples import resolution
-from stackbounce.measure.statistics.ar_noise import difference_noise
 
 _GRAVITY_RATIO = (0.6, 1.6)  # of the flights' acceleration to gravity, by a wrong scale or clock
 _UNSCALED = 30.0  # the same ratio, from which on only another unit of length explains it
@@ -25,45 +23,22 @@ _KNOWN_WITHIN = 0.05  # relative error of an acceleration that tells a slow moti
 _SEEN_WITHIN = 0.25  # relative error of an acceleration that is one at all
 _LARGEST_CHANGE = 0.4  # of the acceleration within a flight, relative
 _CLEAR_CHANGE = 4.0  # standard errors of that change
-_LARGEST_SCATTER = 0.3  # of the flights' own accelerations, over their mean
 _LONGEST_CONTACT = 0.12  # s; longer ones are those of legs or hands
-_LONGEST_SHARE = 0.5  # of the flights beside it, that a contact may last, where no clock is known
-_LONGEST_FRAMES = 4  # that a contact may last, where no clock is known
 _MOST_BOUNCES = 100  # of a ball
 _CLOSE = 3  # frames between two pieces of one flight, at most
-_LARGEST_GAIN = 0.02  # of a restitution above 1, or 3 standard errors
 _ONE_PARABOLA = 0.03  # of the range: a track is one parabola if it is nearer to it
 _STILL = 8.0  # errors of a point, within which nothing moves
 _WINDOWS = (5, 7, 11, 17, 25, 51, 101, 201, 401)  # points that tell an acceleration
-_MOST_WINDOWS = 400  # that are looked at
-_INSTEAD = Message(
-    "if it does fall, but on an incline or with a wrong scale, ",
-    OptionHint({"gravity": None}),
-    " tells how fast",
-)
 
 
-def comparable(data: Any) -> bool:
-    """Return whether lengths are in m and times in s, so that gravity can be compared with.
-
-    Plain arrays and a Dataset that has no units are taken to be so.
-    """
-    if not hasattr(data, "data_vars"):
-        return True
-    expected = {"x": "m", "y": "m", "position": "m", "time": "s"}
-    units = [(data[name].attrs.get("units", unit), unit) for name, unit in expected.items()
-             if name in data.variables]  # fmt: skip
-    return all(said == unit for said, unit in units)
-
-
-def no_flight(fit: Parabolas, bounces: Sequence[int], axis: str, gravity: float | None) -> str:
+def no_flight(fit: Parabolas, bounces: list[int], axis: str, gravity: float | None) -> str:
     """Return why flights and bounces are none, or nothing where they are.
 
     Parameters
     ----------
     fit : Parabolas
         The parabolas.
-    bounces : sequence of int
+    bounces : list of int
         After which flights it bounces.
     axis : str
         The one that is up.
@@ -86,25 +61,7 @@ def no_flight(fit: Parabolas, bounces: Sequence[int], axis: str, gravity: float 
             "the middle to the ends, where that of a fall stays; a ball that swings, or an "
             "oscillation?"
         )
-    if shape.scatter > _LARGEST_SCATTER:
-        return (
-            f"no free flight: the accelerations of the flights differ by {shape.scatter:.0%}; a "
-            "ball that rolls, or is held?"
-        )
-    return _lasting(fit, bounces, None if gravity is None else fall / gravity)
-
-
-def no_gain(restitutions: Sequence[Any], moments: Sequence[Any]) -> str:
-    """Return why restitutions are none: above 1, or not above 0; nothing where they are."""
-    for k, (kept, moment) in enumerate(zip(restitutions, moments, strict=True)):
-        value, error = kept.nominal_value, kept.std_dev
-        if value <= 0.0 or value > 1.0 + max(_LARGEST_GAIN, 3.0 * error):
-            return (
-                f"a restitution of {kept:.1uS} at {moment.nominal_value:.3g} (bounce {k}): a ball "
-                "alone rebounds with 0 to 1 of its speed; it is hit or thrown there, or bounces on "
-                "a ball whose track is not here"
-            )
-    return ""
+    return "" if gravity is None else _lasting(fit, bounces, fall / gravity)
 
 
 def what_is_seen(times: Array, heights: Array, axis: str, gravity: float | None) -> str:
@@ -147,7 +104,10 @@ def _other(fall: float, gravity: float, axis: str) -> str:
     if fall > _GRAVITY_RATIO[1] * gravity:
         unit = OptionHint({"units": {axis: "cm"}})
         return Message(f"{seen}are its lengths in another unit (", unit, "), or in pixels?")
-    return Message(f"{seen}a ball that rolls, swings or is held? (", _INSTEAD, ")")
+    doubt = (
+        "a ball that rolls, swings or is held? (if it does fall, but on an incline or with a wrong "
+    )
+    return Message(f"{seen}{doubt}scale, ", OptionHint({"gravity": None}), " tells how fast)")
 
 
 def _arcs(flights: Sequence[Flight], bounces: Sequence[int]) -> list[Flight]:
@@ -159,41 +119,27 @@ def _arcs(flights: Sequence[Flight], bounces: Sequence[int]) -> list[Flight]:
     return arcs
 
 
-def _lasting(fit: Parabolas, bounces: Sequence[int], ratio: float | None) -> str:
+def _lasting(fit: Parabolas, bounces: list[int], ratio: float) -> str:
     """Return why contacts are too long; `ratio` of the acceleration to gravity tells the clock."""
-    times, flights = fit.times, fit.flights
-    step = float(np.median(np.diff(times)))
-    lasts, shares = [], []
-    for j in bounces:
-        before, after = flights[j], flights[j + 1]
-        gap = float(times[after.first] - times[before.last - 1]) - step
-        beside = min(float(times[last - 1] - times[first]) for first, last in (before, after))
-        lasts.append(gap)
-        shares.append(gap / max(beside, step))
-    last = float(np.median(lasts))
-    if ratio is None:
-        if last > _LONGEST_FRAMES * step and float(np.median(shares)) > _LONGEST_SHARE:
-            return "no bounce: the contacts last for more than half of the flights beside them"
-    elif last * math.sqrt(ratio) > _LONGEST_CONTACT:
+    step = float(np.median(np.diff(fit.times)))
+    lasts = fit.times[fit.firsts[1:]] - fit.times[fit.lasts[:-1] - 1] - step
+    last = float(np.median(lasts[bounces])) * math.sqrt(ratio)
+    if last > _LONGEST_CONTACT:
         return (
-            f"no bounce: between the flights it is on the floor for {last * math.sqrt(ratio):.2g} s"
-            "; legs or a trampoline? A ball's contact takes some hundredths of a second"
+            f"no bounce: between the flights it is on the floor for {last:.2g} s; legs or a "
+            "trampoline? A ball's contact takes some hundredths of a second"
         )
     return ""
 
 
 def _usual_acceleration(times: Array, heights: Array) -> float:
     """Return the typical size of the accelerations, in windows that are long enough to tell it."""
-    noise = max(difference_noise(heights, 3), resolution(heights) / math.sqrt(12.0))
-    step = float(np.median(np.diff(times)))
+    noise, step = noise_of(heights), float(np.median(np.diff(times)))
     found = 0.0
     for wide in _WINDOWS:
         if wide > len(heights):
             break
-        windows = np.lib.stride_tricks.sliding_window_view
-        some = slice(None, None, max(1, len(heights) // _MOST_WINDOWS))
-        t, u = (windows(array, wide)[some] for array in (times, heights))
-        found = float(np.median(np.abs(curvatures(t, u))))
+        found = float(np.median(np.abs(accelerations(times, heights, wide))))
         if noise * math.sqrt(720.0 / wide**5) / step**2 < 0.03 * found:
             break
     return found

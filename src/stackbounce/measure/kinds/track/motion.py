@@ -24,7 +24,6 @@ _MOST_ROUNDS = 30  # of taking the drag away; each leaves a tenth of the change 
 _SETTLED = 1e-10  # relative change of all numbers of the flights in the last of these rounds
 _STRANGE = 7.0  # times the median residual, 4.7 standard deviations: a point of another flight
 _LEAST_POINTS = 5  # of a flight whose ends are cut off where they are strange
-_NEWTON_ROUNDS = 3  # from the middle between two flights to where they meet
 
 Numbers: TypeAlias = tuple[Any, Any, Any]
 """Acceleration, level and speed of a flight at its middle: numbers with errors."""
@@ -82,13 +81,10 @@ def own_noise(times: Array, heights: Array, flights: Sequence[Flight]) -> float:
     >>> round(own_noise(times, 3.0 * times**2 + noise, [Flight(0, 1000)]), 4)
     0.001
     """
-    square, freedom = 0.0, 0
-    for first, last in flights:
-        if last - first >= OWN:
-            *_, rest = _polynomial(times, heights, Flight(first, last), 2)
-            square += float(rest @ rest)
-            freedom += last - first - 3
-    return math.sqrt(square / freedom) if freedom else math.inf
+    own = [flight for flight in flights if flight.last - flight.first >= OWN]
+    rests = [_polynomial(times, heights, flight, 2)[-1] for flight in own]
+    freedom = sum(len(rest) - 3 for rest in rests)
+    return math.sqrt(sum(float(rest @ rest) for rest in rests) / freedom) if own else math.inf
 
 
 def _scatter(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[float, float]:
@@ -152,15 +148,21 @@ def _polynomial(
     part = slice(*flight)
     half = 0.5 * float(times[part][-1] - times[part][0])
     z = (times[part] - times[part][0]) / half - 1.0
-    design = np.vander(z, degree + 1, increasing=True)
-    inverse = np.linalg.pinv(design)
     level = heights[part] - heights[part].mean()
-    terms = inverse @ level
-    return terms, np.sqrt((inverse**2).sum(axis=1)), half, level - design @ terms
+    terms, covariance = np.polyfit(z, level, degree, cov="unscaled")
+    errors = np.sqrt(np.diag(covariance))
+    return terms[::-1], errors[::-1], half, level - np.polyval(terms, z)
 
 
-def curvatures(times: Array, heights: Array) -> Array:
-    """Return the second derivatives of parabolas through windows of points, (N, n) both."""
+def accelerations(times: Array, heights: Array, wide: int, least: float = -1.0) -> Array:
+    """Return the accelerations of parabolas through windows of points, where it moves by more."""
+    if len(heights) < wide:
+        return np.zeros(0)
+    times, heights = (
+        np.lib.stride_tricks.sliding_window_view(array, wide) for array in (times, heights)
+    )
+    moves = np.ptp(heights, axis=1) > least
+    times, heights = times[moves], heights[moves]
     since = times - times.mean(axis=1, keepdims=True)
     # Least squares of 1, t, t² in each window, by making t² orthogonal to the others.
     square = since**2
@@ -250,13 +252,10 @@ def _without_strange_ends(flight: Flight, residuals: Array) -> Flight:
 
 def curve(fit: Parabolas, flight: int, times: Array, drag: Drag | None) -> Array:
     """Return the heights of a flight at some times, in air or on its parabola."""
-    level, speed = fit.values[1 + 2 * flight : 3 + 2 * flight]
-    fall, since = fit.values[0], times - fit.origins[flight]
-    if drag is None:
-        return np.asarray(level + speed * since - 0.5 * fall * since**2)
-    rate = nominal(drag.rate)
-    ways = [flown(rate, float(speed), time, float(fall))[0] for time in since.tolist()]
-    return np.asarray(level + np.array(ways))
+    fall, level, speed = fit.values[[0, 1 + 2 * flight, 2 + 2 * flight]].tolist()
+    rate = nominal(drag.rate) if drag else 0.0
+    since = (times - fit.origins[flight]).tolist()
+    return np.asarray([level + flown(rate, speed, time, fall)[0] for time in since])
 
 
 def state(numbers: Numbers, since: float, drag: Drag | None) -> tuple[Any, Any, Any]:
@@ -279,30 +278,10 @@ def state(numbers: Numbers, since: float, drag: Drag | None) -> tuple[Any, Any, 
     return level + way(speed, fall), later, fall + rate * later * abs(nominal(later))
 
 
-def meeting(flights: Sequence[Numbers], middles: Array, near: float, drag: Drag | None) -> float:
-    """Return how much later than some time two flights in air meet, in s.
-
-    Parabolas meet where straight lines do whose speeds differ as much: for them it is 0.
-
-    Examples
-    --------
-    >>> meeting([(10.0, 0.0, -1.0), (10.0, 0.5, 1.0)], np.array([0.0, 0.2]), 0.1, None)
-    0.0
-    """
-    later = 0.0
-    for _ in range(0 if drag is None else _NEWTON_ROUNDS):
-        (low, before, _), (high, after, _) = (
-            state(flight, float(near - middle) + later, drag)
-            for flight, middle in zip(flights, middles, strict=True)
-        )
-        later += nominal((low - high) / (after - before))
-    return later
-
-
 def fallen(speed: Any, fall: Any, drag: Drag | None) -> tuple[Any, Any]:
-    """Return height and time of the fall from rest to a speed; no time without drag."""
+    """Return height and time of the fall from rest to a speed."""
     if drag is None:
-        return speed**2 / (2.0 * fall), None
+        return speed**2 / (2.0 * fall), speed / fall
     height = drag.fall_height(speed, fall)
     if height is None:
         raise OverflowError("faster than the terminal speed")

@@ -293,11 +293,6 @@ class Parabolas:
         error = np.sqrt(weights @ (spread + (each - jump) ** 2))
         return jump, error, weights @ (speeds[:, :-1] - falls * since)
 
-    @property
-    def correlation(self) -> float:
-        """That of the errors of neighbouring points."""
-        return float(self.weights @ self.tried)
-
     @cached_property
     def values(self) -> Array:
         """Acceleration, then level and speed of each flight, (1 + 2 N,)."""
@@ -312,10 +307,8 @@ class Parabolas:
         covariance = (along * (weights * fits.variance / fits.strength)[:, None]).T @ along
         covariance += (off * weights[:, None]).T @ off
         blocks = np.einsum("k,knij->nij", weights * fits.variance, fits.inverse)
-        at = 1 + 2 * np.arange(len(self.flights))
-        for i in (0, 1):
-            for j in (0, 1):
-                covariance[at + i, at + j] += blocks[:, i, j]
+        at = 1 + np.arange(2 * len(self.flights)).reshape(-1, 2)
+        covariance[at[:, :, None], at[:, None, :]] += blocks
         return np.asarray(covariance)
 
     @cached_property
@@ -368,24 +361,7 @@ class Parabolas:
         """Return the sums of products of columns over each flight, (10, K, N), and ln det, (K,).
 
         The columns are 1, t, -t²/2 and the values, less the correlated part of the point before.
-        The sums over points that are equally many steps from that point are found once for all
-        correlations.
-        """
-        total = np.zeros((len(_ROWS), len(correlations), len(self.flights)))
-        log_det = np.zeros(len(correlations))
-        for steps, count, (here, cross, before) in self._sums(values):
-            kept = (correlations**steps)[:, None]
-            innovation = 1.0 - kept**2
-            products = here[:, None] - kept * cross[:, None] + kept**2 * before[:, None]
-            total += products / innovation
-            log_det += count * np.log(innovation[:, 0])
-        return total, log_det
-
-    def _sums(self, values: Array) -> list[tuple[float, int, Array]]:
-        """Return the sums of products over points that are equally many steps from the one before.
-
-        Each is the number of steps, that of points, and (3, 10, N) sums: of the products of columns
-        here, of those with the point before, and of those there.
+        The sums over points that are equally many steps from that point serve all correlations.
         """
         since = self.since
         now = np.stack([np.ones(len(since)), since, -0.5 * since**2, values])
@@ -395,17 +371,14 @@ class Parabolas:
              now[_ROWS] * last[_COLUMNS] + last[_ROWS] * now[_COLUMNS],
              last[_ROWS] * last[_COLUMNS]]
         )  # fmt: skip
-        steps, which, counts = np.unique(self._apart, return_inverse=True, return_counts=True)
-        usual = int(np.argmax(counts))
-        found = []
-        for k in range(len(steps)):
-            if k != usual:
-                some = np.flatnonzero(which == k)
-                sums = np.zeros((*products.shape[:2], len(self.flights)))
-                np.add.at(
-                    sums.transpose(2, 0, 1), self.owner[some], products[:, :, some].T.swapaxes(1, 2)
-                )
-                products[:, :, some] = 0.0
-                found.append((float(steps[k]), int(counts[k]), sums))
-        sums = np.add.reduceat(products, self.begins, axis=2)
-        return [*found, (float(steps[usual]), int(counts[usual]), sums)]
+        total = np.zeros((len(_ROWS), len(correlations), len(self.flights)))
+        log_det = np.zeros(len(correlations))
+        for steps in np.unique(self._apart):
+            so_far = self._apart == steps
+            here, cross, before = np.add.reduceat(products * so_far, self.begins, axis=2)
+            kept = (correlations**steps)[:, None]
+            innovation = 1.0 - kept**2
+            part = here[:, None] - kept * cross[:, None] + kept**2 * before[:, None]
+            total += part / innovation
+            log_det += so_far.sum() * np.log(innovation[:, 0])
+        return total, log_det

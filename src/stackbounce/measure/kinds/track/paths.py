@@ -6,19 +6,18 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, shown
-from stackbounce.measure.kinds.track.motion import curvatures, own_noise
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.measure.kinds.track.motion import accelerations, own_noise
 from stackbounce.measure.kinds.track.parabolas import Flight, Parabolas, find_flights, unexplained
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns, resolution
+from stackbounce.measure.statistics.ar_noise import difference_noise
 
 _LEAST_MOTION = 0.03  # of the range of a track, within a window that tells an acceleration
 _CLEAR_JUMP = 5.0  # standard errors of a velocity's jump that may be a bounce
 _LEAST_JUMP = 0.1  # of the largest jump; smaller ones are caused by a hand
 _ROUNDS = 4  # of cutting the track, each with the acceleration and error of the one before
-_MOST_POINTS = 20_000  # of a track; of more, means of neighbours are taken
-_STRETCH = 256  # points of a stretch of a long track
-_STRETCHES = 8  # that tell the acceleration: those in which the ball moves most
+_MOST_POINTS = 10_000  # of a track; of more, means of neighbours are taken
 _AT_ONCE = 4  # one in so many of the weakest jumps is taken out before the next fit
 _WIDTHS = (3, 5, 7, 11, 17, 25)  # points of a window
 _SEEN_FALL = 4.0  # errors of a point by which a ball has fallen where its flight begins
@@ -26,7 +25,6 @@ _LEAST_FALL = 5  # points that a fall keeps
 _ALIKE = 0.05  # relative difference of two accelerations that are one guess
 _DIFFER = 1.5  # scatter around one acceleration, over that around each flight's own
 _BESIDE = 3  # points between two pieces of one flight, at most
-_AXES = {"x": ("x", 1.0), "y": ("y", 1.0), "-x": ("x", -1.0), "-y": ("y", -1.0)}
 
 
 Bounced: TypeAlias = tuple[Parabolas, list[int]]
@@ -61,8 +59,8 @@ class Upward(NamedTuple):
         return math.cos(self.tilt) * along + math.sin(self.tilt) * across
 
 
-def positions_of(data: Any, clock: float, ruler: float) -> Columns:
-    """Return times over `clock`, and positions times `ruler`, of a Dataset or plain arrays."""
+def positions_of(data: Any) -> Columns:
+    """Return times and positions of a Dataset or plain arrays."""
     if hasattr(data, "data_vars"):
         found = _from_dataset(data)
     else:
@@ -78,22 +76,13 @@ def positions_of(data: Any, clock: float, ruler: float) -> Columns:
         )
     if not found.positions:
         raise InvalidValue("data must hold the track of a ball, got none")
-    positions = [{axis: ruler * value[good] for axis, value in p.items()} for p in found.positions]
-    return _thinned(Columns(times / clock, found.names, positions))
-
-
-def _thinned(found: Columns) -> Columns:
-    """Return a very long track with means of neighbours; those of a parabola lie on one."""
-    many = -(-len(found.times) // _MOST_POINTS)
-    if many < 2:
-        return found
-    count = len(found.times) // many
-
-    def means(values: Array) -> Array:
-        return np.asarray(values[: count * many].reshape(count, many).mean(axis=1))
-
-    positions = [{axis: means(value) for axis, value in own.items()} for own in found.positions]
-    return Columns(means(found.times), found.names, positions, many)
+    many = -(-len(times) // _MOST_POINTS)
+    kept = np.flatnonzero(good)[: len(times) // many * many].reshape(-1, many)
+    # means of neighbours on a parabola lie on one, too
+    positions = [
+        {axis: values[kept].mean(axis=1) for axis, values in own.items()} for own in found.positions
+    ]
+    return Columns(found.times[kept].mean(axis=1), found.names, positions, many)
 
 
 def _from_dataset(data: Any) -> Columns:
@@ -107,29 +96,21 @@ def _from_dataset(data: Any) -> Columns:
     times = np.asarray(data["time"].values, dtype=np.float64)
     if "track" not in data[axes[0]].dims:
         data = data[axes].expand_dims(track=["ball"])
-    count = data.sizes["track"]
-    known = data["track"].values if "track" in data.coords else [f"ball {k}" for k in range(count)]
-    whole = {axis: data[axis].transpose("track", "time").values.astype(float) for axis in axes}
-    positions = [{axis: whole[axis][k] for axis in axes} for k in range(count)]
-    return Columns(times, [str(name) for name in known], positions)
+    positions = [
+        {axis: data[axis].isel(track=k).values.astype(float) for axis in axes}
+        for k in range(data.sizes["track"])
+    ]
+    return Columns(times, [str(name) for name in data["track"].values], positions)
 
 
-def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
+def upward(found: Columns, gravity: float) -> Upward:
     """Return the upward direction: the one in which constant downward acceleration fits best."""
-    if axis is not None:
-        if axis not in _AXES:
-            raise InvalidValue(f"axis must be x, y, -x or -y, got {shown(axis)}")
-        name, sign = _AXES[axis]
-        if name not in found.positions[0]:
-            raise InvalidValue(f"axis must be one of the track's, got {shown(axis)}")
-        return Upward(name, sign)
-    best, most = Upward("y" if "y" in found.positions[0] else "x", 1.0), 0.0
-    for name in found.positions[0]:
+    gains: dict[Upward, float] = {}
+    for name in sorted(found.positions[0], reverse=True):  # y first, where nothing falls
         each = [_gains(found.times, position[name], gravity) for position in found.positions]
-        for sign, gain in zip((1.0, -1.0), map(sum, zip(*each, strict=True)), strict=True):
-            if gain > most:
-                best, most = Upward(name, sign), gain
-    return best
+        up, down = map(sum, zip(*each, strict=True))
+        gains |= {Upward(name, 1.0): up, Upward(name, -1.0): down}
+    return max(gains, key=gains.__getitem__)
 
 
 def _gains(times: Array, heights: Array, gravity: float) -> tuple[float, float]:
@@ -137,11 +118,10 @@ def _gains(times: Array, heights: Array, gravity: float) -> tuple[float, float]:
     good = np.isfinite(heights)
     if good.sum() < 5 or np.ptp(heights[good]) == 0.0:
         return 0.0, 0.0
-    told = _moving(times[good], heights[good])
-    times, heights = times[good][told], heights[good][told]
+    times, heights = times[good], heights[good]
     falls = _guesses(times, heights, gravity)
     both = np.concatenate([[0.0], falls, -_guesses(times, -heights, gravity)])
-    none, *costs = unexplained(times, heights, _noise(heights), both).tolist()
+    none, *costs = unexplained(times, heights, noise_of(heights), both).tolist()
     return none - min(costs[: len(falls)]), none - min(costs[len(falls) :])
 
 
@@ -149,65 +129,38 @@ def _guesses(times: Array, heights: Array, gravity: float) -> Array:
     """Return accelerations to try: gravity, gravity/16 (fourfold slow motion), those of windows."""
     guesses = [gravity, gravity / 16.0]
     for wide in _WIDTHS:
-        falls = -_accelerations(times, heights, wide)
-        one = float(np.median(falls)) if len(falls) else 0.0
-        if one > 0.0 and all(abs(one / other - 1.0) > _ALIKE for other in guesses):
-            guesses.append(one)
+        falls = -accelerations(times, heights, wide, _LEAST_MOTION * float(np.ptp(heights)))
+        usual = float(np.median(falls)) if len(falls) else 0.0
+        if usual > 0.0 and all(abs(usual / other - 1.0) > _ALIKE for other in guesses):
+            guesses.append(usual)
     return np.array(guesses)
-
-
-def _accelerations(times: Array, heights: Array, wide: int) -> Array:
-    """Return the accelerations of parabolas through windows of points in which the ball moves."""
-    if len(heights) < wide:
-        return np.zeros(0)
-    t, u = (np.lib.stride_tricks.sliding_window_view(array, wide) for array in (times, heights))
-    moves = np.ptp(u, axis=1) > _LEAST_MOTION * np.ptp(heights)
-    t, u = t[moves], u[moves]
-    return curvatures(t, u)
 
 
 def flights_of(times: Array, heights: Array, gravity: float) -> Bounced | None:
     """Return the flights of a ball, and after which of them it bounces, None where it never does.
 
-    The acceleration is fitted, as the frame rate and the scale of the track may be wrong. In a long
-    track it is found where the ball moves most.
+    The acceleration is fitted, as the frame rate and the scale of the track may be wrong.
     """
-    told = _moving(times, heights)
-    t, u = times[told], heights[told]
-    sigma = _noise(heights)
-    guesses = _guesses(t, u, gravity)
-    acceleration = float(guesses[np.argmin(unexplained(t, u, sigma, guesses))])
+    sigma = noise_of(heights)
+    guesses = _guesses(times, heights, gravity)
+    acceleration = float(guesses[np.argmin(unexplained(times, heights, sigma, guesses))])
     found: Bounced | None = None
     for _ in range(_ROUNDS):
-        found = _joined(t, u, find_flights(t, u, sigma, acceleration))
+        found = _joined(times, heights, find_flights(times, heights, sigma, acceleration))
         if found is None:
             return None
         new, wider = found[0].fall, max(_noise_floor(heights), _spread(found[0]))
         steady = abs(new / acceleration - 1.0) < 1e-3 and abs(wider / sigma - 1.0) < 0.05
-        if new <= 0.0 or steady:
+        if steady:
             break
         acceleration, sigma = new, wider
-    if len(t) < len(times):
-        found = _joined(times, heights, find_flights(times, heights, sigma, acceleration))
-    if found is None or found[0].fall <= 0.0:
-        return None
-    return Parabolas(times, heights, _released(*found)), found[1]
+    return found and (Parabolas(times, heights, _released(*found)), found[1])
 
 
 def _spread(fitted: Parabolas) -> float:
     """Return the error of a point; where flights differ in acceleration, that beside their own."""
     own = own_noise(fitted.times, fitted.heights, fitted.flights)
     return own if fitted.sigma > _DIFFER * own else fitted.sigma
-
-
-def _moving(times: Array, heights: Array) -> NDArray[np.intp] | slice:
-    """Return the points of a long track in the stretches in which the ball moves most."""
-    if len(times) <= _STRETCH * _STRETCHES:
-        return slice(None)
-    starts = np.arange(0, len(times) - _STRETCH + 1, _STRETCH)
-    ranges = [float(np.ptp(heights[start : start + _STRETCH])) for start in starts.tolist()]
-    most = np.sort(starts[np.argsort(ranges)[-_STRETCHES:]])
-    return np.concatenate([np.arange(start, start + _STRETCH) for start in most.tolist()])
 
 
 def _released(fitted: Parabolas, bounces: list[int]) -> list[Flight]:
@@ -230,11 +183,9 @@ def _released(fitted: Parabolas, bounces: list[int]) -> list[Flight]:
     return flights
 
 
-def _noise(heights: Array) -> float:
+def noise_of(heights: Array) -> float:
     """Return the error of a point from third differences, most of which lie within one flight."""
-    third = np.abs(np.diff(heights, 3))
-    quartile = float(np.quantile(third, 0.25)) if len(third) else 0.0
-    return max(quartile / 0.3186 / math.sqrt(20.0), _noise_floor(heights))
+    return max(difference_noise(heights, 3), _noise_floor(heights))
 
 
 def _noise_floor(heights: Array) -> float:
@@ -249,13 +200,12 @@ def _joined(times: Array, heights: Array, flights: list[Flight]) -> Bounced | No
         if fitted.freedom < 1 or fitted.fall <= 0.0:
             return None
         jumps, errors, before = fitted.jumps()
-        weak = np.flatnonzero(np.abs(jumps) < _CLEAR_JUMP * errors)
+        size = np.abs(jumps)
+        weak = np.flatnonzero(size < _CLEAR_JUMP * errors)
+        if not weak.size:
+            weak = _small(fitted, jumps)
         if weak.size:
-            flights = _united(flights, weak[np.argsort(np.abs(jumps[weak]))])
-            continue
-        small = _small(fitted, jumps)
-        if small.size:
-            flights = _united(flights, small)
+            flights = _united(flights, weak[np.argsort(size[weak])])
             continue
         bouncing = (before < 0.0) & (before + jumps > 0.0)
         bounces = np.flatnonzero(bouncing & (jumps > _LEAST_JUMP * jumps.max(initial=0.0))).tolist()
@@ -269,17 +219,15 @@ def _joined(times: Array, heights: Array, flights: list[Flight]) -> Bounced | No
 
 
 def _small(fitted: Parabolas, jumps: Array) -> NDArray[np.intp]:
-    """Return the jumps within a flight, smallest first, that a scale which changes makes.
+    """Return the jumps within a flight that a scale which changes makes.
 
     A lens, or a distance to the camera that changes, gives the pieces of one flight accelerations
     of their own. The pieces of a hand are shorter, or apart.
     """
     first, last = fitted.firsts, fitted.lasts
-    size = np.abs(jumps)
     count = last - first
     beside = (first[1:] - last[:-1] <= _BESIDE) & (np.minimum(count[:-1], count[1:]) > _LEAST_FALL)
-    small = np.flatnonzero(beside & (size < _LEAST_JUMP * jumps.max(initial=0.0)))
-    return small[np.argsort(size[small])]
+    return np.flatnonzero(beside & (np.abs(jumps) < _LEAST_JUMP * jumps.max(initial=0.0)))
 
 
 def _united(flights: list[Flight], weakest: NDArray[np.intp]) -> list[Flight]:

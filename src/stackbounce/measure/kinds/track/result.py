@@ -13,7 +13,6 @@ from stackbounce.measure.kinds.track.time_base import SI, TimeBase, TrackUnits
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, Number, Row, nominal
 
-_CORRELATED = 0.2  # correlation of neighbouring points' errors that is mentioned
 _NOTICED = 1.0  # standard errors of a speed, from which on its bias is mentioned
 
 
@@ -39,10 +38,10 @@ class Track:
         Of each bounce: rebound over impact speed.
     gravity : ufloat
         Of the flights, as tracked, in m/s².
-    times, heights : ndarray
-        (N,) of the points, in s and m, up-positive.
+    heights : ndarray
+        (N,) of the points, in m, up-positive.
     fit : Parabolas
-        Those of the flights.
+        Those of the flights, with the times of the points.
     bounces : tuple of int
         After which flights it bounces.
     notes : tuple of str
@@ -58,7 +57,6 @@ class Track:
     apex_heights: tuple[Number, ...]
     restitutions: tuple[Number, ...]
     gravity: Number
-    times: Array
     heights: Array
     fit: Parabolas
     bounces: tuple[int, ...]
@@ -76,8 +74,6 @@ class Tracks(Finding):
     rebound_ratios : tuple of ufloat
         Of a stacked drop: each ball's rebound speed over the lowest one's impact speed; empty for
         one ball, or where the balls do not bounce together.
-    first_impact : ufloat
-        When the lowest ball first bounces, in s.
     time_base : TimeBase
         The track's frame rate and scale, checked against gravity.
     axis : str
@@ -97,7 +93,6 @@ class Tracks(Finding):
 
     balls: tuple[Track, ...]
     rebound_ratios: tuple[Number, ...]
-    first_impact: Number
     time_base: TimeBase
     axis: str
     tilt: float
@@ -150,65 +145,21 @@ class Tracks(Finding):
 
     def curves(self, data: Any) -> list[Curve]:  # noqa: ARG002
         """Return each ball's height above where it first bounces."""
-        unit = self.units.length
-        return [
-            Curve(ball.name, "position", ball.times, ball.heights - nominal(ball.levels[0]), unit)
-            for ball in self.balls
-        ]
+        curves = []
+        for ball in self.balls:
+            above = ball.heights - nominal(ball.levels[0])
+            curves.append(Curve(ball.name, "position", ball.fit.times, above, self.units.length))
+        return curves
 
     def first_touch(self) -> float | None:
         """Return when the lowest ball first bounces, in s; None where the clock is not known."""
-        return nominal(self.first_impact) if self.units.time == "s" else None
+        return nominal(self.balls[0].impact_times[0]) if self.units.time == "s" else None
 
 
 def notes_of(ball: Track, shape: Shape, fall_time: Any, unit: str) -> list[str]:
     """Return the notes on a ball's track; its time of fall from rest is in a unit."""
     name, fit = ball.name, ball.fit
-    notes = _uneven(name, shape)
-    first = fit.flights[ball.bounces[0]]
-    late = float(fit.times[first.first] - (ball.impact_times[0] - fall_time).nominal_value)
-    if late > 0.2 * fall_time.nominal_value:
-        notes.append(
-            f"{name}: its track begins {late:.2g} {unit} after the fall did; the drop height is "
-            "that of a fall from rest with the same impact speed."
-        )
-    elif late < -0.1 * fall_time.nominal_value:
-        notes.append(
-            f"{name}: it goes up before it falls; the drop height is that of its highest point."
-        )
-    least = min(last - start for start, last in fit.flights)
-    if least < 5:
-        notes.append(f"{name}: a flight has only {least} points; a higher frame rate would help.")
-    if fit.correlation > _CORRELATED:
-        notes.append(
-            f"{name}: the errors of neighbouring points go together (correlation "
-            f"{fit.correlation:.2g}), as when a mark drifts on the ball; the errors allow for it."
-        )
-    return notes
-
-
-def stays_long(ball: Track, *, alone: bool) -> list[str]:
-    """Return a note where a long contact biases the speeds at the touch."""
-    fit, bounce = ball.fit, ball.bounces[0]
-    before, after = fit.flights[bounce].last, fit.flights[bounce + 1].first
-    lasts = max(after - before - 1, 0) * float(np.median(np.diff(fit.times)))  # at least
-    excess = 0.5 * ball.gravity.nominal_value * lasts
-    if excess < _NOTICED * ball.impact_speeds[0].std_dev:
-        return []
-    biased = (
-        f"{ball.name} is in contact for {1e3 * lasts:.0f} ms or more: its speeds, where the "
-        f"flights before and after meet, are too high by {excess:.2g} m/s or more, beyond their "
-        "errors, and so are its heights"
-    )
-    if not alone:
-        return [f"{biased}; what is fitted to them is off by as much"]
-    hint = OptionHint({"floor": None})
-    return [Message(f"{biased}; ", hint, " tells the floor's level, for those at the touch")]
-
-
-def _uneven(name: str, shape: Shape) -> list[str]:
-    """Return notes where the acceleration differs between flights, or changes within them."""
-    notes: list[str] = []
+    notes = []
     if shape.widening > 1.0:
         notes.append(
             f"{name}: the accelerations of its flights differ by {shape.scatter:.1%}, as where a "
@@ -220,4 +171,31 @@ def _uneven(name: str, shape: Shape) -> list[str]:
             f"{name}: within its flights the acceleration changes by {shape.change:+.0%}, as where "
             "a lens or air changes it; the errors of heights and restitutions allow for it"
         )
+    first = fit.flights[ball.bounces[0]]
+    late = float(fit.times[first.first] - (ball.impact_times[0] - fall_time).nominal_value)
+    if late > 0.2 * fall_time.nominal_value:
+        notes.append(
+            f"{name}: its track begins {late:.2g} {unit} after the fall did; the drop height is "
+            "that of a fall from rest with the same impact speed."
+        )
+    least = min(last - start for start, last in fit.flights)
+    if least < 5:
+        notes.append(f"{name}: a flight has only {least} points; a higher frame rate would help.")
     return notes
+
+
+def stays_long(ball: Track, *, alone: bool) -> list[str]:
+    """Return a note where a long contact biases the speeds at the touch."""
+    fit, bounce = ball.fit, ball.bounces[0]
+    before, after = fit.flights[bounce].last, fit.flights[bounce + 1].first
+    lasts = max(after - before - 1, 0) * float(np.median(np.diff(fit.times)))  # at least
+    excess = 0.5 * ball.gravity.nominal_value * lasts
+    if excess < _NOTICED * ball.impact_speeds[0].std_dev:
+        return []
+    hint = ("; ", OptionHint({"floor": None}), " tells the floor's level, for those at the touch")
+    biased = (
+        f"{ball.name} is in contact for {1e3 * lasts:.0f} ms or more: its speeds, where the "
+        f"flights before and after meet, are too high by {excess:.2g} m/s or more, beyond their "
+        "errors, and so are its heights"
+    )
+    return [Message(biased, *hint * alone)]

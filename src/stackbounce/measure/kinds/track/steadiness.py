@@ -25,25 +25,19 @@ class Turn(NamedTuple):
     words: str
 
 
-def acceleration_angle(fits: Sequence[Parabolas], sides: Sequence[Array]) -> tuple[float, float]:
+def acceleration_angle(fit: Parabolas, across: Array) -> tuple[float, float]:
     """Return the angle in radians between an axis and the vertical, and its error.
 
-    Of each ball `fits` has the flights along the axis, and `sides` the positions across it.
+    The parabolas are those along the axis, and the positions those across it.
     """
-    angles, weights = [], []
-    for fit, across in zip(fits, sides, strict=True):
-        known = np.isfinite(across)
-        kept = [flight for flight in fit.flights if known[slice(*flight)].all()]
-        if not kept:
-            continue
-        first, second = (Parabolas(fit.times, axis, kept) for axis in (fit.heights, across))
-        fall, drift = first.values[0], second.values[0]
-        angles.append(math.atan2(drift, fall))
-        error = math.sqrt(max(second.covariance[0, 0], 0.0)) / max(abs(fall), 1e-300)
-        weights.append(1.0 / max(error, 1e-9) ** 2)
-    if not angles:
+    known = np.isfinite(across)
+    kept = [flight for flight in fit.flights if known[slice(*flight)].all()]
+    if not kept:
         return 0.0, math.inf
-    return float(np.average(angles, weights=weights)), 1.0 / math.sqrt(sum(weights))
+    along, sideways = (Parabolas(fit.times, axis, kept) for axis in (fit.heights, across))
+    fall, drift = along.fall, sideways.fall
+    error = math.sqrt(max(sideways.covariance[0, 0], 0.0)) / max(abs(fall), 1e-300)
+    return math.atan2(drift, fall), error
 
 
 def turn_of(

@@ -1,17 +1,14 @@
 """The units of a track, its frame rate and its scale, checked against gravity."""
 
 import math
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from stackbounce.measure.quantities import Number
 
 _CALIBRATION = 0.03  # relative error of gravity that a calibration of the scale may make
-_NEAR = 0.06  # relative difference of a factor to the nearest one of those below
-_FACTORS = (  # of two frame rates
-    *(2, 4, 8, 16, 20, 40, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 5 / 4, 4 / 5, 6 / 5, 5 / 6, 10 / 3),
-    *(5 / 3, 3 / 5, 3 / 2, 2 / 3, 3, 1 / 3, 10, 1 / 10, 5, 1 / 5),
-)
+_NEAR = 0.06  # relative difference of a factor to that of two usual frame rates
+_LEAST_FACTOR = 0.1  # relative difference to 1 of a factor that two frame rates make
+_KNOWN_WITHIN = 0.02  # relative difference of a track's frame rate to a usual one
 _FRAME_RATES = (24, 25, 30, 50, 60, 100, 120, 125, 240, 250, 300, 480, 500, 600, 960, 1000, 1200)
 
 
@@ -65,13 +62,9 @@ class TimeBase(NamedTuple):
     ----------
     gravity : ufloat
         Of the flights as tracked, in m/s².
-    ratio : ufloat
-        Ratio of `gravity` to the true gravity.
-    frame_rate : float
-        As the times of the track have it, in 1/s.
     frame_rate_factor : float or None
-        By which the true frame rate is higher: a usual factor near the one that gravity requires.
-        None where frame rate and scale agree with gravity, or no usual factor is near.
+        By which the true frame rate is higher: that of two usual frame rates, near the one that
+        gravity requires. None where gravity agrees, or no usual frame rates make such a factor.
     agrees : bool
         Whether frame rate and scale agree with gravity.
     note : str
@@ -79,8 +72,6 @@ class TimeBase(NamedTuple):
     """
 
     gravity: Number
-    ratio: Number
-    frame_rate: float
     frame_rate_factor: float | None
     agrees: bool
     note: str
@@ -113,7 +104,7 @@ def check_time_base(
     --------
     >>> from uncertainties import ufloat
     >>> check_time_base(ufloat(0.613, 0.004), 9.80665, 60.0).frame_rate_factor
-    4
+    4.0
     """
     ratio = gravity / true
     value = float(ratio.nominal_value)
@@ -122,23 +113,23 @@ def check_time_base(
         note = "restitutions do not depend on frame rate and scale, heights and speeds do."
         if units.time == "s":
             note = f"if that is free fall, the scale is {1.0 / value:.3g} m for a pixel."
-        return TimeBase(gravity, ratio, frame_rate, None, False, seen + note)
+        return TimeBase(gravity, None, False, seen + note)
     if abs(value - 1.0) < max(_CALIBRATION, 3.0 * float(ratio.std_dev)):
-        return TimeBase(gravity, ratio, frame_rate, None, True, "")
+        return TimeBase(gravity, None, True, "")
     factor = math.sqrt(1.0 / value)
-    sensible = _nearest(_FACTORS, factor)
-    slack = max(_NEAR, 1.5 * float(ratio.std_dev) / value)
-    near = abs(math.log(sensible / factor)) < slack and abs(factor - 1.0) > 0.1
-    beginning = f"Gravity comes out as {gravity:.2uS} m/s^2 instead of {true:g}: "
     clock = f"the frame rate is wrong by a factor of {factor:.3g}"
-    if near:
-        rates = _rates(frame_rate, sensible)
-        clock = f"the video's frame rate is wrong by a factor of {sensible:.3g}{rates}"
+    rates = _misread(frame_rate, factor, max(_NEAR, 1.5 * float(ratio.std_dev) / value))
+    usual = rates[1] / rates[0] if rates else None
+    if rates:
+        clock = (
+            f"the video's frame rate is wrong by a factor of {usual:.3g}: {rates[1]} frames per "
+            f"second read as {rates[0]}"
+        )
     note = (
-        f"{beginning}either {clock}, or all lengths must be "
-        f"multiplied by {1.0 / value:.3g}. Nothing has been corrected."
+        f"Gravity comes out as {gravity:.2uS} m/s^2 instead of {true:g}: either {clock}, or all "
+        f"lengths must be multiplied by {1.0 / value:.3g}. Nothing has been corrected."
     )
-    return TimeBase(gravity, ratio, frame_rate, sensible if near else None, False, note)
+    return TimeBase(gravity, usual, False, note)
 
 
 def is_usual(ratio: float, frame_rate: float) -> bool:
@@ -149,19 +140,17 @@ def is_usual(ratio: float, frame_rate: float) -> bool:
     >>> is_usual(1 / 16, 60.0), is_usual(1 / 20, 60.0), is_usual(1 / 16, 110.0)
     (True, False, False)
     """
-    factor = math.sqrt(1.0 / ratio)
-    nearest = _nearest(_FACTORS, factor)
-    return abs(math.log(nearest / factor)) < _NEAR and bool(_rates(frame_rate, nearest))
+    return _misread(frame_rate, math.sqrt(1.0 / ratio), _NEAR) is not None
 
 
-def _rates(frame_rate: float, factor: float) -> str:
-    """Return words for the two frame rates, where both are usual ones."""
-    rates = frame_rate, frame_rate * factor
-    read, true = (_nearest(_FRAME_RATES, rate) for rate in rates)
-    usual = abs(read / rates[0] - 1.0) < 0.02 and abs(true / rates[1] - 1.0) < 0.02
-    return f": {true} frames per second read as {read}" if usual else ""
+def _misread(frame_rate: float, factor: float, slack: float) -> tuple[int, int] | None:
+    """Return the usual frame rate that was read, and the true one, that make about a factor."""
+    read = _nearest(frame_rate)
+    true = _nearest(factor * read)
+    near = abs(math.log(true / read / factor)) < slack and abs(factor - 1.0) > _LEAST_FACTOR
+    return (read, true) if near and abs(read / frame_rate - 1.0) < _KNOWN_WITHIN else None
 
 
-def _nearest(numbers: Sequence[float], wanted: float) -> float:
-    """Return the number whose ratio to the wanted one is nearest to 1."""
-    return min(numbers, key=lambda number: abs(math.log(number / wanted)))
+def _nearest(frame_rate: float) -> int:
+    """Return the usual frame rate whose ratio to another is nearest to 1."""
+    return min(_FRAME_RATES, key=lambda usual: abs(math.log(usual / frame_rate)))
