@@ -239,6 +239,15 @@ def test_neither_where_the_scale_is_unknown(name):
         track(data)
 
 
+def test_hops_with_long_contacts_are_none_in_frames_either():
+    hop = (0.5 * np.arange(n) * (n - 1.0 - np.arange(n)) for n in (40, 36, 32, 28))
+    heights = np.concatenate([np.append(flight, np.zeros(28)) for flight in hop])
+    heights += np.random.default_rng(1).normal(0.0, 0.5, len(heights))
+    data = over_time("y", np.arange(len(heights)) * 1.0, heights, "px", "frame")
+    with pytest.raises(InvalidValue, match="the contacts last for more than half of the flights"):
+        track(data)
+
+
 def test_a_bounce_in_pixels_and_frames_is_one():
     data = tracked(FALL, down=True, seed=2) / 2e-3
     data["time"] = ("time", np.arange(data.sizes["time"]) * 1.0, {"units": "frame"})

@@ -23,6 +23,8 @@ _KNOWN_WITHIN = 0.05  # relative error of an acceleration that tells a slow moti
 _SEEN_WITHIN = 0.25  # relative error of an acceleration that is one at all
 _LARGEST_CHANGE = 0.4  # of the acceleration within a flight, relative
 _CLEAR_CHANGE = 4.0  # standard errors of that change
+_LONGEST_SHARE = 0.5  # of the flights beside it, that a contact may last, where no clock is known
+_LONGEST_FRAMES = 4  # that a contact may last, where no clock is known
 _LONGEST_CONTACT = 0.12  # s; longer ones are those of legs or hands
 _MOST_BOUNCES = 100  # of a ball
 _CLOSE = 3  # frames between two pieces of one flight, at most
@@ -61,7 +63,7 @@ def no_flight(fit: Parabolas, bounces: list[int], axis: str, gravity: float | No
             "the middle to the ends, where that of a fall stays; a ball that swings, or an "
             "oscillation?"
         )
-    return "" if gravity is None else _lasting(fit, bounces, fall / gravity)
+    return _lasting(fit, bounces, None if gravity is None else fall / gravity)
 
 
 def what_is_seen(times: Array, heights: Array, axis: str, gravity: float | None) -> str:
@@ -119,15 +121,21 @@ def _arcs(flights: Sequence[Flight], bounces: Sequence[int]) -> list[Flight]:
     return arcs
 
 
-def _lasting(fit: Parabolas, bounces: list[int], ratio: float) -> str:
+def _lasting(fit: Parabolas, bounces: list[int], ratio: float | None) -> str:
     """Return why contacts are too long; `ratio` of the acceleration to gravity tells the clock."""
     step = float(np.median(np.diff(fit.times)))
-    lasts = fit.times[fit.firsts[1:]] - fit.times[fit.lasts[:-1] - 1] - step
-    last = float(np.median(lasts[bounces])) * math.sqrt(ratio)
-    if last > _LONGEST_CONTACT:
+    ends = fit.times[fit.lasts - 1]
+    lasts = (fit.times[fit.firsts[1:]] - ends[:-1] - step)[bounces]
+    last = float(np.median(lasts))
+    if ratio is None:
+        flights = ends - fit.times[fit.firsts]
+        beside = np.minimum(flights[:-1], flights[1:])[bounces]
+        if last > _LONGEST_FRAMES * step and np.median(lasts / beside) > _LONGEST_SHARE:
+            return "no bounce: the contacts last for more than half of the flights beside them"
+    elif last * math.sqrt(ratio) > _LONGEST_CONTACT:
         return (
-            f"no bounce: between the flights it is on the floor for {last:.2g} s; legs or a "
-            "trampoline? A ball's contact takes some hundredths of a second"
+            f"no bounce: between the flights it is on the floor for {last * math.sqrt(ratio):.2g} s"
+            "; legs or a trampoline? A ball's contact takes some hundredths of a second"
         )
     return ""
 
