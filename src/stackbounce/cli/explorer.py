@@ -43,33 +43,16 @@ def run(
             print_json({"stackbounce": __version__, **known})
             return
         typer.echo(f"The explorer: {address} (Ctrl+C ends it)")
-        if others or host in ("0.0.0.0", "::"):
-            _tell_others(others)
+        if others:
+            typed = " or ".join(place.address for place in others)
+            typer.echo(f"For others on the same network: {typed} (the page shows a QR code)")
+        elif host in ("0.0.0.0", "::"):
+            typer.echo("This machine is in no network: others cannot open the page.")
 
     by_default = min(max((os.cpu_count() or 1) // 2, 2), 4)
     count = by_default if workers is None else whole("--workers", workers, 1, 64)
     limits = dataclasses.replace(LIMITS, workers=count)
     serve(host, port, limits, browser=browser, tell=tell, framed_by=framed_by)
-
-
-def _tell_others(others: "list[Place]") -> None:
-    """Print the addresses that a class can type, and the first one as a QR code."""
-    import sys
-
-    from stackbounce.explorer.addresses import code_text
-
-    if not others:
-        typer.echo("This machine is in no network: others cannot open the page.")
-        return
-    typer.echo(f"For others on the same network: {' or '.join(place.address for place in others)}")
-    lines = code_text(others[0].address).splitlines()
-    try:
-        lines[0].encode(sys.stdout.encoding or "ascii")
-    except UnicodeEncodeError:  # a terminal that cannot show it
-        return
-    width = len(lines[0])
-    for line in lines:
-        typer.secho(line.ljust(width), fg="bright_white", bg="black")
 
 
 def _write(path: str, framed_by: list[str], overwrite: bool, as_json: bool) -> None:

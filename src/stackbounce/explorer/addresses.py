@@ -1,13 +1,9 @@
 """The addresses at which other machines reach the explorer, with their QR codes."""
 
 import contextlib
-import io
 import ipaddress
 import socket
-from typing import TYPE_CHECKING, NamedTuple
-
-if TYPE_CHECKING:
-    import segno
+from typing import NamedTuple
 
 _ALL = ("0.0.0.0", "::")
 _OUTSIDE = "192.0.2.1"  # RFC 5737; nothing is sent there
@@ -53,32 +49,16 @@ def list_places(host: str, port: int) -> list[Place]:
     >>> list_places("203.0.113.7", 8050)[0].address
     'http://203.0.113.7:8050/'
     """
+    import segno
+
     hosts = _own_hosts() if host in _ALL else [host]
     others = [host for host in hosts if not _is_loopback(host)]
     addresses = [url(other, port) for other in others]
+    codes = [segno.make_qr(address, error="m", boost_error=False) for address in addresses]
     return [
-        Place(address, ["".join(map(str, row)) for row in _code(address).matrix])
-        for address in addresses
+        Place(address, ["".join(map(str, row)) for row in code.matrix])
+        for address, code in zip(addresses, codes, strict=True)
     ]
-
-
-def code_text(address: str) -> str:
-    """Return the QR code of an address for a terminal, two rows in a line; light is drawn.
-
-    Examples
-    --------
-    >>> print(code_text("http://192.168.1.5:8050/")[:30].rstrip())
-    █████████████████████████████
-    """
-    text = io.StringIO()
-    _code(address).terminal(text, border=2, compact=True)
-    return text.getvalue()
-
-
-def _code(address: str) -> "segno.QRCode":
-    import segno
-
-    return segno.make_qr(address, error="m", boost_error=False)
 
 
 def _is_loopback(host: str) -> bool:
