@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stackbounce.errors import InvalidValue, positive, shown
+from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds.waveform.baseline import first_guess, quiet_parts
 from stackbounce.measure.kinds.waveform.contact import Seen, measure_contact
 from stackbounce.measure.kinds.waveform.intervals import (
@@ -54,8 +54,6 @@ def waveform(
     mass: Any = None,
     impact_speed: Any = None,
     time_constant: float | None = None,
-    threshold: float | None = None,
-    sign: int | None = None,
     law: "ContactLaw | type[ContactLaw] | str | None" = None,
     exponent: float | None = None,
 ) -> Waveform:
@@ -72,11 +70,6 @@ def waveform(
         In m/s: with `mass` it calibrates a sensor that shows volts, see Notes.
     time_constant : float, optional
         RC in s of a piezo sensor and its amplifier: the droop is corrected.
-    threshold : float, optional
-        The force above the baseline that a contact must reach, in the record's unit. Default: the
-        larger of 6 times the noise and 1 % of the highest peak.
-    sign : int, optional
-        +1 or -1 if contacts go up or down in the record. Default: it is found.
     law : ContactLaw, its class or its name, optional
         Of the contact, if it is known: touch and release are then more accurate. `Rigid` has no
         effect.
@@ -126,10 +119,6 @@ def waveform(
     3.999(7) ms, 61.7(2) kN/m
     """
     ends = ends_of(law, exponent)
-    if sign not in (None, 1, -1):
-        raise InvalidValue(f"sign must be 1 or -1, got {shown(sign)}")
-    if threshold is not None:
-        threshold = positive("threshold", threshold, "the record's unit")
     m = measured_if_given("mass", mass, "kilograms")
     v = measured_if_given("impact_speed", impact_speed, "m/s")
     record = read_record(data)
@@ -138,10 +127,10 @@ def waveform(
     if ringing is not None:
         record, inner = ringing.force(record)
         raw = raw[inner]
-    seen = _see(record, raw, threshold, sign)
+    seen = _see(record, raw)
     if time_constant is not None:
         record = _undrooped(record, seen, time_constant)
-        seen = _see(record, raw, threshold, sign)
+        seen = _see(record, raw)
     seen = seen._replace(ringing=ringing)
     if len(seen.stretches) > _MOST_CONTACTS:
         got = (
@@ -181,7 +170,7 @@ def waveform(
     return replace(found, notes=(*notes, *why), sensitivity=sensitivity)
 
 
-def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) -> Seen:
+def _see(record: Record, raw: Array) -> Seen:
     """Find baseline and contacts by iteration, as each depends on the other."""
     quiet = np.zeros(len(record.times), dtype=bool)
     zero = quiet_parts(record, quiet, hum=False)
@@ -191,11 +180,11 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
     humming = quiet_parts(record, _outside(len(bare), high, _HIGH_MARGIN), hum=True)
     zero = humming if humming.hum else zero
     stretches: list[Stretch] = []
-    short, own = 0, sign or 1
+    short, own = 0, 1
     for k in range(_ROUNDS):
         bare = record.values - zero.baseline
-        own = sign or which_sign(bare, zero.noise)
-        stretches, short = find_stretches(own * bare, zero.noise, zero.density, threshold)
+        own = which_sign(bare, zero.noise)
+        stretches, short = find_stretches(own * bare, zero.noise, zero.density)
         quiet = _outside(len(bare), stretches)
         zero = quiet_parts(record, quiet, hum=k > 0 or bool(humming.hum))
     signal = own * (record.values - zero.baseline)

@@ -83,10 +83,10 @@ def no_contact(force: Array, *, clipped: bool = False) -> bool:
     return len(force) >= _LEAST_JUDGED and bool(fades or square)
 
 
-def find_stretches(
-    signal: Array, noise: float, density: float, threshold: float | None
-) -> tuple[list[Stretch], int]:
+def find_stretches(signal: Array, noise: float, density: float) -> tuple[list[Stretch], int]:
     """Return the stretches above the noise, and how many were too short.
+
+    They rise above 6 noise levels and 1 % of the highest peak.
 
     Parameters
     ----------
@@ -94,8 +94,6 @@ def find_stretches(
         (n,) without its baseline, contacts upward.
     noise, density : float
         Of one sample, and of averages, see `Quiet`.
-    threshold : float or None
-        What a contact must rise above; None for 6 noise levels and 1 % of the highest peak.
 
     Returns
     -------
@@ -104,10 +102,8 @@ def find_stretches(
     int
         How many peaks of one or two samples were left out.
     """
-    clear, least = 0.0, threshold
-    if least is None:
-        clear, least = _ABOVE_NOISE, _RINGING * float(signal.max())
-    rough = _runs(signal, noise, max(clear * noise, least), 2)
+    least = _RINGING * float(signal.max())
+    rough = _runs(signal, noise, max(_ABOVE_NOISE * noise, least), 2)
     wide = np.sort([len(interval) for interval in _longer(rough, _LEAST_SAMPLES)])
     if not len(wide):
         return [], len(rough)
@@ -117,7 +113,7 @@ def find_stretches(
     if width == 1:
         return _longer(rough, _LEAST_SAMPLES), len(rough) - len(wide)
     calm = density / np.sqrt(width)
-    found = _runs(smoothed(signal, width), calm, max(clear * calm, least), width)
+    found = _runs(smoothed(signal, width), calm, max(_ABOVE_NOISE * calm, least), width)
     return _longer(found, _LEAST_SAMPLES + width), len(rough) - len(wide)
 
 

@@ -79,7 +79,6 @@ def floor_gap(
     mass: Any = None,
     impact_speed: Any = None,
     restitution: Any = None,
-    time_constant: float | None = None,
 ) -> FloorGap:
     """Return delay and gap of two balls from the floor's force under both and under one.
 
@@ -98,8 +97,6 @@ def floor_gap(
         In m/s: for records in V, and records in N without a mass.
     restitution : float or UFloat, optional
         Of the lower ball alone, where the speed is needed; by default anything from 0.5 to 1.
-    time_constant : float, optional
-        Of a piezo sensor's droop in s, which is then undone.
 
     Returns
     -------
@@ -138,8 +135,7 @@ def floor_gap(
     True
     """
     both, single = (
-        record if isinstance(record, Waveform) else waveform(record, time_constant=time_constant)
-        for record in (stack, alone)
+        record if isinstance(record, Waveform) else waveform(record) for record in (stack, alone)
     )
     pressed, free = _first("stack", both), _first("alone", single)
     touch, touch_alone = (contact.start.nominal_value for contact in (pressed, free))
