@@ -242,31 +242,22 @@ def _merged(rises: Rises) -> tuple[Rises, list[Dropped]]:
 
 def _without_echoes(chain: Chain, rises: Rises, delay: float) -> tuple[Chain, list[Dropped]]:
     """Return the series without echoes at its end, and why all other rises are left out."""
-    indices, missed, cut = list(chain.indices), list(chain.missed), []
+    indices, missed = list(chain.indices), list(chain.missed)
     while delay and len(indices) > 3:
         lag = rises.times[indices[-1]] - rises.times[indices[-2]]
         quieter = rises.amplitudes[indices[-1]] < rises.amplitudes[indices[-2]]
         if not (abs(lag - delay) < _SAME_DELAY and quieter):
             break
-        cut.append(indices.pop())
+        indices.pop()
         missed.pop()
     dropped = []
-    times = rises.times
-    for k in range(len(times)):
-        if k in indices:
-            continue
-        before = [i for i in indices if i < k]
-        if not before:
-            why = "before the series"
-        elif k in cut or rises.amplitudes[k] < rises.amplitudes[before[-1]]:
-            why = "echo, or a fainter noise"
-            if delay and abs(times[k] - times[before[-1]] - delay) < _SAME_DELAY:
-                why = "echo"
-        else:
-            why = "louder than the bounce before it"
-        if before and before[-1] == indices[-1] and k not in cut:
-            why = "after the series" if why != "echo" else why
-        dropped.append(Dropped(float(times[k]), why))
+    for k in np.setdiff1d(np.arange(len(rises.times)), indices):
+        before = max((i for i in indices if i < k), default=None)
+        why = "no bounce"
+        if before is not None and rises.amplitudes[k] < rises.amplitudes[before]:
+            lag = rises.times[k] - rises.times[before]
+            why = "echo" if delay and abs(lag - delay) < _SAME_DELAY else why
+        dropped.append(Dropped(float(rises.times[k]), why))
     return Chain(tuple(indices), tuple(missed), chain.score), dropped
 
 

@@ -57,6 +57,8 @@ def find_rises(white: NDArray[np.float32], rate: float, rounded: float) -> Rises
     Rises
         At most the 250 clearest, ascending in time.
     """
+    from scipy.signal import argrelextrema
+
     hop = max(1, round(_HOP_SECONDS * rate))
     rows = white[: len(white) // hop * hop].reshape(-1, hop)
     energy = np.einsum("ij,ij->i", rows, rows, dtype=np.float64) / hop
@@ -65,7 +67,7 @@ def find_rises(white: NDArray[np.float32], rate: float, rounded: float) -> Rises
     before, after = _around(energy, rounded)
     ratio = after / before
     least = _least(hop, len(energy))
-    peaks = _maxima(ratio, _HOPS_AFTER + 1)
+    (peaks,) = argrelextrema(ratio, np.greater_equal, order=_HOPS_AFTER + 1)
     peaks = peaks[(ratio[peaks] > least) & (peaks < len(energy) - _HOPS_AFTER)]
     if len(peaks) > _MOST_RISES:
         peaks = np.sort(peaks[np.argsort(ratio[peaks])[-_MOST_RISES:]])
@@ -79,14 +81,12 @@ def find_rises(white: NDArray[np.float32], rate: float, rounded: float) -> Rises
 
 def _around(energy: Array, rounded: float) -> tuple[Array, Array]:
     """Return the mean energy before and after the start of each hop."""
-    sums = np.concatenate([[0.0], np.cumsum(energy)])
-    at = np.arange(len(energy))
-    end = np.minimum(at + _HOPS_AFTER, len(energy))
-    after = (sums[end] - sums[at]) / (end - at)
-    stop = np.maximum(at - _HOPS_BETWEEN, 0)
-    start = np.maximum(stop - _HOPS_BEFORE, 0)
-    filled = stop > start
-    before = np.where(filled, (sums[stop] - sums[start]) / np.maximum(stop - start, 1), np.inf)
+    import pandas as pd
+
+    hops = pd.Series(energy)
+    after = hops[::-1].rolling(_HOPS_AFTER, min_periods=1).mean()[::-1].to_numpy()
+    earlier = hops.rolling(_HOPS_BEFORE, min_periods=1).mean()
+    before = earlier.shift(1 + _HOPS_BETWEEN, fill_value=np.inf).to_numpy(copy=True)
     # At first a codec is silent or a gain settles; digital silence is given a little noise.
     first = before[: round(_SETTLING_SECONDS / _HOP_SECONDS)]
     first[:] = np.maximum(first, np.percentile(energy, _QUIET_PERCENT))
@@ -99,12 +99,3 @@ def _least(freedom: int, count: int) -> float:
 
     chance = f.isf(_FALSE_ALARMS / count, _HOPS_AFTER * freedom, _HOPS_BEFORE * freedom)
     return max(_LEAST_RISE, _CHANCE_MARGIN * float(chance))
-
-
-def _maxima(values: Array, wide: int) -> NDArray[np.int64]:
-    """Return where values are largest within `wide` to both sides."""
-    from scipy.ndimage import maximum_filter1d
-
-    top = maximum_filter1d(values, 2 * wide + 1, mode="nearest")
-    at = np.flatnonzero((values == top) & (values > 0.0))
-    return at[np.concatenate([[True], np.diff(at) > wide])] if len(at) else at

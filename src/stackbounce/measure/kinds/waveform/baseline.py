@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.measure.kinds.waveform.hum import Base, find_hum, fit_quiet, leverage
+from stackbounce.measure.kinds.waveform.hum import Base, find_hum, fit_quiet
 from stackbounce.measure.kinds.waveform.record import Record
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import quantisation_error
@@ -14,10 +14,10 @@ from stackbounce.measure.statistics.ar_noise import correlation_factor, differen
 
 _LEAST_QUIET = 0.25  # of a record that is quiet
 _FAR = 0.2  # of a record's range: a clipped level that differs more from the ends is no baseline
+_SPANNED = 0.8  # of a record that its quiet samples span, so that they tell of a drift
 _FIFTH = 0.2  # of normal deviates that are within `_WITHIN_FIFTH`
 _WITHIN_FIFTH = 0.2533  # standard deviations
 _WITHIN_ONE = 0.683  # share of normal deviates within one standard deviation
-_LARGEST_LEVERAGE = 5.0  # of a sample over that of a typical quiet one
 _CLIPPED_BEYOND = 4.0  # standard deviations, in sigma clipping
 _CLIPPING_ROUNDS = 4  # of sigma clipping
 
@@ -103,7 +103,7 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet
     times = record.times - record.times[0]
     span = max(float(times[-1]), record.step)
     line = np.stack([np.ones_like(times), times / span - 0.5], axis=1)
-    if not _holds(line, quiet):
+    if np.ptp(np.flatnonzero(quiet)) < _SPANNED * len(quiet):
         line = line[:, :1]
     found = Base(fit_quiet(line, record.values, quiet), line.shape[1])
     if hum:
@@ -136,12 +136,6 @@ def scatter(rest: Array, fitted: int, quantum: float) -> tuple[float, float]:
     noise = _robust(rest, quantum) * float(np.sqrt(len(rest) / max(1, len(rest) - fitted)))
     noise = max(noise, quantum / np.sqrt(12.0))
     return float(noise), float(noise * np.sqrt(correlation_factor(rest)))
-
-
-def _holds(columns: Array, quiet: NDArray[np.bool_]) -> bool:
-    """Return whether each sample has a low leverage, so that the fit is well determined there."""
-    some = leverage(columns[:: max(1, len(columns) // 500)], columns[quiet])
-    return bool(some.max() ** 2 * quiet.sum() < _LARGEST_LEVERAGE * columns.shape[1])
 
 
 def _robust(rest: Array, quantum: float) -> float:

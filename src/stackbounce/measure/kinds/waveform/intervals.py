@@ -44,13 +44,10 @@ def smoothed(values: Array, width: int) -> Array:
     >>> smoothed(np.array([0.0, 3.0, 0.0, 0.0]), 3)
     array([1.5, 1. , 1. , 0. ])
     """
-    if width <= 1:
-        return values
-    half, count = width // 2, len(values)
-    total = np.concatenate([[0.0], np.cumsum(values)])
-    at = np.arange(count)
-    low, high = np.maximum(at - half, 0), np.minimum(at + half + 1, count)
-    return np.asarray((total[high] - total[low]) / (high - low))
+    import pandas as pd
+
+    rolling = pd.Series(values).rolling(max(width, 1), center=True, min_periods=1)
+    return np.asarray(rolling.mean())
 
 
 def which_sign(signal: Array, noise: float) -> int:
