@@ -58,21 +58,24 @@ def misjudgement(times: Array, errors: Array, missed: Sequence[int]) -> float:
         covariance = (slopes * errors**2) @ slopes.T
         design = np.stack([np.ones(len(kept)), flights[first]], axis=1)
         few = widening(max(len(kept) - 2, 1))
-        logs = logs + _evidence(_limited(flights[first], kept), design, covariance, factors)
+        logs = logs + _evidence(_limited(design, kept), design, covariance, factors)
     weights = np.exp(logs - logs.max())
     return few * half_width(weights / weights.sum(), np.zeros(_GRID), factors)
 
 
-def _limited(speeds: Array, values: Array) -> Array:
+def _limited(design: Array, values: Array) -> Array:
     """Return values without outliers: their distance from a robust line is limited."""
-    from scipy.stats import theilslopes
-
-    slope, level, *_ = theilslopes(values, speeds)
-    line = level + slope * speeds
-    off = values - line
+    line: Array = np.zeros(2)
+    weights: Array = np.ones(len(values))
+    for _ in range(10):
+        root = np.sqrt(weights)
+        line = np.asarray(np.linalg.lstsq(design * root[:, None], values * root, rcond=None)[0])
+        off = np.abs(values - design @ line)
+        weights = 1.0 / np.maximum(off, 0.1 * np.median(off) + 1e-12)
+    off = values - design @ line
     usual = 1.4826 * np.median(np.abs(off)) * len(values) / (len(values) - 2)  # two are fitted
     most = _OUTLIER_SIGMAS * usual + 1e-12
-    return np.asarray(line + np.clip(off, -most, most))
+    return np.asarray(design @ line + np.clip(off, -most, most))
 
 
 def _evidence(values: Array, design: Array, covariance: Array, factors: Array) -> Array:

@@ -35,7 +35,6 @@ if TYPE_CHECKING:
 _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
 _HIGH = 0.25  # of the largest value, below which only hum and noise are sought at first
 _SMOOTHED = 1e-4  # s of averages, so that noise does not break high parts into short ones
-_HIGH_MARGIN = 0.5  # of a high part's length, on each side
 _MANY_EQUAL, _EQUAL = 5, 0.02  # pulses, and the share by which their peaks differ at most
 _FULL = (
     0.8  # of peak times duration: the impulse of a square pulse with slow edges; a sine has 0.64
@@ -177,7 +176,7 @@ def _see(record: Record, raw: Array) -> Seen:
     width = 2 * int(0.5 * _SMOOTHED / record.step) + 1
     bare = smoothed(np.abs(record.values - zero.baseline), width)
     high = [Stretch(int(a), int(b)) for a, b in zip(*runs(bare > _HIGH * bare.max()), strict=True)]
-    humming = quiet_parts(record, _outside(len(bare), high, _HIGH_MARGIN), hum=True)
+    humming = quiet_parts(record, _outside(len(bare), high), hum=True)
     zero = humming if humming.hum else zero
     stretches: list[Stretch] = []
     short, own = 0, 1
@@ -233,13 +232,13 @@ def _are_square(contacts: tuple[Contact, ...]) -> bool:
     return equal and float(np.median(areas / peaks)) > _FULL
 
 
-def _outside(count: int, stretches: list[Stretch], share: float = _MARGIN) -> NDArray[np.bool_]:
+def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
     """Return which samples are outside all contacts, with a margin."""
     quiet = np.ones(count, dtype=bool)
     ends = [-1, *(stretch.last for stretch in stretches)]
     starts = [*(stretch.first for stretch in stretches), count]
     for k, one in enumerate(stretches):
-        margin = int(share * len(one)) + 2
+        margin = int(_MARGIN * len(one)) + 2
         before, after = (one.first - ends[k]) // 3, (starts[k + 1] - one.last) // 3
         quiet[one.first - min(margin, before) : one.last + min(margin, after) + 1] = False
     return quiet
