@@ -184,7 +184,7 @@ def test_scatter_that_alternates_is_timing_and_other_the_floors(seed):
 @pytest.mark.parametrize(
     ("series", "words"),
     [
-        ((7, 0.0, 0.02, 1), "which these bounces do not tell apart"),
+        ((7, 0.0, 0.02, 1), "These bounces do not tell apart the timing and an uneven floor"),
         ((25, 1.5e-3, 0.0, 2, None), "alternates .* timing"),
         ((25, 0.0, 0.015, 2, None), "does not alternate"),
     ],

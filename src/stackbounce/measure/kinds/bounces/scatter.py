@@ -91,35 +91,27 @@ def meaning_of(excess: float, found: Scatter) -> list[str]:
     Examples
     --------
     >>> print(*meaning_of(0.012, Scatter(0.012, 0.1, "floor or spin", 3.0)))
-    Restitution differs by 0.012 from bounce to bounce, more than the errors of the times, and \
-does not alternate (lag-1 autocorrelation 0.10): an uneven floor or a spinning ball; the mean and \
-the fits allow for it.
+    Restitution differs by 0.012 from bounce to bounce, more than the errors of the times. It does \
+not alternate (lag-1 autocorrelation 0.10): an uneven floor or a spinning ball; the mean and the \
+fits allow for it.
     >>> print(*meaning_of(0.0, Scatter(0.012, -0.62, "timing", 1.1)))
-    Restitution differs by 0.012 from bounce to bounce and alternates (lag-1 autocorrelation \
+    Restitution differs by 0.012 from bounce to bounce. It alternates (lag-1 autocorrelation \
 -0.62): timing.
     >>> meaning_of(0.0, Scatter(0.012, -0.2, "unknown", 1.2))
     []
     """
-    if found.cause == "unknown":
-        note = (
-            f"Restitution differs by {excess:.2g} from bounce to bounce, more than the errors of "
-            "the times: an uneven floor or a spinning ball, or the timing, which these bounces do "
-            f"not tell apart; these errors are taken to be {found.factor:.2g} times larger, as if "
-            "it were the timing, and the mean and the fits allow for either."
-        )
-        return [note] if excess else []
-    lag = f"(lag-1 autocorrelation {found.lag_one:.2f})"
-    timing = found.cause == "timing"
-    cause = f"alternates {lag}: timing"
-    if not timing:
-        cause = f"does not alternate {lag}: an uneven floor or a spinning ball"
-    if excess:
-        differs = f"{excess:.2g} from bounce to bounce, more than the errors of the times,"
-        larger = f"these errors are taken to be {found.factor:.2g} times larger"
-        cause += f"; {larger if timing else 'the mean and the fits allow for it'}"
-    elif found.size < _NOTABLE:
+    if not excess and (found.cause == "unknown" or found.size < _NOTABLE):
         return []
+    more = ", more than the errors of the times" if excess else ""
+    lag = f"(lag-1 autocorrelation {found.lag_one:.2f})"
+    larger = f"these errors are taken to be {found.factor:.2g} times larger"
+    if found.cause == "timing":
+        why, taken = f"It alternates {lag}: timing", larger
+    elif found.cause == "floor or spin":
+        why = f"It does not alternate {lag}: an uneven floor or a spinning ball"
+        taken = "the mean and the fits allow for it"
     else:
-        differs = f"{found.size:.2g} from bounce to bounce"
-        cause += "" if timing else " rather than errors of the times"
-    return [f"Restitution differs by {differs} and {cause}."]
+        why = "These bounces do not tell apart the timing and an uneven floor or a spinning ball"
+        taken = f"{larger}, as if it were the timing, and the mean and the fits allow for each"
+    differs = f"Restitution differs by {excess or found.size:.2g} from bounce to bounce{more}."
+    return [f"{differs} {why}" + (f"; {taken}." if excess else ".")]

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds.waveform.baseline import first_guess, quiet_parts
 from stackbounce.measure.kinds.waveform.contact import Seen, measure_contact
+from stackbounce.measure.kinds.waveform.hum import regression
 from stackbounce.measure.kinds.waveform.intervals import (
     Stretch,
     find_stretches,
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
 
 _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
 _HIGH = 0.25  # of the largest value, below which only hum and noise are sought at first
-_SMOOTHED = 1e-4  # s of averages, so that noise does not break high parts into short ones
 _MANY_EQUAL, _EQUAL = 5, 0.02  # pulses, and the share by which their peaks differ at most
 _FULL = (
     0.8  # of peak times duration: the impulse of a square pulse with slow edges; a sine has 0.64
@@ -153,7 +153,6 @@ def waveform(
         unit=record.unit,
         noise=zero.noise,
         baseline=known_to(float(np.median(zero.baseline)), zero.error),
-        drift=float(zero.baseline[-1] - zero.baseline[0]),
         hum=zero.hum,
         sign=seen.sign,
         step=record.step,
@@ -163,7 +162,6 @@ def waveform(
         impact_speed=v,
         times=record.times,
         force=seen.signal,
-        zero=seen.sign * zero.baseline,
     )
     sensitivity, why = sensitivity_of(found)
     return replace(found, notes=(*notes, *why), sensitivity=sensitivity)
@@ -173,8 +171,7 @@ def _see(record: Record, raw: Array) -> Seen:
     """Find baseline and contacts by iteration, as each depends on the other."""
     quiet = np.zeros(len(record.times), dtype=bool)
     zero = quiet_parts(record, quiet, hum=False)
-    width = 2 * int(0.5 * _SMOOTHED / record.step) + 1
-    bare = smoothed(np.abs(record.values - zero.baseline), width)
+    bare = np.abs(record.values - zero.baseline)
     high = [Stretch(int(a), int(b)) for a, b in zip(*runs(bare > _HIGH * bare.max()), strict=True)]
     humming = quiet_parts(record, _outside(len(bare), high), hum=True)
     zero = humming if humming.hum else zero
@@ -333,9 +330,9 @@ def _droops(seen: Seen, step: float) -> list[str]:
     part = np.concatenate([before, after])
     times = seen.times[part] - seen.times[one.first]
     columns = np.column_stack([part > one.last, np.ones_like(times), times])  # a step on a drift
-    weights = np.linalg.lstsq(columns, seen.raw[part], rcond=None)[0]
-    low, scatter = float(weights[0]), float(np.std(seen.raw[part] - columns @ weights))
-    error = scatter * np.sqrt(np.linalg.pinv(columns.T @ columns)[0, 0])
+    weights, rest = regression(columns, seen.raw[part])
+    low = float(weights[0])
+    error = float(np.std(rest)) * np.sqrt(np.linalg.pinv(columns.T @ columns)[0, 0])
     top = float(smoothed(seen.signal, 3)[one.first : one.last + 1].max())
     if low > -max(_CLEAR_DROP * error, 0.005 * top):
         return []

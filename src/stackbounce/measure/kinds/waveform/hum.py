@@ -13,7 +13,6 @@ from stackbounce.measure.statistics.ar_noise import correlation_factor
 _MAINS = (50.0, 60.0)  # Hz
 _SPREAD = 0.1  # Hz, standard deviation of the frequency
 _LARGEST = 0.25  # of the largest value; what is higher is a contact
-_ROUNDS = 3  # of the frequency's fit
 _BLOCK = 1e-3  # s, over which a hum hardly changes
 _BLOCKS = 100  # of a short record
 _LEAST_BLOCKS = 12  # quiet ones
@@ -57,9 +56,8 @@ def find_hum(line: Array, times: Array, record: Record, quiet: NDArray[np.bool_]
     if not tone:
         return None
     columns, rows, weights = _fitted(line, times, tone, record.values, quiet)
-    for _ in range(_ROUNDS):
-        tone += float(weights[-1])
-        columns, rows, weights = _fitted(line, times, tone, record.values, quiet)
+    tone += float(weights[-1])
+    columns, rows, weights = _fitted(line, times, tone, record.values, quiet)
     base = columns @ weights
     height = 0.5 * float(np.ptp(base - fit_quiet(line, base, quiet)))
     if height > _LARGEST * np.max(np.abs(record.values - base)):
