@@ -152,8 +152,8 @@ def waveform(
         contacts=contacts,
         unit=record.unit,
         noise=zero.noise,
-        baseline=known_to(float(np.median(zero.baseline)), zero.error),
-        hum=zero.hum,
+        baseline=known_to(float(np.median(zero.base.values)), zero.error),
+        hum=zero.base.height,
         sign=seen.sign,
         step=record.step,
         notes=tuple(notes),
@@ -171,19 +171,19 @@ def _see(record: Record, raw: Array) -> Seen:
     """Find baseline and contacts by iteration, as each depends on the other."""
     quiet = np.zeros(len(record.times), dtype=bool)
     zero = quiet_parts(record, quiet, hum=False)
-    bare = np.abs(record.values - zero.baseline)
+    bare = np.abs(record.values - zero.base.values)
     high = [Stretch(int(a), int(b)) for a, b in zip(*runs(bare > _HIGH * bare.max()), strict=True)]
     humming = quiet_parts(record, _outside(len(bare), high), hum=True)
-    zero = humming if humming.hum else zero
+    zero = humming if humming.base.height else zero
     stretches: list[Stretch] = []
     short, own = 0, 1
     for k in range(_ROUNDS):
-        bare = record.values - zero.baseline
+        bare = record.values - zero.base.values
         own = which_sign(bare, zero.noise)
         stretches, short = find_stretches(own * bare, zero.noise, zero.density)
         quiet = _outside(len(bare), stretches)
-        zero = quiet_parts(record, quiet, hum=k > 0 or bool(humming.hum))
-    signal = own * (record.values - zero.baseline)
+        zero = quiet_parts(record, quiet, hum=k > 0 or bool(humming.base.height))
+    signal = own * (record.values - zero.base.values)
     times, quantum = record.times, record.quantum
     return Seen(times, signal, own * raw, quantum, zero, quiet, stretches, short, own)
 
@@ -292,9 +292,9 @@ def _notes(
     few = min((contact.samples for contact in contacts), default=_FEW_SAMPLES)
     if few < _FEW_SAMPLES:
         notes.append(f"only {few} samples in a contact: times and peaks are coarse, sample faster")
-    if seen.zero.hum:
-        hum = f"{seen.zero.hum:.3g}{of}"
-        notes.append(f"hum of {seen.zero.mains:.0f} Hz was subtracted, amplitude {hum}")
+    if seen.zero.base.height:
+        hum = f"{seen.zero.base.height:.3g}{of}"
+        notes.append(f"hum of {seen.zero.base.frequency:.0f} Hz was subtracted, amplitude {hum}")
     whole = next((contact for contact in contacts if contact.time is not None), None)
     if mass is not None and whole is not None and len(whole.peaks) > 1:
         notes.append(
@@ -320,7 +320,7 @@ def _steep(contacts: tuple[Contact, ...]) -> list[str]:
 
 def _droops(seen: Seen, step: float) -> list[str]:
     """Return a note if the baseline is lower after the first contact, an effect of a high-pass."""
-    if not seen.stretches or seen.zero.hum:
+    if not seen.stretches or seen.zero.base.height:
         return []
     one = seen.stretches[0]
     after = np.flatnonzero(seen.quiet[one.last :])[: max(8, len(one) // 2)] + one.last

@@ -28,8 +28,8 @@ class Quiet:
 
     Parameters
     ----------
-    baseline : ndarray
-        (n,) at each sample: a line, and the hum of the mains.
+    base : Base
+        A line, and the hum of the mains.
     noise : float
         Standard deviation of one sample.
     density : float
@@ -37,21 +37,12 @@ class Quiet:
         these: `noise` times the root of `correlation_factor`.
     error : float
         Of the baseline's level, one standard deviation.
-    hum_error : ndarray
-        (n,) of the baseline with hum at each sample; 0 where there is none.
-    hum : float
-        Amplitude of the hum; 0 where there is none.
-    mains : float
-        Its frequency in Hz; 0 where there is none.
     """
 
-    baseline: Array
+    base: Base
     noise: float
     density: float
     error: float
-    hum_error: Array
-    hum: float
-    mains: float
 
 
 def first_guess(record: Record) -> tuple[float, float]:
@@ -98,14 +89,14 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet
     """
     if quiet.sum() < 3:
         level, noise = first_guess(record)
-        flat = np.full(len(quiet), level)
-        return Quiet(flat, noise, noise, noise, np.zeros(len(quiet)), 0.0, 0.0)
+        flat = Base(np.full(len(quiet), level), 1, np.zeros(len(quiet)))
+        return Quiet(flat, noise, noise, noise)
     times = record.times - record.times[0]
     span = max(float(times[-1]), record.step)
     line = np.stack([np.ones_like(times), times / span - 0.5], axis=1)
     if np.ptp(np.flatnonzero(quiet)) < _SPANNED * len(quiet):
         line = line[:, :1]
-    found = Base(fit_quiet(line, record.values, quiet), line.shape[1])
+    found = Base(fit_quiet(line, record.values, quiet), line.shape[1], np.zeros(len(quiet)))
     if hum:
         found = find_hum(line, times, record, quiet) or found
     rest = (record.values - found.values)[quiet]
@@ -113,8 +104,7 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet
     floor = _floor(record)
     noise, density = max(noise, floor), max(density, floor)
     error = float(np.hypot(density / np.sqrt(len(rest)), quantisation_error(record.quantum, noise)))
-    unsure = density * found.leverage * np.ones(len(times))
-    return Quiet(found.values, noise, density, error, unsure, found.height, found.frequency)
+    return Quiet(found, noise, density, error)
 
 
 def scatter(rest: Array, fitted: int, quantum: float) -> tuple[float, float]:

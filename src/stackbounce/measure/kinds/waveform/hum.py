@@ -24,12 +24,12 @@ class Base(NamedTuple):
     """A baseline: a line, alone or with a hum of half the range `height`, of `frequency` in Hz.
 
     `values` (n,) are those at each sample, and `leverage` (n,) is their standard error by the hum
-    over that of a sample. `fitted` counts the unknowns.
+    over that of a sample, 0 without a hum. `fitted` counts the unknowns.
     """
 
     values: Array
     fitted: int
-    leverage: Array | float = 0.0
+    leverage: Array
     height: float = 0.0
     frequency: float = 0.0
 
@@ -136,8 +136,6 @@ def _tones(span: float, step: float) -> list[float]:
     """Return the mains frequencies in Hz to try, in steps that the record resolves."""
     if step > 0.2 / _MAINS[1]:
         return []
-    if span < 0.1:
-        return list(_MAINS)
     fine = np.linspace(-0.3, 0.3, int(min(31, 3 + 12 * span)))
     return [float(main + off) for main in _MAINS for off in fine]
 
