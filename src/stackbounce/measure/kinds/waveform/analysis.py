@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
 _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
 _HIGH = 0.25  # of the largest value, below which only hum and noise are sought at first
+_SMOOTHED = 1e-4  # s of averages, so that noise does not break high parts into short ones
 _MANY_EQUAL, _EQUAL = 5, 0.02  # pulses, and the share by which their peaks differ at most
 _FULL = (
     0.8  # of peak times duration: the impulse of a square pulse with slow edges; a sine has 0.64
@@ -171,7 +172,8 @@ def _see(record: Record, raw: Array) -> Seen:
     """Find baseline and contacts by iteration, as each depends on the other."""
     quiet = np.zeros(len(record.times), dtype=bool)
     zero = quiet_parts(record, quiet, hum=False)
-    bare = np.abs(record.values - zero.base.values)
+    width = 2 * int(0.5 * _SMOOTHED / record.step) + 1
+    bare = smoothed(np.abs(record.values - zero.base.values), width)
     high = [Stretch(int(a), int(b)) for a, b in zip(*runs(bare > _HIGH * bare.max()), strict=True)]
     humming = quiet_parts(record, _outside(len(bare), high), hum=True)
     zero = humming if humming.base.height else zero
