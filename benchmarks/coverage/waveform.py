@@ -146,7 +146,7 @@ def _gap(seed: int, gap: float, **how: Any) -> list[tuple[str, Any, float]]:
     """Analyse two channels of two balls that fall a gap apart, the lower one on a spring."""
     result = _run(1.0, gap, _EXPONENTS[seed % 5])
     record = record_of(result, seed=seed, contacts=[0, 1], **how)
-    later = delay(record[[*record][:1]], record[[*record][1:]])
+    later = delay(*(waveform(record[[name]]) for name in record))
     found = gap_from_delay(later, SPEED, contact_time=TIME)
     return [("delay", later, float(result.first_touch[1])), ("gap", found, gap)]
 

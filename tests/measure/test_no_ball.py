@@ -133,7 +133,8 @@ def test_few_loud_sounds_among_others_are_no_series():
     for time, loud in ((0.3, 0.5), (0.9, 0.45), (1.2, 0.6), (1.4, 0.4), (2.2, 0.55)):
         add(values, time, click(np.random.default_rng(2), loud))
     assert knocks(values, rate=RATE).against
-    assert knocks(values, rate=RATE, start=0.2, stop=1.0).against == ""  # two tell of a flight
+    part = values[round(0.2 * RATE) : round(1.0 * RATE)]
+    assert knocks(part, rate=RATE).against == ""  # two tell of a flight
 
 
 @pytest.mark.parametrize("late", [0.02, 0.04])

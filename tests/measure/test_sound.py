@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.bounces.analysis import bounces
@@ -29,7 +30,7 @@ def as_true(found, fall, before=0.5):
 def test_a_flight_is_longer_than_the_one_before_by_its_error_only(error, series):
     times = np.array([0.0, 0.5, 1.03])
     rises = Rises(times, np.full(3, error), np.array([3.0, 2.0, 1.0]), np.full(3, 9.0))
-    assert find_chain(rises, 0.01).indices == series
+    assert find_chain(rises).indices == series
 
 
 @pytest.mark.fast_cases(6)
@@ -54,7 +55,7 @@ def test_each_bounce_is_found_and_nothing_else(options, seed):
 def test_speech_before_the_series_is_left_out():
     found = knocks(sound(FALL, speech=0.1, before=2.0, seed=1))
     assert as_true(found, FALL, 2.0)
-    assert any(one.why == "before the series" for one in found.dropped)
+    assert any(one.time < 2.0 for one in found.dropped)
 
 
 def test_echoes_and_clipping_are_told():
@@ -96,15 +97,10 @@ def test_a_second_drop_is_told_and_can_be_chosen():
     found = knocks(both, rate=48000.0)
     assert len(found.times) == 10
     assert any("another series" in note for note in found.notes)
-    later = knocks(both, rate=48000.0, start=len(one) / 48000.0)
+    times = np.arange(len(one), len(both)) / 48000.0
+    later = knocks(xr.Dataset({"sound": ("time", both[len(one) :])}, {"time": times}))
     assert len(later.times) == 10
     assert later.times[0].nominal_value > 3.0
-
-
-def test_two_microphones():
-    data = sound(FALL, seed=1).sound.values
-    late = np.roll(data, 40)
-    assert as_true(knocks(np.stack([data, late]), rate=48000.0), FALL)
 
 
 def test_pure_noise_has_no_knocks():
@@ -119,12 +115,11 @@ def test_pure_noise_has_no_knocks():
     [
         (np.full(1000, math.nan), {"rate": 8000.0}, InvalidValue, "silence"),
         (np.ones(3), {"rate": 8000.0}, InvalidValue, "must hold a knock"),
-        (np.ones(0), {"rate": 8000.0}, InvalidValue, "must hold samples"),
+        (np.ones(0), {"rate": 8000.0}, InvalidValue, "silence"),
+        (np.ones((2, 99)), {"rate": 8000.0}, InvalidValue, "data must hold sound"),
         (np.ones(1000), {}, InvalidValue, "rate must be given"),
         (np.ones(1000), {"rate": -1.0}, InvalidValue, "rate must be"),
         (np.ones(1000), {"rate": 399.0}, InvalidValue, "400 samples per second or more"),
-        (np.ones(1000), {"rate": 1e3, "threshold": 0.5}, InvalidValue, "factor above 1"),
-        (np.ones(1000), {"rate": 1e3, "start": 5.0}, InvalidValue, "start and stop"),
         ("a.wav", {"rate": 1.0}, InvalidType, "data must be"),
     ],
 )

@@ -43,7 +43,7 @@ def test_knocks_with_precursors_are_timed_alike(seed):
     found = knocks(values, rate=RATE)
     times, errors = (np.array([getattr(one, part) for one in found.times]) for part in "ns")
     assert len(times) == 25
-    first, claimed = onsets(whitened(values[None], np.zeros(1))[0], RATE, times, 0.0)
+    first, claimed = onsets(whitened(values, 0.0), RATE, times, 0.0)
     off, picked = times - fall.touches, first - fall.touches
     assert np.std(picked) > 5.0 * np.median(claimed)  # what it was: picked inconsistently
     assert np.std(off) < 0.3 * np.std(picked)
@@ -184,7 +184,7 @@ def test_scatter_that_alternates_is_timing_and_other_the_floors(seed):
 @pytest.mark.parametrize(
     ("series", "words"),
     [
-        ((7, 0.0, 0.02, 1), "which these bounces do not tell apart"),
+        ((7, 0.0, 0.02, 1), "These bounces do not tell apart the timing and an uneven floor"),
         ((25, 1.5e-3, 0.0, 2, None), "alternates .* timing"),
         ((25, 0.0, 0.015, 2, None), "does not alternate"),
     ],

@@ -68,17 +68,6 @@ def test_a_silence_that_is_no_zero_and_a_noise_gate_make_no_knocks(seed):
     compared(data.where(loud.rolling(time=960, min_periods=1).max() > 0, 0.0), 48e3)
 
 
-def test_the_channel_that_hears_best_tells_the_times():
-    clear, faint = (sound(FALL, seed=1, noise=noise).sound.values for noise in (0.001, 0.05))
-    alone = knocks(clear, rate=48000.0).times
-    same = knocks(np.stack([clear, clear]), rate=48000.0).times  # it says no more than one
-    assert [str(time) for time in same] == [str(time) for time in alone]
-    best = np.median([time.std_dev for time in alone])
-    for pair in ([clear, faint], [faint, clear]):
-        found = knocks(np.stack(pair), rate=48000.0).times
-        assert np.median([time.std_dev for time in found]) == pytest.approx(best, rel=0.2)
-
-
 def test_uneven_bounces_leave_the_times_as_sure_as_they_are():
     random = np.random.default_rng(4)
     fall = falls(0.4, lambda _: 0.8 + 0.02 * float(random.standard_normal()), bounces=9)

@@ -226,7 +226,7 @@ def test_hum_is_taken_off(mains):
 def test_the_ringing_of_a_sensor_is_taken_off(resonance):
     how = {"noise": 1.0, "before": 0.01, "bits": 12, "full_scale": 256.0, "seed": 3}
     record = record_of(ONE, rate=5e4, resonance=resonance, **how)
-    found = waveform(record, sign=1)
+    found = waveform(record)
     (contact,) = found.contacts
     (note,) = [note for note in found.notes if "sensor rings" in note]
     assert float(re.search(r"at (\d+) Hz", note)[1]) == pytest.approx(resonance[0], rel=0.02)
@@ -360,14 +360,6 @@ def test_one_bounce_calibrates_a_sensor_as_far_as_it_can():
     assert found.sensitivity.std_dev == pytest.approx(0.01 * 2.0 / 1.5**2 / 12**0.5, rel=0.01)
 
 
-def test_a_threshold_and_a_sign_are_obeyed():
-    times, force = pulses(2)
-    force[times > 0.03] *= 0.3
-    assert len(waveform((times, force)).contacts) == 2
-    assert len(waveform((times, force), threshold=50.0).contacts) == 1
-    assert waveform((times, force), sign=-1).contacts == ()
-
-
 def test_further_channels_are_named():
     record = record_of(ONE, rate=1e5, noise=1.0, contacts=[0, 0])
     assert any("not force_2" in note for note in waveform(record).notes)
@@ -399,8 +391,6 @@ def test_what_is_no_waveform_is_refused_in_one_line(data, error):
         ("mass", ufloat(1.0, np.inf)),
         ("impact_speed", 0.0),
         ("time_constant", 0.0),
-        ("threshold", -3.0),
-        ("sign", 2),
     ],
 )
 def test_options_are_checked(option, value):

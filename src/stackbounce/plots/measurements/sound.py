@@ -43,7 +43,7 @@ def draw(data: Any, found: Any) -> "Figure":
 
 
 def _draw_sound(axes: "Axes", data: Any, found: Any, times: NDArray[np.float64]) -> None:
-    samples, origin = _folded(data)
+    samples, origin = _samples(data)
     pad = 2.0 * _MARGIN * max(float(np.ptp(times)), 0.1)
     first = max(0, int((times[0] - pad - origin) * found.rate))
     last = min(len(samples), int((times[-1] + pad - origin) * found.rate) + 1)
@@ -69,16 +69,12 @@ def _draw_sound(axes: "Axes", data: Any, found: Any, times: NDArray[np.float64])
     axes.legend(loc="lower right", frameon=True, framealpha=0.9, edgecolor="none", ncols=2)
 
 
-def _folded(data: Any) -> tuple[NDArray[np.float64], float]:
-    """Return samples of one channel, (N,), and the time of the first one."""
-    origin = 0.0
-    if hasattr(data, "data_vars"):
-        column = data["sound"].transpose(..., "time")
-        if "time" in column.coords:
-            origin = float(column["time"][0])
-        data = column.values
-    values = np.atleast_2d(np.asarray(data, dtype=np.float64))
-    return np.nan_to_num(values[0]), origin
+def _samples(data: Any) -> tuple[NDArray[np.float64], float]:
+    """Return samples, (N,), and the time of the first one."""
+    if not hasattr(data, "data_vars"):
+        return np.nan_to_num(np.asarray(data, dtype=np.float64)), 0.0
+    origin = float(data["time"][0]) if "time" in data.coords else 0.0
+    return np.nan_to_num(data["sound"].values.astype(np.float64)), origin
 
 
 def _words(found: Any) -> str:

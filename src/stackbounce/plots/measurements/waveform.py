@@ -2,9 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from stackbounce.plots.style import COLORS, FORCES, WIDTH, file_of, styled_figure
+from stackbounce.plots.style import COLORS, FORCES, WIDTH, annotate, file_of, styled_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -81,7 +79,7 @@ def _draw_panel(
         few = len(contacts) <= _MOST
         axes.set_ylim(1.15 * least, (1.22 if few else 1.08) * top)
         if few:
-            _label_contacts(axes, contacts, factor, factor * (high - low))
+            _label_contacts(axes, contacts, factor)
     axes.set_xlim(factor * low, factor * high)
     axes.set_xlabel(f"time ({unit})")
     axes.set_ylabel(FORCES.get(found.unit, "signal") + ("" if found.sign > 0 else ", turned over"))
@@ -138,21 +136,16 @@ def _draw_contact(axes: "Axes", found: Any, contact: Any, factor: float, *, flan
     axes.plot(times, heights, "v", label="peaks", **mark)
 
 
-def _label_contacts(axes: "Axes", contacts: Any, factor: float, wide: float) -> None:
-    """Write the contact time above each contact, in several rows if the labels would overlap."""
-    ends = [-np.inf, -np.inf]
-    for contact in contacts:
-        if contact.time is None:
-            continue
-        text = f"{contact.time * 1e3:.1uS} ms"
+def _label_contacts(axes: "Axes", contacts: Any, factor: float) -> None:
+    """Write the contact time above each contact, on two lines in turn."""
+    whole = [contact for contact in contacts if contact.time is not None]
+    for k, contact in enumerate(whole):
         middle = factor * 0.5 * (contact.start.nominal_value + contact.end.nominal_value)
-        room = 0.0075 * wide * len(text)
-        row = 0 if middle - room > ends[0] else 1
-        ends[row] = middle + room
         box: Any = {"facecolor": "white", "alpha": 0.7, "edgecolor": "none", "pad": 0.5}
-        place: Any = {"xytext": (0, -4 - 12 * row), "textcoords": "offset points", "ha": "center"}
-        top: Any = {"xycoords": axes.get_xaxis_transform(), "va": "top", "fontsize": 9.5}
-        axes.annotate(text, (middle, 1.0), color=_SHADE, bbox=box, **place, **top)
+        place: Any = {"xytext": (0, -4 - 12 * (k % 2)), "textcoords": "offset points"}
+        top: Any = {"xycoords": axes.get_xaxis_transform(), "ha": "center", "va": "top"}
+        text = f"{contact.time * 1e3:.1uS} ms"
+        annotate(axes, text, (middle, 1.0), _SHADE, bbox=box, **place, **top)
 
 
 def _title(axes: "Axes", data: Any, found: Any) -> None:

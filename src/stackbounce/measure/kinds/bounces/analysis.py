@@ -247,40 +247,34 @@ def _flights(moments: Sequence[Any], missed: Sequence[int], contact_time: float)
 
 def _restitutions(flights: Sequence[Any], fall: _Fall) -> tuple[list[int], list[Any], list[Any]]:
     """Return numbers, impact speeds and restitutions of the bounces between known flights."""
-    numbers: list[int] = []
-    speeds: list[Any] = []
-    kept: list[Any] = []
-    gravity, missed = fall.gravity, fall.missed
-    ends = [_ends(flight, fall) for flight in flights]
+    missed = np.array(fall.missed)
+    ends = [(None, None) if flight is None else _ends(flight, fall) for flight in flights]
+    leaving, landing = np.array(ends, dtype=object).T
+    pairs = np.flatnonzero((missed[:-1] == 0) & (missed[1:] == 0))
+    numbers = (1 + pairs + np.cumsum(missed)[pairs]).tolist()
+    speeds, kept = list(landing[pairs]), list(leaving[pairs + 1] / landing[pairs])
     if fall.height is not None and flights[0] is not None:
-        speed = speed_after_fall(fall.height, gravity, fall.drag)
-        numbers, speeds, kept = [0], [speed], [0.5 * gravity * ends[0][0] / speed]
-    for k in range(len(flights) - 1):
-        if flights[k] is not None and flights[k + 1] is not None:
-            before, after = ends[k][1], ends[k + 1][0]
-            numbers.append(k + 1 + sum(missed[: k + 1]))
-            speeds.append(0.5 * gravity * before)
-            kept.append(after / before)
+        speed = speed_after_fall(fall.height, fall.gravity, fall.drag)
+        numbers, speeds, kept = [0, *numbers], [speed, *speeds], [leaving[0] / speed, *kept]
     return numbers, speeds, kept
 
 
 def _ends(flight: Any, fall: _Fall) -> tuple[Any, Any]:
-    """Return the speeds at which a flight begins and ends, each over g/2: without air its time."""
-    if flight is None or fall.drag is None:
-        return flight, flight
-    leaving, landing = fall.drag.flight_speeds(flight, fall.gravity)
-    return leaving / (0.5 * fall.gravity), landing / (0.5 * fall.gravity)
+    """Return the speeds at which a flight begins and ends."""
+    if fall.drag is not None:
+        return fall.drag.flight_speeds(flight, fall.gravity)
+    return 0.5 * fall.gravity * flight, 0.5 * fall.gravity * flight
 
 
 def _height_before(found: _Found, fall: _Fall) -> Any:
     """Return the drop height that the mean energy retained tells; None where nothing tells it."""
     if found.flights[0] is None:
         return None
-    energy = _energy_kept(found.kept)
-    if fall.drag is None:
-        return fall.gravity * found.flights[0] ** 2 / 8.0 / energy
-    leaving, _ = fall.drag.flight_speeds(found.flights[0], fall.gravity)
-    return fall.drag.fall_height(leaving / energy**0.5, fall.gravity)
+    leaving, _ = _ends(found.flights[0], fall)
+    speed = leaving / _energy_kept(found.kept) ** 0.5
+    if fall.drag is not None:
+        return fall.drag.fall_height(speed, fall.gravity)
+    return speed**2 / (2.0 * fall.gravity)
 
 
 def _with_errors_from_scatter(

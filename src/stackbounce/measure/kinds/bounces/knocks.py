@@ -36,7 +36,7 @@ class Knocks(Finding):
     missed : tuple of int
         How many bounces are missing after each but the last.
     dropped : tuple of Dropped
-        Sounds that were left out: echoes, second sounds of one impact, others.
+        Sounds that were left out: echoes, second sounds of one impact, tails, and no bounces.
     rate : float
         Samples per second.
     notes : tuple of str

@@ -7,7 +7,7 @@ from typing import Any, Literal
 import numpy as np
 
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.quantities import Array, Number, nominal
+from stackbounce.measure.quantities import Number, nominal
 from stackbounce.measure.statistics.regression import Fit, covariance_of, fit_with_excess_scatter
 
 _MOST_SCATTER = 0.3  # excess scatter of restitutions that the fits allow for
@@ -39,11 +39,6 @@ class RestitutionLaw:
     slope: Number
     chi_squared: float
     freedom: int
-
-    @property
-    def covariance(self) -> Array:
-        """Covariance of coefficient and slope, (2, 2)."""
-        return covariance_of([self.coefficient, self.slope])
 
     def at(self, speed: float | Number) -> Number:
         """Return the restitution at an impact speed in m/s."""

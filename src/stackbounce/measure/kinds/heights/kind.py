@@ -77,16 +77,12 @@ def _unrecognised(data: Any) -> Message:
     more = f" and {len(columns) - _LISTED} more" if len(columns) > _LISTED else ""
     said = f"its columns do not tell a kind of measurement: {described}{more}. "
     what, hint = _hint(data, columns)
+    kinds = ", ".join(name for name in KINDS if name not in (what, "bounces", "table"))
     if hint is None:
-        kinds = ", ".join(name for name in KINDS if name not in ("bounces", "table"))
-        hint = OptionHint({"holds": None, "names": None})
-        return Message(f"{said}If it is one of {kinds}: ", hint, " tell so")
-    others = ", ".join(name for name in KINDS if name not in (what, "bounces", "table"))
-    return Message(
-        f"{said}For times{' and heights' * (what == 'track')} of a ball: ",
-        hint,
-        f"; other kinds: {others}",
-    )
+        tell = OptionHint({"holds": None, "names": None})
+        return Message(f"{said}If it is one of {kinds}: ", tell, " tell so")
+    of = "times and heights" if what == "track" else "times"
+    return Message(f"{said}For {of} of a ball: ", hint, f"; other kinds: {kinds}")
 
 
 def _hint(data: Any, columns: Sequence[Any]) -> tuple[str, OptionHint | None]:

@@ -312,18 +312,17 @@ def _best(
 
     The weighted sum of squares at all shifts is a correlation, calculated by Fourier transforms.
     """
+    from scipy.signal import fftconvolve
+
     most = round(reach / bands.step)
     now = np.round(shifts / bands.step).astype(np.int64)
     steps = window.first + now[:, None] + np.arange(-most, window.steps + most)
     steps = np.clip(steps, 0, bands.logs.shape[2] - 1)
     logs = np.take_along_axis(bands.logs, steps[:, None], axis=2)
-    size = 1 << math.ceil(math.log2(logs.shape[2]))
-    weights, wanted = (
-        np.fft.rfft(series, size).conj()
-        for series in (compared.weights, compared.weights * compared.wanted)
-    )
-    both = np.fft.rfft(logs**2, size) * weights - 2.0 * np.fft.rfft(logs, size) * wanted
-    squares = np.fft.irfft(both.sum(axis=1), size)[:, : 2 * most + 1]
+    weights = compared.weights[..., ::-1]
+    wanted = weights * compared.wanted[..., ::-1]
+    both = fftconvolve(logs**2, weights, "valid", axes=2)
+    squares = (both - 2.0 * fftconvolve(logs, wanted, "valid", axes=2)).sum(axis=1)
     at = np.clip(np.argmin(squares, axis=1), 1, 2 * most - 1)
     low, mid, high = (squares[np.arange(len(at)), at + k] for k in (-1, 0, 1))
     bend = low - 2.0 * mid + high

@@ -5,17 +5,17 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, finite, positive, shown, unmasked
+from stackbounce.errors import InvalidValue, positive
 from stackbounce.measure.kinds.bounces.knocks import Dropped, Knocks
 from stackbounce.measure.kinds.sound.alignment import aligned
 from stackbounce.measure.kinds.sound.consistency import misjudgement
-from stackbounce.measure.kinds.sound.loudness import Rises, find_rises, rounding, whitened
-from stackbounce.measure.kinds.sound.onset import clearest, onsets
+from stackbounce.measure.kinds.sound.loudness import Rises, find_rises, whitened
+from stackbounce.measure.kinds.sound.onset import onsets
 from stackbounce.measure.kinds.sound.plausibility import reason_against, tails
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.samples import runs
+from stackbounce.measure.samples import columns, resolution, runs
 
 _LEAST_RATE = 400  # samples per second: with fewer an onset lies between two samples
 _DEAD_SECONDS = 8e-3  # s: two knocks closer than that are one impact
@@ -40,12 +40,8 @@ _ADVICE = Message(
 def knocks(
     data: Any,
     *,
-    threshold: float | None = None,
-    dead_time: float | None = None,
     longest_flight: float = _LONGEST_FLIGHT,
     rate: float | None = None,
-    start: float | None = None,
-    stop: float | None = None,
 ) -> Knocks:
     """Return the times of a bouncing ball's knocks in a recording.
 
@@ -57,18 +53,12 @@ def knocks(
     Parameters
     ----------
     data : Dataset or array_like
-        A Dataset with `sound` (as `stackbounce.read` gives it), or samples, (N,) or (channels, N).
-    threshold : float, optional
-        By which factor the amplitude must rise within 2 ms, above 1. By default stationary noise
-        exceeds it in one recording of a hundred, and it is at least 1.7.
-    dead_time : float, optional
-        Sounds that follow a knock within this time in s belong to it; by default 8 ms.
+        A Dataset with `sound` (as `stackbounce.read` gives it, of which `start` and `stop` choose a
+        part), or samples, (N,).
     longest_flight : float, optional
         Of a ball, in s; by default 2.02 s, in which it rises 5 m.
     rate : float, optional
         Samples per second, of plain samples.
-    start, stop : float, optional
-        In s: where to listen, by default everywhere.
 
     Returns
     -------
@@ -87,8 +77,8 @@ def knocks(
     and more are aligned with each other, `alignment.aligned`, and their errors are those of the
     alignment, as far as the flights do not show that they are larger or smaller:
     `consistency.misjudgement`. What all times have in common, which no flight contains, is not in
-    the errors. Of several channels that one is taken in which the knocks are clearest. Where no
-    series is that of a bouncing ball, all sounds are returned, with the reason in `against`.
+    the errors. Where no series is that of a bouncing ball, all sounds are returned, with the reason
+    in `against`.
 
     Examples
     --------
@@ -104,50 +94,41 @@ def knocks(
     """
     from uncertainties import ufloat
 
-    if threshold is not None and positive("threshold", threshold) <= 1.0:
-        raise InvalidValue(f"threshold must be a factor above 1, got {shown(threshold)}")
     positive("longest_flight", longest_flight, "seconds")
-    dead = _DEAD_SECONDS if dead_time is None else positive("dead_time", dead_time, "seconds")
-    samples, rate, origin = _samples(data, rate)
-    samples, origin = _part(samples, rate, origin, start, stop)
-    notes = _notes_on(samples)
-    rounded = rounding(samples)
-    loud_only = float(samples.min()) >= 0.0
-    white = samples if loud_only else whitened(samples, rounded)
-    rises = find_rises(white, rate, threshold, float(rounded.mean()))
+    heard, origin = _recording(data, rate)
+    notes = _notes_on(heard.samples)
+    rises = find_rises(heard.white, heard.rate, heard.rounded)
     if not len(rises.times):
         raise InvalidValue(
             "sound must hold a knock that rises above what precedes it, got none: "
-            "record closer to the ball, or give a lower threshold in Python"
+            "record closer to the ball"
         )
-    rises, doubles = _merged(rises, dead)
-    chain = find_chain(rises, dead)
+    rises, doubles = _merged(rises)
+    chain = find_chain(rises)
     delay = _echo_delay(chain, rises)
     chain, dropped = _without_echoes(chain, rises, delay)
     echoes = np.isin(rises.times, [sound.time for sound in dropped if sound.why == "echo"])
-    against = reason_against(chain, rises, echoes, origin, dead, longest_flight)
+    against = reason_against(chain, rises, echoes, origin, longest_flight)
     if against:
         chain, dropped = _all_sounds(rises)
         notes.append(Message(f"This is no bouncing ball: {against}", _ADVICE))
     else:
         if delay:
             notes.append(f"Each knock has an echo {1e3 * delay:.1f} ms later, which is left out.")
-        _note_series(chain, rises, dead, origin, notes)
+        _note_series(chain, rises, origin, notes)
     about = rises.times[list(chain.indices)]
-    best = clearest(white, rate, about, rounded) if len(white) > 1 else 0
-    heard = _Channel(samples[best], white[best], rate, float(rounded[best]))
     if len(about) < 2 or against:
         times, errors = heard.onsets(about)
     else:
         times, errors = _consistent(heard, about, chain.missed, notes)
-    loudness = _loudness(white, rate, times)
+    loudness = _loudness(heard, times)
     left_out = sorted([*doubles, *dropped], key=lambda sound: sound.time)
     return Knocks(
         tuple(map(ufloat, origin + times, errors)),
         loudness / loudness.max(),
         chain.missed,
         tuple(Dropped(origin + sound.time, sound.why) for sound in left_out),
-        rate,
+        heard.rate,
         tuple(notes),
         against,
     )
@@ -161,8 +142,8 @@ def _all_sounds(rises: Rises) -> tuple[Chain, list[Dropped]]:
     return Chain(kept, (0,) * (len(kept) - 1)), left_out
 
 
-class _Channel(NamedTuple):
-    """One channel of a recording: samples, whitened ones, rate, variance of their rounding."""
+class _Recording(NamedTuple):
+    """Samples, (N,), whitened ones, the rate, and the variance of the samples' rounding."""
 
     samples: NDArray[np.float32]
     white: NDArray[np.float32]
@@ -183,7 +164,7 @@ class _Channel(NamedTuple):
 
 
 def _consistent(
-    heard: _Channel, about: Array, missed: tuple[int, ...], notes: list[str]
+    heard: _Recording, about: Array, missed: tuple[int, ...], notes: list[str]
 ) -> tuple[Array, Array]:
     """Return the times of a series of bounces and their errors.
 
@@ -205,66 +186,42 @@ def _consistent(
     return times, errors
 
 
-def _samples(data: Any, rate: float | None) -> tuple[NDArray[np.float32], float, float]:
-    """Return samples (channels, N), their rate and the time of the first one."""
+def _recording(data: Any, rate: float | None) -> tuple[_Recording, float]:
+    """Return a recording, and the time in s of its first sample."""
+    (values,) = columns(data if hasattr(data, "data_vars") else [data], ("sound",))
     origin = 0.0
     if hasattr(data, "data_vars"):
-        if "sound" not in data:
-            names = ", ".join(map(str, data.data_vars)) or "none"
-            raise InvalidType(f"data must hold a variable sound, got {names}")
-        column = data["sound"]
-        values = np.asarray(column.transpose(..., "time").values, dtype=np.float32)
-        times = column.coords.get("time")
-        rate = rate or column.attrs.get("rate") or data.attrs.get("rate")
+        times = data["sound"].coords.get("time")
+        rate = rate or data["sound"].attrs.get("rate") or data.attrs.get("rate")
         if times is not None and len(times) > 1:
             origin = float(times[0])
             rate = rate or (len(times) - 1) / (float(times[-1]) - origin)
-    else:
-        unmasked("data", data)
-        try:
-            values = np.asarray(data, dtype=np.float32)
-        except (TypeError, ValueError):
-            raise InvalidType(
-                f"data must be a Dataset with sound or samples, got {shown(data)}"
-            ) from None
-        if rate is None:
-            raise InvalidValue("rate must be given for plain samples, got None")
-    values = np.atleast_2d(values)
-    if values.ndim > 2 or not values.size:
-        raise InvalidValue(f"data must hold samples (N,) or (channels, N), got {values.shape}")
+    if rate is None:
+        raise InvalidValue("rate must be given for plain samples, got None")
     rate = positive("rate", rate, "samples per second")
     if rate < _LEAST_RATE:
         raise InvalidValue(
             f"sound must have {_LEAST_RATE} samples per second or more, got {rate:.3g}: "
             "are its times in another unit?"
         )
-    return np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0), rate, origin
-
-
-def _part(
-    samples: NDArray[np.float32], rate: float, origin: float, start: Any, stop: Any
-) -> tuple[NDArray[np.float32], float]:
-    count = samples.shape[1]
-    first = 0 if start is None else round((finite("start", start, "seconds") - origin) * rate)
-    last = count if stop is None else round((finite("stop", stop, "seconds") - origin) * rate)
-    first, last = min(max(first, 0), count), min(max(last, 0), count)
-    if last - first < 2:
-        raise InvalidValue("start and stop must leave some of the recording, got nothing between")
-    return samples[:, first:last], origin + first / rate
+    samples = np.nan_to_num(values.astype(np.float32), nan=0.0, posinf=0.0, neginf=0.0)
+    if not samples.any():
+        raise InvalidValue("sound must hold more than silence, got only zeros")
+    rounded = resolution(samples) ** 2 / 12.0  # of a step s it is s²/12
+    white = samples if samples.min() >= 0.0 else whitened(samples, rounded)
+    return _Recording(samples, white, rate, rounded), origin
 
 
 def _notes_on(samples: NDArray[np.float32]) -> list[str]:
-    """Return notes on a recording that is silent or clipped."""
-    peak = float(np.abs(samples).max())
-    if peak == 0.0:
-        raise InvalidValue("sound must hold more than silence, got only zeros")
-    top = np.abs(samples) >= 0.999 * peak
-    if any((last - first + 1 >= _CLIPPED).any() for first, last in map(runs, top)):
+    """Return a note on a recording that is clipped."""
+    top = np.abs(samples) >= 0.999 * np.abs(samples).max()
+    first, last = runs(top)
+    if (last - first + 1 >= _CLIPPED).any():
         return ["The recording is clipped: loudness is wrong there, times are hardly touched."]
     return []
 
 
-def _merged(rises: Rises, dead: float) -> tuple[Rises, list[Dropped]]:
+def _merged(rises: Rises) -> tuple[Rises, list[Dropped]]:
     """Return rises without those that follow a knock within the dead time.
 
     A faint one just before a far louder one is left out rather than the louder one.
@@ -273,7 +230,7 @@ def _merged(rises: Rises, dead: float) -> tuple[Rises, list[Dropped]]:
     dropped = []
     for k in range(len(rises.times)):
         last = kept[-1] if kept else None
-        if last is None or rises.times[k] - rises.times[last] >= dead:
+        if last is None or rises.times[k] - rises.times[last] >= _DEAD_SECONDS:
             kept.append(k)
             continue
         fainter = k
@@ -285,31 +242,22 @@ def _merged(rises: Rises, dead: float) -> tuple[Rises, list[Dropped]]:
 
 def _without_echoes(chain: Chain, rises: Rises, delay: float) -> tuple[Chain, list[Dropped]]:
     """Return the series without echoes at its end, and why all other rises are left out."""
-    indices, missed, cut = list(chain.indices), list(chain.missed), []
+    indices, missed = list(chain.indices), list(chain.missed)
     while delay and len(indices) > 3:
         lag = rises.times[indices[-1]] - rises.times[indices[-2]]
         quieter = rises.amplitudes[indices[-1]] < rises.amplitudes[indices[-2]]
         if not (abs(lag - delay) < _SAME_DELAY and quieter):
             break
-        cut.append(indices.pop())
+        indices.pop()
         missed.pop()
     dropped = []
-    times = rises.times
-    for k in range(len(times)):
-        if k in indices:
-            continue
-        before = [i for i in indices if i < k]
-        if not before:
-            why = "before the series"
-        elif k in cut or rises.amplitudes[k] < rises.amplitudes[before[-1]]:
-            why = "echo, or a fainter noise"
-            if delay and abs(times[k] - times[before[-1]] - delay) < _SAME_DELAY:
-                why = "echo"
-        else:
-            why = "louder than the bounce before it"
-        if before and before[-1] == indices[-1] and k not in cut:
-            why = "after the series" if why != "echo" else why
-        dropped.append(Dropped(float(times[k]), why))
+    for k in np.setdiff1d(np.arange(len(rises.times)), indices):
+        before = max((i for i in indices if i < k), default=None)
+        why = "no bounce"
+        if before is not None and rises.amplitudes[k] < rises.amplitudes[before]:
+            lag = rises.times[k] - rises.times[before]
+            why = "echo" if delay and abs(lag - delay) < _SAME_DELAY else why
+        dropped.append(Dropped(float(rises.times[k]), why))
     return Chain(tuple(indices), tuple(missed), chain.score), dropped
 
 
@@ -325,7 +273,7 @@ def _echo_delay(chain: Chain, rises: Rises) -> float:
     return float(np.median(lags[near[best]])) if near[best].sum() > 2 else 0.0
 
 
-def _note_series(chain: Chain, rises: Rises, dead: float, origin: float, notes: list[str]) -> None:
+def _note_series(chain: Chain, rises: Rises, origin: float, notes: list[str]) -> None:
     """Add notes on missing bounces, on too few knocks, and on further series of knocks."""
     times = origin + rises.times[list(chain.indices)]
     notes.extend(
@@ -342,7 +290,7 @@ def _note_series(chain: Chain, rises: Rises, dead: float, origin: float, notes: 
         rest = Rises(*(column[left] for column in rises))
         if len(rest.times) < _SECOND_SERIES:
             continue
-        other = find_chain(rest, dead)
+        other = find_chain(rest)
         faint = rest.amplitudes[list(other.indices)].max() < 0.2 * rises.amplitudes.max()
         if len(other.indices) >= _SECOND_SERIES and not faint:
             first, last = (origin + rest.times[other.indices[k]] for k in (0, -1))
@@ -354,9 +302,9 @@ def _note_series(chain: Chain, rises: Rises, dead: float, origin: float, notes: 
             notes.append(Message(found, OptionHint(part), "."))
 
 
-def _loudness(white: NDArray[np.float32], rate: float, times: Array) -> Array:
-    """Return the root mean square of each knock, of all channels together."""
-    count = max(1, round(_LOUDNESS_SECONDS * rate))
-    first = np.round(times * rate).astype(np.int64)
-    parts = [white[:, at : at + count].astype(np.float64) for at in np.maximum(first, 0)]
+def _loudness(heard: _Recording, times: Array) -> Array:
+    """Return the root mean square of each knock."""
+    count = max(1, round(_LOUDNESS_SECONDS * heard.rate))
+    first = np.round(times * heard.rate).astype(np.int64)
+    parts = [heard.white[at : at + count].astype(np.float64) for at in np.maximum(first, 0)]
     return np.array([np.sqrt((part**2).mean()) for part in parts])

@@ -1,4 +1,4 @@
-"""Sudden rises of a recording's loudness, and the quantisation and whitening before it."""
+"""Sudden rises of a recording's loudness, and the whitening before it."""
 
 from typing import NamedTuple
 
@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.samples import resolution
 from stackbounce.measure.statistics.ar_noise import linear_prediction_residual
 
 # Set by hand on the recordings of `benchmarks/coverage/sound.py` and `docs/lab`.
@@ -33,50 +32,23 @@ class Rises(NamedTuple):
     ratios: Array
 
 
-def rounding(samples: NDArray[np.float32]) -> Array:
-    """Return the variance of the quantisation error, (channels,).
-
-    It is s²/12 for the step s that `resolution` sees.
-
-    Examples
-    --------
-    >>> coarse = np.round(8 * np.sin(np.arange(100))) / 8
-    >>> (12 * rounding(coarse[None].astype(np.float32))) ** 0.5
-    array([0.125])
-    """
-    return np.array([resolution(channel) for channel in samples]) ** 2 / 12.0
+def whitened(samples: NDArray[np.float32], rounded: float) -> NDArray[np.float32]:
+    """Return the linear-prediction residual, of samples whose rounding has a variance."""
+    return linear_prediction_residual(samples, _ORDER, rounded)
 
 
-def whitened(samples: NDArray[np.float32], rounded: Array) -> NDArray[np.float32]:
-    """Return the linear-prediction residual of each channel, (channels, N).
-
-    Parameters
-    ----------
-    samples : ndarray
-        (channels, N).
-    rounded : ndarray
-        (channels,) variance of the quantisation error, as of `rounding`.
-    """
-    pairs = zip(samples, rounded.tolist(), strict=True)
-    return np.array(
-        [linear_prediction_residual(channel, _ORDER, least) for channel, least in pairs]
-    )
-
-
-def find_rises(
-    white: NDArray[np.float32], rate: float, threshold: float | None, rounded: float
-) -> Rises:
+def find_rises(white: NDArray[np.float32], rate: float, rounded: float) -> Rises:
     """Return where a whitened recording becomes suddenly louder, to 0.5 ms or so.
+
+    The amplitude must rise within 2 ms by a factor of 1.7 at least, and by more than stationary
+    noise does in one recording of a hundred.
 
     Parameters
     ----------
     white : ndarray
-        (channels, N), as of `whitened`.
+        (N,), as of `whitened`.
     rate : float
         Samples per second.
-    threshold : float, optional
-        The factor by which the amplitude must rise within 2 ms. By default stationary noise does so
-        in one recording of a hundred, and the factor is at least 1.7.
     rounded : float
         Variance of the quantisation error of a sample: the smallest possible noise.
 
@@ -85,14 +57,17 @@ def find_rises(
     Rises
         At most the 250 clearest, ascending in time.
     """
+    from scipy.signal import argrelextrema
+
     hop = max(1, round(_HOP_SECONDS * rate))
-    energy = _energy(white, hop)
+    rows = white[: len(white) // hop * hop].reshape(-1, hop)
+    energy = np.einsum("ij,ij->i", rows, rows, dtype=np.float64) / hop
     if len(energy) < _HOPS_AFTER + _HOPS_BEFORE:
         return Rises(*(np.zeros(0) for _ in range(4)))
     before, after = _around(energy, rounded)
     ratio = after / before
-    least = _least(threshold, hop, len(energy))
-    peaks = _maxima(ratio, _HOPS_AFTER + 1)
+    least = _least(hop, len(energy))
+    (peaks,) = argrelextrema(ratio, np.greater_equal, order=_HOPS_AFTER + 1)
     peaks = peaks[(ratio[peaks] > least) & (peaks < len(energy) - _HOPS_AFTER)]
     if len(peaks) > _MOST_RISES:
         peaks = np.sort(peaks[np.argsort(ratio[peaks])[-_MOST_RISES:]])
@@ -104,46 +79,23 @@ def find_rises(
     )
 
 
-def _energy(white: NDArray[np.float32], hop: int) -> Array:
-    """Return the mean square of each hop, all channels together."""
-    count = white.shape[1] // hop
-    energy = np.zeros(count)
-    for values in white:
-        rows = values[: count * hop].reshape(count, hop)
-        energy += np.einsum("ij,ij->i", rows, rows, dtype=np.float64) / hop
-    return energy / len(white)
-
-
 def _around(energy: Array, rounded: float) -> tuple[Array, Array]:
     """Return the mean energy before and after the start of each hop."""
-    sums = np.concatenate([[0.0], np.cumsum(energy)])
-    at = np.arange(len(energy))
-    end = np.minimum(at + _HOPS_AFTER, len(energy))
-    after = (sums[end] - sums[at]) / (end - at)
-    stop = np.maximum(at - _HOPS_BETWEEN, 0)
-    start = np.maximum(stop - _HOPS_BEFORE, 0)
-    filled = stop > start
-    before = np.where(filled, (sums[stop] - sums[start]) / np.maximum(stop - start, 1), np.inf)
+    import pandas as pd
+
+    hops = pd.Series(energy)
+    after = hops[::-1].rolling(_HOPS_AFTER, min_periods=1).mean()[::-1].to_numpy()
+    earlier = hops.rolling(_HOPS_BEFORE, min_periods=1).mean()
+    before = earlier.shift(1 + _HOPS_BETWEEN, fill_value=np.inf).to_numpy(copy=True)
     # At first a codec is silent or a gain settles; digital silence is given a little noise.
     first = before[: round(_SETTLING_SECONDS / _HOP_SECONDS)]
     first[:] = np.maximum(first, np.percentile(energy, _QUIET_PERCENT))
     return np.maximum(before, max(rounded, 1e-9 * float(energy.max()), 1e-30)), after
 
 
-def _least(threshold: float | None, freedom: int, count: int) -> float:
+def _least(freedom: int, count: int) -> float:
     """Return the smallest ratio of the energies after and before that counts as a rise."""
-    if threshold is not None:
-        return threshold**2
     from scipy.stats import f
 
     chance = f.isf(_FALSE_ALARMS / count, _HOPS_AFTER * freedom, _HOPS_BEFORE * freedom)
     return max(_LEAST_RISE, _CHANCE_MARGIN * float(chance))
-
-
-def _maxima(values: Array, wide: int) -> NDArray[np.int64]:
-    """Return where values are largest within `wide` to both sides."""
-    from scipy.ndimage import maximum_filter1d
-
-    top = maximum_filter1d(values, 2 * wide + 1, mode="nearest")
-    at = np.flatnonzero((values == top) & (values > 0.0))
-    return at[np.concatenate([[True], np.diff(at) > wide])] if len(at) else at

@@ -46,7 +46,7 @@ def onsets(
     Parameters
     ----------
     white : ndarray
-        (N,), one channel of `loudness.whitened`: sound reaches two microphones at different times.
+        (N,), as of `loudness.whitened`.
     rate : float
         Samples per second.
     about : ndarray
@@ -86,15 +86,6 @@ def onsets(
         within = np.full(len(about), reach == _FAR) | (errors < reach / _CLEAR_SIGMAS)
         about, errors = np.where(within, times, about), np.where(within, sure, errors)
     return about, errors
-
-
-def clearest(white: NDArray[np.float32], rate: float, about: Array, rounded: Array) -> int:
-    """Return the channel, of (channels, N), in which the knocks at some times are clearest."""
-    clear = []
-    for values, least in zip(white, rounded, strict=True):
-        heard = [_knock(values, at, rate, _FAR, 1, least, 0.0) for at in about]
-        clear.append(sum(math.log(knock.loud / knock.noise) for knock in heard))
-    return int(np.argmax(clear))
 
 
 def _knock(

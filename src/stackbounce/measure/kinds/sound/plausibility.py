@@ -30,7 +30,6 @@ def reason_against(
     rises: Rises,
     echoes: NDArray[np.bool_],
     origin: float,
-    dead_time: float,
     longest: float,
 ) -> str:
     """Return why a series of sounds is no bouncing ball; nothing if it may be one.
@@ -49,8 +48,6 @@ def reason_against(
         (N,) which of them are echoes of the series.
     origin : float
         The time in s that is 0 in `rises`.
-    dead_time : float
-        The shortest flight in s, with which the series was found.
     longest : float
         The longest flight in s of a ball.
 
@@ -63,7 +60,7 @@ def reason_against(
     --------
     >>> times = np.arange(4.0)
     >>> clicks = Rises(times, np.full(4, 1e-4), np.ones(4), np.full(4, 9.0))
-    >>> reason_against(Chain((0, 1, 2, 3), (0, 0, 0)), clicks, np.zeros(4, bool), 0.0, 0.01, 2.0)
+    >>> reason_against(Chain((0, 1, 2, 3), (0, 0, 0)), clicks, np.zeros(4, bool), 0.0, 2.0)
     '4 sounds at equal intervals of 1 s, or nearly so, as of a metronome, of steps or claps'
     """
     at = list(chain.indices)
@@ -77,7 +74,7 @@ def reason_against(
         _one_sound(rises.times[at] + origin, rises.amplitudes[at], rises.ratios[at])
         or _against_flights(chain, rises, longest)
         or _against_loudness(rises.amplitudes[at])
-        or _against_chance(chain, rises_heard, others, dead_time)
+        or _against_chance(chain, rises_heard, others)
     )
 
 
@@ -122,13 +119,13 @@ def _against_loudness(amplitudes: Array) -> str:
     return f"a later sound is {louder:.2g} times as loud as the one before, not fainter"
 
 
-def _against_chance(chain: Chain, heard: Rises, others: Array, dead_time: float) -> str:
+def _against_chance(chain: Chain, heard: Rises, others: Array) -> str:
     count = len(chain.indices)
     unsure = count <= _SHORT and any(chain.missed)
     faint = (others < _FAINT * heard.amplitudes.max()).all()
     if not unsure and (faint or len(others) <= (0 if count <= _FEW else 1)):
         return ""
-    if _sigmas_above_chance(chain, heard, dead_time) > _SIGMAS:
+    if _sigmas_above_chance(chain, heard) > _SIGMAS:
         return ""
     return f"{len(heard.times)} sounds, which in random order give as good a series of bounces"
 
@@ -155,7 +152,7 @@ def _one_sound(times: Array, amplitudes: Array, ratios: Array) -> str:
     )
 
 
-def _sigmas_above_chance(chain: Chain, rises: Rises, dead_time: float) -> float:
+def _sigmas_above_chance(chain: Chain, rises: Rises) -> float:
     """Return by how much a series is better than those of the same sounds in random order.
 
     Intervals and loudness are shuffled apart from each other. It ends early where the answer is
@@ -169,7 +166,7 @@ def _sigmas_above_chance(chain: Chain, rises: Rises, dead_time: float) -> float:
         order = random.permutation(len(rises.times))
         times = rises.times[0] + np.concatenate([[0.0], np.cumsum(steps)])
         mixed = Rises(times, *(column[order] for column in rises[1:]))
-        scores.append(find_chain(mixed, dead_time).score)
+        scores.append(find_chain(mixed).score)
         sigmas = (chain.score - np.mean(scores)) / np.fmax(np.std(scores), _LEAST_DEVIATION)
         if len(scores) > 4 and not _SIGMAS / 3.0 < sigmas < 2.0 * _SIGMAS:
             break

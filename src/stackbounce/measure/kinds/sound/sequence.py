@@ -31,7 +31,7 @@ class Chain(NamedTuple):
     score: float = 0.0
 
 
-def find_chain(rises: Rises, dead_time: float) -> Chain:
+def find_chain(rises: Rises) -> Chain:
     """Return the series of bounces that explains most of the knocks.
 
     Each flight is shorter than the one before by a factor that changes slowly, and loudness falls
@@ -42,8 +42,6 @@ def find_chain(rises: Rises, dead_time: float) -> Chain:
     ----------
     rises : Rises
         All knocks, ascending in time; their amplitudes are above 0.
-    dead_time : float
-        The shortest flight in s.
 
     Returns
     -------
@@ -54,7 +52,7 @@ def find_chain(rises: Rises, dead_time: float) -> Chain:
     --------
     >>> times = np.array([0.0, 0.3, 1.0, 1.3, 1.8, 2.44])  # two are echoes
     >>> amplitudes = np.array([5, 1, 4, 1, 3.2, 2.6])
-    >>> chain = find_chain(Rises(times, np.full(6, 1e-4), amplitudes, np.full(6, 1.6)), 0.01)
+    >>> chain = find_chain(Rises(times, np.full(6, 1e-4), amplitudes, np.full(6, 1.6)))
     >>> chain.indices, chain.missed
     ((0, 2, 4, 5), (0, 0, 0))
     """
@@ -66,7 +64,7 @@ def find_chain(rises: Rises, dead_time: float) -> Chain:
     worth = 0.5 + np.clip(np.log(rises.ratios), 0.0, 3.0)
     for j in range(count - 1):
         flights = rises.times[j + 1 :] - rises.times[j]
-        later = np.flatnonzero((flights >= dead_time) & (flights <= _LONGEST_FLIGHT))
+        later = np.flatnonzero(flights <= _LONGEST_FLIGHT)
         if not len(later):
             continue
         between = np.maximum.accumulate(np.append(-np.inf, logs[j + 1 : -1]))[later]

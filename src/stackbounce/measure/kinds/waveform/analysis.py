@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stackbounce.errors import InvalidValue, positive, shown
+from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds.waveform.baseline import first_guess, quiet_parts
 from stackbounce.measure.kinds.waveform.contact import Seen, measure_contact
+from stackbounce.measure.kinds.waveform.hum import regression
 from stackbounce.measure.kinds.waveform.intervals import (
     Stretch,
     find_stretches,
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
 _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
 _HIGH = 0.25  # of the largest value, below which only hum and noise are sought at first
 _SMOOTHED = 1e-4  # s of averages, so that noise does not break high parts into short ones
-_HIGH_MARGIN = 0.5  # of a high part's length, on each side
 _MANY_EQUAL, _EQUAL = 5, 0.02  # pulses, and the share by which their peaks differ at most
 _FULL = (
     0.8  # of peak times duration: the impulse of a square pulse with slow edges; a sine has 0.64
@@ -54,8 +54,6 @@ def waveform(
     mass: Any = None,
     impact_speed: Any = None,
     time_constant: float | None = None,
-    threshold: float | None = None,
-    sign: int | None = None,
     law: "ContactLaw | type[ContactLaw] | str | None" = None,
     exponent: float | None = None,
 ) -> Waveform:
@@ -72,11 +70,6 @@ def waveform(
         In m/s: with `mass` it calibrates a sensor that shows volts, see Notes.
     time_constant : float, optional
         RC in s of a piezo sensor and its amplifier: the droop is corrected.
-    threshold : float, optional
-        The force above the baseline that a contact must reach, in the record's unit. Default: the
-        larger of 6 times the noise and 1 % of the highest peak.
-    sign : int, optional
-        +1 or -1 if contacts go up or down in the record. Default: it is found.
     law : ContactLaw, its class or its name, optional
         Of the contact, if it is known: touch and release are then more accurate. `Rigid` has no
         effect.
@@ -126,10 +119,6 @@ def waveform(
     3.999(7) ms, 61.7(2) kN/m
     """
     ends = ends_of(law, exponent)
-    if sign not in (None, 1, -1):
-        raise InvalidValue(f"sign must be 1 or -1, got {shown(sign)}")
-    if threshold is not None:
-        threshold = positive("threshold", threshold, "the record's unit")
     m = measured_if_given("mass", mass, "kilograms")
     v = measured_if_given("impact_speed", impact_speed, "m/s")
     record = read_record(data)
@@ -138,10 +127,10 @@ def waveform(
     if ringing is not None:
         record, inner = ringing.force(record)
         raw = raw[inner]
-    seen = _see(record, raw, threshold, sign)
+    seen = _see(record, raw)
     if time_constant is not None:
         record = _undrooped(record, seen, time_constant)
-        seen = _see(record, raw, threshold, sign)
+        seen = _see(record, raw)
     seen = seen._replace(ringing=ringing)
     if len(seen.stretches) > _MOST_CONTACTS:
         got = (
@@ -164,9 +153,8 @@ def waveform(
         contacts=contacts,
         unit=record.unit,
         noise=zero.noise,
-        baseline=known_to(float(np.median(zero.baseline)), zero.error),
-        drift=float(zero.baseline[-1] - zero.baseline[0]),
-        hum=zero.hum,
+        baseline=known_to(float(np.median(zero.base.values)), zero.error),
+        hum=zero.base.height,
         sign=seen.sign,
         step=record.step,
         notes=tuple(notes),
@@ -175,30 +163,29 @@ def waveform(
         impact_speed=v,
         times=record.times,
         force=seen.signal,
-        zero=seen.sign * zero.baseline,
     )
     sensitivity, why = sensitivity_of(found)
     return replace(found, notes=(*notes, *why), sensitivity=sensitivity)
 
 
-def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) -> Seen:
+def _see(record: Record, raw: Array) -> Seen:
     """Find baseline and contacts by iteration, as each depends on the other."""
     quiet = np.zeros(len(record.times), dtype=bool)
     zero = quiet_parts(record, quiet, hum=False)
     width = 2 * int(0.5 * _SMOOTHED / record.step) + 1
-    bare = smoothed(np.abs(record.values - zero.baseline), width)
+    bare = smoothed(np.abs(record.values - zero.base.values), width)
     high = [Stretch(int(a), int(b)) for a, b in zip(*runs(bare > _HIGH * bare.max()), strict=True)]
-    humming = quiet_parts(record, _outside(len(bare), high, _HIGH_MARGIN), hum=True)
-    zero = humming if humming.hum else zero
+    humming = quiet_parts(record, _outside(len(bare), high), hum=True)
+    zero = humming if humming.base.height else zero
     stretches: list[Stretch] = []
-    short, own = 0, sign or 1
+    short, own = 0, 1
     for k in range(_ROUNDS):
-        bare = record.values - zero.baseline
-        own = sign or which_sign(bare, zero.noise)
-        stretches, short = find_stretches(own * bare, zero.noise, zero.density, threshold)
+        bare = record.values - zero.base.values
+        own = which_sign(bare, zero.noise)
+        stretches, short = find_stretches(own * bare, zero.noise, zero.density)
         quiet = _outside(len(bare), stretches)
-        zero = quiet_parts(record, quiet, hum=k > 0 or bool(humming.hum))
-    signal = own * (record.values - zero.baseline)
+        zero = quiet_parts(record, quiet, hum=k > 0 or bool(humming.base.height))
+    signal = own * (record.values - zero.base.values)
     times, quantum = record.times, record.quantum
     return Seen(times, signal, own * raw, quantum, zero, quiet, stretches, short, own)
 
@@ -244,13 +231,13 @@ def _are_square(contacts: tuple[Contact, ...]) -> bool:
     return equal and float(np.median(areas / peaks)) > _FULL
 
 
-def _outside(count: int, stretches: list[Stretch], share: float = _MARGIN) -> NDArray[np.bool_]:
+def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
     """Return which samples are outside all contacts, with a margin."""
     quiet = np.ones(count, dtype=bool)
     ends = [-1, *(stretch.last for stretch in stretches)]
     starts = [*(stretch.first for stretch in stretches), count]
     for k, one in enumerate(stretches):
-        margin = int(share * len(one)) + 2
+        margin = int(_MARGIN * len(one)) + 2
         before, after = (one.first - ends[k]) // 3, (starts[k + 1] - one.last) // 3
         quiet[one.first - min(margin, before) : one.last + min(margin, after) + 1] = False
     return quiet
@@ -307,9 +294,9 @@ def _notes(
     few = min((contact.samples for contact in contacts), default=_FEW_SAMPLES)
     if few < _FEW_SAMPLES:
         notes.append(f"only {few} samples in a contact: times and peaks are coarse, sample faster")
-    if seen.zero.hum:
-        hum = f"{seen.zero.hum:.3g}{of}"
-        notes.append(f"hum of {seen.zero.mains:.0f} Hz was subtracted, amplitude {hum}")
+    if seen.zero.base.height:
+        hum = f"{seen.zero.base.height:.3g}{of}"
+        notes.append(f"hum of {seen.zero.base.frequency:.0f} Hz was subtracted, amplitude {hum}")
     whole = next((contact for contact in contacts if contact.time is not None), None)
     if mass is not None and whole is not None and len(whole.peaks) > 1:
         notes.append(
@@ -335,7 +322,7 @@ def _steep(contacts: tuple[Contact, ...]) -> list[str]:
 
 def _droops(seen: Seen, step: float) -> list[str]:
     """Return a note if the baseline is lower after the first contact, an effect of a high-pass."""
-    if not seen.stretches or seen.zero.hum:
+    if not seen.stretches or seen.zero.base.height:
         return []
     one = seen.stretches[0]
     after = np.flatnonzero(seen.quiet[one.last :])[: max(8, len(one) // 2)] + one.last
@@ -345,9 +332,9 @@ def _droops(seen: Seen, step: float) -> list[str]:
     part = np.concatenate([before, after])
     times = seen.times[part] - seen.times[one.first]
     columns = np.column_stack([part > one.last, np.ones_like(times), times])  # a step on a drift
-    weights = np.linalg.lstsq(columns, seen.raw[part], rcond=None)[0]
-    low, scatter = float(weights[0]), float(np.std(seen.raw[part] - columns @ weights))
-    error = scatter * np.sqrt(np.linalg.pinv(columns.T @ columns)[0, 0])
+    weights, rest = regression(columns, seen.raw[part])
+    low = float(weights[0])
+    error = float(np.std(rest)) * np.sqrt(np.linalg.pinv(columns.T @ columns)[0, 0])
     top = float(smoothed(seen.signal, 3)[one.first : one.last + 1].max())
     if low > -max(_CLEAR_DROP * error, 0.005 * top):
         return []

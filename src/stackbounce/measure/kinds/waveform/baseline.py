@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.measure.kinds.waveform.hum import Base, find_hum, fit_quiet, leverage
+from stackbounce.measure.kinds.waveform.hum import Base, find_hum, fit_quiet
 from stackbounce.measure.kinds.waveform.record import Record
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import quantisation_error
@@ -14,10 +14,10 @@ from stackbounce.measure.statistics.ar_noise import correlation_factor, differen
 
 _LEAST_QUIET = 0.25  # of a record that is quiet
 _FAR = 0.2  # of a record's range: a clipped level that differs more from the ends is no baseline
+_SPANNED = 0.8  # of a record that its quiet samples span, so that they tell of a drift
 _FIFTH = 0.2  # of normal deviates that are within `_WITHIN_FIFTH`
 _WITHIN_FIFTH = 0.2533  # standard deviations
 _WITHIN_ONE = 0.683  # share of normal deviates within one standard deviation
-_LARGEST_LEVERAGE = 5.0  # of a sample over that of a typical quiet one
 _CLIPPED_BEYOND = 4.0  # standard deviations, in sigma clipping
 _CLIPPING_ROUNDS = 4  # of sigma clipping
 
@@ -28,8 +28,8 @@ class Quiet:
 
     Parameters
     ----------
-    baseline : ndarray
-        (n,) at each sample: a line, and the hum of the mains.
+    base : Base
+        A line, and the hum of the mains.
     noise : float
         Standard deviation of one sample.
     density : float
@@ -37,21 +37,12 @@ class Quiet:
         these: `noise` times the root of `correlation_factor`.
     error : float
         Of the baseline's level, one standard deviation.
-    hum_error : ndarray
-        (n,) of the baseline with hum at each sample; 0 where there is none.
-    hum : float
-        Amplitude of the hum; 0 where there is none.
-    mains : float
-        Its frequency in Hz; 0 where there is none.
     """
 
-    baseline: Array
+    base: Base
     noise: float
     density: float
     error: float
-    hum_error: Array
-    hum: float
-    mains: float
 
 
 def first_guess(record: Record) -> tuple[float, float]:
@@ -98,14 +89,14 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet
     """
     if quiet.sum() < 3:
         level, noise = first_guess(record)
-        flat = np.full(len(quiet), level)
-        return Quiet(flat, noise, noise, noise, np.zeros(len(quiet)), 0.0, 0.0)
+        flat = Base(np.full(len(quiet), level), 1, np.zeros(len(quiet)))
+        return Quiet(flat, noise, noise, noise)
     times = record.times - record.times[0]
     span = max(float(times[-1]), record.step)
     line = np.stack([np.ones_like(times), times / span - 0.5], axis=1)
-    if not _holds(line, quiet):
+    if np.ptp(np.flatnonzero(quiet)) < _SPANNED * len(quiet):
         line = line[:, :1]
-    found = Base(fit_quiet(line, record.values, quiet), line.shape[1])
+    found = Base(fit_quiet(line, record.values, quiet), line.shape[1], np.zeros(len(quiet)))
     if hum:
         found = find_hum(line, times, record, quiet) or found
     rest = (record.values - found.values)[quiet]
@@ -113,8 +104,7 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet
     floor = _floor(record)
     noise, density = max(noise, floor), max(density, floor)
     error = float(np.hypot(density / np.sqrt(len(rest)), quantisation_error(record.quantum, noise)))
-    unsure = density * found.leverage * np.ones(len(times))
-    return Quiet(found.values, noise, density, error, unsure, found.height, found.frequency)
+    return Quiet(found, noise, density, error)
 
 
 def scatter(rest: Array, fitted: int, quantum: float) -> tuple[float, float]:
@@ -136,12 +126,6 @@ def scatter(rest: Array, fitted: int, quantum: float) -> tuple[float, float]:
     noise = _robust(rest, quantum) * float(np.sqrt(len(rest) / max(1, len(rest) - fitted)))
     noise = max(noise, quantum / np.sqrt(12.0))
     return float(noise), float(noise * np.sqrt(correlation_factor(rest)))
-
-
-def _holds(columns: Array, quiet: NDArray[np.bool_]) -> bool:
-    """Return whether each sample has a low leverage, so that the fit is well determined there."""
-    some = leverage(columns[:: max(1, len(columns) // 500)], columns[quiet])
-    return bool(some.max() ** 2 * quiet.sum() < _LARGEST_LEVERAGE * columns.shape[1])
 
 
 def _robust(rest: Array, quantum: float) -> float:

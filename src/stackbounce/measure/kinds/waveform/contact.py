@@ -139,5 +139,6 @@ def _part(seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | Non
         level = density if seen.ringing is None else seen.ringing.level_density
         own = level / np.sqrt(sum(sides))
         offset = float(np.hypot(own, quantisation_error(seen.quantum, noise)))
-    offset = float(np.hypot(offset, seen.zero.hum_error[(one.first + one.last) // 2]))
+    by_hum = seen.zero.density * seen.zero.base.leverage[(one.first + one.last) // 2]
+    offset = float(np.hypot(offset, by_hum))
     return Part(times, values, one.first - low, one.last - low, offset, noise, density)

@@ -13,7 +13,6 @@ from stackbounce.measure.statistics.ar_noise import correlation_factor
 _MAINS = (50.0, 60.0)  # Hz
 _SPREAD = 0.1  # Hz, standard deviation of the frequency
 _LARGEST = 0.25  # of the largest value; what is higher is a contact
-_ROUNDS = 3  # of the frequency's fit
 _BLOCK = 1e-3  # s, over which a hum hardly changes
 _BLOCKS = 100  # of a short record
 _LEAST_BLOCKS = 12  # quiet ones
@@ -25,12 +24,12 @@ class Base(NamedTuple):
     """A baseline: a line, alone or with a hum of half the range `height`, of `frequency` in Hz.
 
     `values` (n,) are those at each sample, and `leverage` (n,) is their standard error by the hum
-    over that of a sample. `fitted` counts the unknowns.
+    over that of a sample, 0 without a hum. `fitted` counts the unknowns.
     """
 
     values: Array
     fitted: int
-    leverage: Array | float = 0.0
+    leverage: Array
     height: float = 0.0
     frequency: float = 0.0
 
@@ -57,9 +56,8 @@ def find_hum(line: Array, times: Array, record: Record, quiet: NDArray[np.bool_]
     if not tone:
         return None
     columns, rows, weights = _fitted(line, times, tone, record.values, quiet)
-    for _ in range(_ROUNDS):
-        tone += float(weights[-1])
-        columns, rows, weights = _fitted(line, times, tone, record.values, quiet)
+    tone += float(weights[-1])
+    columns, rows, weights = _fitted(line, times, tone, record.values, quiet)
     base = columns @ weights
     height = 0.5 * float(np.ptp(base - fit_quiet(line, base, quiet)))
     if height > _LARGEST * np.max(np.abs(record.values - base)):
@@ -138,8 +136,6 @@ def _tones(span: float, step: float) -> list[float]:
     """Return the mains frequencies in Hz to try, in steps that the record resolves."""
     if step > 0.2 / _MAINS[1]:
         return []
-    if span < 0.1:
-        return list(_MAINS)
     fine = np.linspace(-0.3, 0.3, int(min(31, 3 + 12 * span)))
     return [float(main + off) for main in _MAINS for off in fine]
 

@@ -44,13 +44,10 @@ def smoothed(values: Array, width: int) -> Array:
     >>> smoothed(np.array([0.0, 3.0, 0.0, 0.0]), 3)
     array([1.5, 1. , 1. , 0. ])
     """
-    if width <= 1:
-        return values
-    half, count = width // 2, len(values)
-    total = np.concatenate([[0.0], np.cumsum(values)])
-    at = np.arange(count)
-    low, high = np.maximum(at - half, 0), np.minimum(at + half + 1, count)
-    return np.asarray((total[high] - total[low]) / (high - low))
+    import pandas as pd
+
+    rolling = pd.Series(values).rolling(max(width, 1), center=True, min_periods=1)
+    return np.asarray(rolling.mean())
 
 
 def which_sign(signal: Array, noise: float) -> int:
@@ -83,10 +80,10 @@ def no_contact(force: Array, *, clipped: bool = False) -> bool:
     return len(force) >= _LEAST_JUDGED and bool(fades or square)
 
 
-def find_stretches(
-    signal: Array, noise: float, density: float, threshold: float | None
-) -> tuple[list[Stretch], int]:
+def find_stretches(signal: Array, noise: float, density: float) -> tuple[list[Stretch], int]:
     """Return the stretches above the noise, and how many were too short.
+
+    They rise above 6 noise levels and 1 % of the highest peak.
 
     Parameters
     ----------
@@ -94,8 +91,6 @@ def find_stretches(
         (n,) without its baseline, contacts upward.
     noise, density : float
         Of one sample, and of averages, see `Quiet`.
-    threshold : float or None
-        What a contact must rise above; None for 6 noise levels and 1 % of the highest peak.
 
     Returns
     -------
@@ -104,10 +99,8 @@ def find_stretches(
     int
         How many peaks of one or two samples were left out.
     """
-    clear, least = 0.0, threshold
-    if least is None:
-        clear, least = _ABOVE_NOISE, _RINGING * float(signal.max())
-    rough = _runs(signal, noise, max(clear * noise, least), 2)
+    least = _RINGING * float(signal.max())
+    rough = _runs(signal, noise, max(_ABOVE_NOISE * noise, least), 2)
     wide = np.sort([len(interval) for interval in _longer(rough, _LEAST_SAMPLES)])
     if not len(wide):
         return [], len(rough)
@@ -117,7 +110,7 @@ def find_stretches(
     if width == 1:
         return _longer(rough, _LEAST_SAMPLES), len(rough) - len(wide)
     calm = density / np.sqrt(width)
-    found = _runs(smoothed(signal, width), calm, max(clear * calm, least), width)
+    found = _runs(smoothed(signal, width), calm, max(_ABOVE_NOISE * calm, least), width)
     return _longer(found, _LEAST_SAMPLES + width), len(rough) - len(wide)
 
 

@@ -4,7 +4,6 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial import polynomial
 
 from stackbounce.measure.kinds.waveform.intervals import smoothed
 from stackbounce.measure.quantities import Array
@@ -73,12 +72,9 @@ def _cap(
     times: Array, values: Array, even: Array, top: int, room: tuple[int, int], density: float
 ) -> Peak:
     """Return time and height of a peak by a polynomial through its cap."""
-    floor = _CAP * even[top]
-    low = high = top
-    while low > room[0] and even[low - 1] > floor:
-        low -= 1
-    while high < room[1] and even[high + 1] > floor:
-        high += 1
+    starts, ends = runs(even > _CAP * even[top])
+    k = int(np.searchsorted(starts, top, "right")) - 1
+    low, high = max(int(starts[k]), room[0]), min(int(ends[k]), room[1])
     if high - low < 2:  # one sample on each side at least
         low, high = max(top - 1, 0), min(top + 1, len(even) - 1)
     count = high + 1 - low
@@ -87,25 +83,23 @@ def _cap(
     if degree < 2:
         return Peak(float(middle), float(half), float(values[top]), density)
     u = (times[low : high + 1] - middle) / half
-    columns = np.vander(u, degree + 1, increasing=True)
-    weights, *_ = np.linalg.lstsq(columns, values[low : high + 1], rcond=None)
-    rest = values[low : high + 1] - columns @ weights
+    part = values[low : high + 1]
+    weights, cover = np.polyfit(u, part, degree, cov="unscaled")
     freedom = count - degree - 1
-    scatter = float(np.sqrt(np.sum(rest**2) / freedom)) if freedom > 4 else 0.0
-    sigma = max(density, scatter)
+    rest = part - np.polyval(weights, u)
+    sigma = max(density, float(np.sqrt(np.sum(rest**2) / freedom)) if freedom > 4 else 0.0)
     fine = np.linspace(u[0], u[-1], 401)
-    curve = polynomial.polyval(fine, weights)
+    curve = np.polyval(weights, fine)
     best = int(np.argmax(curve))
-    cover = np.linalg.pinv(columns.T @ columns) * sigma**2
-    at = fine[best] ** np.arange(degree + 1)
-    slope = np.append(0.0, np.arange(1, degree + 1) * at[:-1])
-    bend = float(polynomial.polyval(fine[best], polynomial.polyder(weights, 2)))
-    shift = np.sqrt(slope @ cover @ slope) / max(abs(bend), 1e-300)
+    at = np.vander(fine[[best]], degree + 1)[0]
+    slope = np.append(np.arange(degree, 0, -1) * at[1:], 0.0)
+    bend = float(np.polyval(np.polyder(weights, 2), fine[best]))
+    shift = sigma * np.sqrt(slope @ cover @ slope) / max(abs(bend), 1e-300)
     return Peak(
         float(middle + half * fine[best]),
         float(half * min(shift, 1.0)),
         float(curve[best]),
-        float(np.sqrt(at @ cover @ at)),
+        float(sigma * np.sqrt(at @ cover @ at)),
     )
 
 

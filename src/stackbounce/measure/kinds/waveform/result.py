@@ -71,8 +71,6 @@ class Waveform(Finding):
         Standard deviation of one sample, in `unit`, from the quiet parts.
     baseline : UFloat
         The level without force at the record's middle.
-    drift : float
-        By how much it changes over the record.
     hum : float
         Amplitude of the mains' hum that was subtracted, in `unit`; 0 where there is none.
     sign : int
@@ -85,9 +83,9 @@ class Waveform(Finding):
         In V/N, where `mass` and `impact_speed` calibrate the sensor.
     mass, impact_speed : UFloat, float or None
         As they were given, in kg and m/s.
-    times, force, zero : ndarray
-        (n,) the record's times in s, its values contacts upward without baseline, droop corrected,
-        and the baseline that was subtracted, all for a picture.
+    times, force : ndarray
+        (n,) the record's times in s, and its values contacts upward without baseline, droop
+        corrected, for a picture.
     """
 
     picture: ClassVar[str] = "waveform"
@@ -96,7 +94,6 @@ class Waveform(Finding):
     unit: str
     noise: float
     baseline: Number
-    drift: float
     hum: float
     sign: int
     step: float
@@ -106,7 +103,6 @@ class Waveform(Finding):
     impact_speed: Number | float | None
     times: Array = field(repr=False)
     force: Array = field(repr=False)
-    zero: Array = field(repr=False)
 
     @property
     def stiffness(self) -> Number | None:

@@ -13,11 +13,11 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
-from stackbounce.errors import InvalidValue, fraction, shown
+from stackbounce.errors import InvalidValue
 from stackbounce.measure.finding import Finding, Listed, force_channels
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.result import Waveform
-from stackbounce.measure.quantities import Number, measured, measured_if_given, propagate
+from stackbounce.measure.quantities import Number, measured, propagate
 from stackbounce.model import Ball, Drop
 from stackbounce.run.driver import simulate
 
@@ -48,16 +48,14 @@ def gap_from_delay(
     delay: Any,
     impact_speed: Any,
     *,
-    mass: Any = None,
-    stiffness: Any = None,
     contact_time: Any = None,
+    mass: Any = None,
     contact: "ContactLaw | None" = None,
-    restitution: float = 1.0,
 ) -> Number:
     """Return the gap of two falling balls that touch a delay after the lower one's landing.
 
-    The bounce of the lower ball alone is given by exactly one of `contact_time`, `stiffness` (with
-    `mass`) and `contact` (with `mass` unless it is `Rigid`).
+    The bounce of the lower ball alone is given either by `contact_time`, or by `contact` and
+    `mass`.
 
     Parameters
     ----------
@@ -65,17 +63,12 @@ def gap_from_delay(
         From the floor's first touch to that of the balls, in s.
     impact_speed : float or UFloat
         In m/s, of both balls.
+    contact_time : float or UFloat, optional
+        The time in s that the lower ball alone is on the floor, as on a linear spring without loss.
     mass : float or UFloat, optional
         Of the lower ball in kg.
-    stiffness : float or UFloat, optional
-        Of its contact with the floor, a linear spring, in N/m.
-    contact_time : float or UFloat, optional
-        The time in s that the lower ball alone is on the floor, as on a linear spring.
     contact : ContactLaw, optional
         Any law of its contact with the floor; the single ball is simulated.
-    restitution : float, optional
-        Of the lower ball alone, where `contact_time` or `stiffness` is given: it only sets the
-        speed at which the ball leaves the floor. Default 1.
 
     Returns
     -------
@@ -98,35 +91,25 @@ def gap_from_delay(
     >>> print(f"{gap * 1e3:.1uS} mm")
     1.3(9) mm
     """
-    ways = {"stiffness": stiffness, "contact_time": contact_time, "contact": contact}
-    given = [way for way, one in ways.items() if one is not None]
-    if len(given) != 1:
-        raise InvalidValue(
-            f"exactly one of stiffness, contact_time and contact must be given, got "
-            f"{', '.join(given) or 'none'}"
-        )
-    m: Any = measured_if_given("mass", mass, "kilograms")
-    k = measured_if_given("stiffness", stiffness, "N/m")
-    tau = measured_if_given("contact_time", contact_time, "seconds")
-    if m is None and tau is None and not getattr(contact, "rigid", False):
-        raise InvalidValue(f"mass must be given with {given[0]}, got {shown(mass)}")
     numbers = {"t": measured("delay", delay), "v": measured("impact_speed", impact_speed, "m/s")}
-    fraction("restitution", restitution)
-    if contact is not None:
-        numbers["mass"] = 1.0 if m is None else m
-        return propagate(lambda **at: [_simulated_gap(contact, **at)], numbers)[0]
-    numbers["tau"] = tau if k is None else math.pi * (m / k) ** 0.5
-    return propagate(lambda **at: [_spring_gap(**at, e=restitution)], numbers)[0]
+    if (contact is None) == (contact_time is None):
+        got = "none" if contact is None else "both"
+        raise InvalidValue(f"one of contact_time and contact must be given, got {got}")
+    if contact is None:
+        numbers["tau"] = measured("contact_time", contact_time, "seconds")
+        return propagate(lambda **at: [_spring_gap(**at)], numbers)[0]
+    numbers["mass"] = measured("mass", mass, "kilograms")
+    return propagate(lambda **at: [_simulated_gap(contact, **at)], numbers)[0]
 
 
-def delay(floor: Any, balls: Any) -> Number:
+def delay(floor: Waveform, balls: Waveform) -> Number:
     """Return the time from the floor's first touch to that of the balls, from two channels.
 
     Parameters
     ----------
-    floor, balls : Waveform or what `waveform` takes
-        The two channels of one record, on one clock, or what was found in them: a sensor under the
-        lower ball, and one between the balls.
+    floor, balls : Waveform
+        What was found in two channels of one record, on one clock: of a sensor under the lower
+        ball, and of one between the balls.
 
     Returns
     -------
@@ -136,28 +119,24 @@ def delay(floor: Any, balls: Any) -> Number:
     Raises
     ------
     InvalidValue
-        If a channel shows no contact, begins within one, or holds no waveform.
-    InvalidType
-        If it is none.
+        If a channel shows no contact, or begins within one.
 
     Examples
     --------
     >>> import numpy as np
     >>> import stackbounce as sb
-    >>> import xarray as xr
     >>> balls, laws = [sb.Ball(0.101), sb.Ball(0.0248)], [sb.Spring(5.6e4), sb.Spring(1.6e4)]
     >>> drop = sb.Drop(balls, laws, gaps=[1e-3], height=0.2)
     >>> times = np.arange(-2e-3, 1e-2, 1e-5)  # s
     >>> forces = sb.simulate(drop).sample(np.maximum(times, 0.0)).force.values * (times >= 0.0)
     >>> forces += np.random.default_rng(1).normal(0.0, 0.5, forces.shape)
-    >>> floor, balls = (xr.Dataset({"force": ("time", force)}, {"time": times}) for force in forces)
+    >>> floor, balls = (waveform((times, force)) for force in forces)
     >>> later = delay(floor, balls)
     >>> round(later.nominal_value * 1e3, 1), float(sb.simulate(drop).first_touch[1].round(4)) * 1e3
     (1.8, 1.8)
     """
     starts = []
-    for name, data in (("floor", floor), ("balls", balls)):
-        one = data if isinstance(data, Waveform) else waveform(data)
+    for name, one in (("floor", floor), ("balls", balls)):
         if not one.contacts:
             raise InvalidValue(f"{name} must show a contact, got none: {'; '.join(one.notes)}")
         if one.contacts[0].start is None:
@@ -208,7 +187,7 @@ def sensor_gap(data: Any, *, impact_speed: Any = None, contact_time: Any = None)
     names = force_channels(data)
     if len(names) < 2:
         raise InvalidValue(f"data must have two channels, got {', '.join(names) or 'none'}")
-    later = delay(data[[names[0]]], data[[names[1]]])
+    later = delay(*(waveform(data[[name]]) for name in names[:2]))
     if not later.nominal_value > 0.0:
         raise InvalidValue(
             f"data must have the floor's channel first, got {names[1]} {-1e3 * later:.1uS} ms "
@@ -222,11 +201,11 @@ def sensor_gap(data: Any, *, impact_speed: Any = None, contact_time: Any = None)
     return SensorGap(gap, later, (said,))
 
 
-def _spring_gap(t: float, v: float, tau: float, e: float) -> float:
-    """Return v0 t + q(t) of a ball on a linear spring, which then flies up at e v0."""
+def _spring_gap(t: float, v: float, tau: float) -> float:
+    """Return v0 t + q(t) of a ball on a linear spring, which then flies up at v0."""
     if t <= tau:
         return v * (t - tau / math.pi * math.sin(math.pi * t / tau))
-    return v * (t + e * (t - tau))
+    return v * (2.0 * t - tau)
 
 
 def _simulated_gap(contact: Any, t: float, v: float, mass: float) -> float:

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -12,7 +12,6 @@ from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.sensor import restitution_of
 from stackbounce.measure.quantities import (
-    Array,
     Number,
     Row,
     known_to,
@@ -79,7 +78,6 @@ def floor_gap(
     mass: Any = None,
     impact_speed: Any = None,
     restitution: Any = None,
-    time_constant: float | None = None,
 ) -> FloorGap:
     """Return delay and gap of two balls from the floor's force under both and under one.
 
@@ -98,8 +96,6 @@ def floor_gap(
         In m/s: for records in V, and records in N without a mass.
     restitution : float or UFloat, optional
         Of the lower ball alone, where the speed is needed; by default anything from 0.5 to 1.
-    time_constant : float, optional
-        Of a piezo sensor's droop in s, which is then undone.
 
     Returns
     -------
@@ -137,9 +133,10 @@ def floor_gap(
     >>> abs(found.gap.nominal_value - 1e-3) < 2.0 * found.gap.std_dev < 1e-3
     True
     """
+    from scipy.interpolate import make_interp_spline
+
     both, single = (
-        record if isinstance(record, Waveform) else waveform(record, time_constant=time_constant)
-        for record in (stack, alone)
+        record if isinstance(record, Waveform) else waveform(record) for record in (stack, alone)
     )
     pressed, free = _first("stack", both), _first("alone", single)
     touch, touch_alone = (contact.start.nominal_value for contact in (pressed, free))
@@ -148,16 +145,20 @@ def floor_gap(
     since = single.times - touch_alone
     noise = float(np.hypot(both.noise, single.noise * np.sqrt(single.step / both.step)))
     kink = find_kink(times, both.force, (since, force), noise, lasting)
-    fall = _fall(since, force, lasting)
+    felt = make_interp_spline(since, np.where((since > 0.0) & (since < lasting), force, 0.0), k=1)
+    speed, fall = felt.antiderivative(1), felt.antiderivative(2)  # go on after the release
     scale = _scale(single, free, mass, impact_speed, restitution)
     limits, why = _limits(both, kink, lasting)
-    reach = tuple(scale.nominal_value * fall.of(limit) for limit in limits)
+    low, high = (
+        limit if limit in (0.0, math.inf) else scale.nominal_value * float(fall(limit))
+        for limit in limits
+    )
     delay = gap = None
     if not why:
         delay = known_to(kink.time, kink.error) - (pressed.start - touch)
-        gap = scale * (fall.of(kink.time) + fall.speed(kink.time) * (delay - kink.time))
+        gap = scale * (float(fall(kink.time)) + float(speed(kink.time)) * (delay - kink.time))
     notes = (*both.notes, *_notes(kink, lasting), *why)
-    return FloorGap(delay, gap, limits, reach, kink.gain, notes, both, single, kink)
+    return FloorGap(delay, gap, limits, (low, high), kink.gain, notes, both, single, kink)
 
 
 def _limited(value: Any, limits: tuple[float, float]) -> Any:
@@ -172,27 +173,6 @@ def _limited(value: Any, limits: tuple[float, float]) -> Any:
     return f"{low:.2g} to {high:.2g}"
 
 
-class _Fall(NamedTuple):
-    """The force on the lower ball alone, integrated over time once and twice."""
-
-    times: Array
-    once: Array
-    twice: Array
-    lasting: float
-
-    def speed(self, time: float) -> float:
-        """Return the force integrated once, up to a time in s since the touch."""
-        return float(np.interp(time, self.times, self.once))
-
-    def of(self, time: float) -> float:
-        """Return the force integrated twice up to a time in s, which may be after the release."""
-        if time <= 0.0 or math.isinf(time):
-            return time
-        flown = max(time - self.lasting, 0.0)
-        down = float(np.interp(time - flown, self.times, self.twice))
-        return down + float(self.once[-1]) * flown
-
-
 def _first(name: str, found: Waveform) -> Any:
     contact = found.contacts[0] if found.contacts else None
     if contact is None or contact.time is None:
@@ -201,15 +181,6 @@ def _first(name: str, found: Waveform) -> Any:
             f"{len(found.contacts)} contacts: {'; '.join(found.notes) or 'the first is cut off'}"
         )
     return contact
-
-
-def _fall(since: Array, force: Array, lasting: float) -> _Fall:
-    """Return the force of the ball alone, integrated over time from its touch."""
-    from scipy.integrate import cumulative_trapezoid
-
-    felt = np.where((since > 0.0) & (since < lasting), force, 0.0)
-    once = cumulative_trapezoid(felt, since, initial=0.0)
-    return _Fall(since, once, cumulative_trapezoid(once, since, initial=0.0), lasting)
 
 
 def _scale(alone: Waveform, contact: Contact, mass: Any, speed: Any, restitution: Any) -> Any:
