@@ -36,7 +36,7 @@ SHEETS = {
 
 def test_phyphox_as_a_spreadsheet(read):
     data = read(xlsx(SHEETS))
-    assert data.attrs["format"] == "phyphox: acceleration with g"
+    assert data.attrs["holds"] == "acceleration"
     assert "a sheet of a spreadsheet" in data.attrs["why"]
     assert "Raw Data of it is read" in data.attrs["doubt"]
     np.testing.assert_allclose(data.acceleration_y.values, COLUMNS[2])

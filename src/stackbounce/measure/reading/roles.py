@@ -81,7 +81,7 @@ def heading(text: str, unit: str | None = None) -> Heading:
     ('N', 'N', 'volt')
     """
     text = " ".join(text.lstrip("#%").split())[:200]
-    name, run = text, ""
+    name, run = text.removesuffix(" Auto"), ""  # of times that Capstone counts itself
     if (found := _AFTER.fullmatch(name)) or (found := _BEFORE.fullmatch(name)):
         before = found.re is _BEFORE
         run, name = (found[1], found[2]) if before else (found[2], found[1])
