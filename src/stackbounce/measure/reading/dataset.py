@@ -24,8 +24,6 @@ _INFERRED = (
     "height 0, of the drop, was not measured: phyphox infers it from the bounces that followed"
 )
 _OTHER_UNITS = {"s": "ms", "N": "kN", "m": "cm"}  # examples in doubts
-_SMALLEST = 1e-60  # number in any unit; squares and ratios of such are finite
-_LARGEST = 1e60  # number in any unit
 _UNITS = _ASSUMED | {"voltage": "V", "sound": "1"} | dict.fromkeys(ACCELERATIONS, "m/s^2")
 
 
@@ -71,9 +69,6 @@ def assemble(
     FileError
         If there is no row of it.
     """
-    sizes = np.abs(values)  # programs write numbers that nothing can be where one is missing
-    measurable = (sizes == 0.0) | ((sizes >= _SMALLEST) & (sizes <= _LARGEST))
-    values = np.where(measurable, values, np.nan)
     if holds == "bounces":
         return _bounces(columns, values)
     kind = KINDS[holds]

@@ -17,7 +17,6 @@ _Key = str | int
 _KINDS: dict[str, tuple[Any, str]] = {
     "table": (str, "a name"),
     "run": (str | int, "a name or a number"),
-    "decimal": (str, '"." or ","'),
 }
 
 
@@ -48,6 +47,9 @@ class ReadOptions:
             given = getattr(self, option)
             if isinstance(given, bool) or not isinstance(given, kind | None):
                 raise InvalidType(about_option(option, f" must be {wanted}, got {shown(given)}"))
+        if self.decimal not in (None, ".", ","):
+            wrong = f' must be "." or ",", got {shown(self.decimal)}'
+            raise InvalidValue(about_option("decimal", wrong))
         for option, unit in (("frame_rate", "frames per second"), ("scale", "metres per pixel")):
             if getattr(self, option) is not None:
                 positive(option, getattr(self, option), unit)

@@ -306,9 +306,8 @@ def _flaws(table: numbers.Table) -> list[str]:
     flaws = (
         (strange, f"cells are no numbers, the first {first}: taken as missing"),
         (table.words, f"lines among the numbers are words, first {word}: left out"),
-        (table.infinite, "numbers are infinite, beyond the range: taken as missing"),
+        (table.beyond, "numbers are beyond any instrument's range: taken as missing"),
         (table.longer, "rows have more cells than the others"),
-        (table.shorter, "rows have fewer cells than the others"),
     )
     return [f"{count} {words}" for count, words in flaws if count]
 
