@@ -13,7 +13,7 @@ from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.roles import ACCELERATIONS, ARBITRARY, FRAME, ROLES, Column
-from stackbounce.measure.reading.series import in_time, on_the_clock, step_of
+from stackbounce.measure.reading.series import in_time, on_the_clock
 from stackbounce.measure.reading.video import rows_by_frame
 
 if TYPE_CHECKING:
@@ -72,7 +72,9 @@ def assemble(
     if holds == "bounces":
         return _bounces(columns, values)
     kind = KINDS[holds]
-    columns, values = _named_first(columns, values)
+    # An analysis takes the first of several forces: one that an option names comes before others.
+    order = sorted(range(len(columns)), key=lambda k: columns[k].named not in ROLES)
+    columns, values = [columns[k] for k in order], values[:, order]
     over_time = {"time": _series, "track": _track}.get(kind.dimension)
     build = over_time or partial(_rows, kind)
     columns, unsure = on_the_clock(kind, _fitting(holds, columns), values)
@@ -84,17 +86,6 @@ def assemble(
             values[:, k] *= column.factor
     data, more = build(columns, values, run)
     return data, doubts + more
-
-
-def _named_first(columns: Sequence[Column], values: Array) -> tuple[Sequence[Column], Array]:
-    """Return columns and their numbers, those that an option gives a role before the others.
-
-    Of several forces an analysis takes the first.
-    """
-    order = sorted(range(len(columns)), key=lambda k: columns[k].named not in ROLES)
-    if order == list(range(len(columns))):
-        return columns, values
-    return [columns[k] for k in order], values[:, order]
 
 
 def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
@@ -195,7 +186,8 @@ def _series(columns: Sequence[Column], values: Array, run: object) -> _Built:
     values = values[rows]
     data = _data(columns, values, "time", skip=at)
     if "sound" in data:
-        data["sound"][2]["rate"] = 1.0 / step if (step := step_of(times)) > 0.0 else np.nan
+        lasting = np.ptp(times)
+        data["sound"][2]["rate"] = (len(times) - 1) / lasting if lasting > 0.0 else np.nan
     return xr.Dataset(data, coords={"time": ("time", times, _attributes(columns[at]))}), doubts
 
 

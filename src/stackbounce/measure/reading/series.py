@@ -22,7 +22,6 @@ _UNITS = {"s": (1.0, "seconds"), "ms": (1e-3, "milliseconds"), "µs": (1e-6, "mi
           "ns": (1e-9, "nanoseconds")}  # fmt: skip
 _EPOCH = (631152000.0, 4102444800.0)  # s since 1970, from 1990 to 2100
 _LONGEST = 3600.0  # s: steps of times since 1970, which may be those of a slow sensor
-_SHORTEST = 1e-9  # s: no step is shorter
 _RUNS = 50
 """Runs below each other, at most: with more, the column does not hold times."""
 
@@ -83,10 +82,9 @@ def on_the_clock(
     if not places:
         return found, []
     since = {k: _epoch(found[k], values[:, k]) for k in places}
-    elapsed = [k for k in places if not since[k]]
-    at = (elapsed or places)[0]
-    for k in places if elapsed else ():
-        if since[k]:  # seconds since the start stand beside it
+    at = min(places, key=lambda k: since[k] != "")  # seconds since the start, if there are some
+    for k in places:
+        if since[k] and k != at:
             found[k] = replace(found[k], role="", unit="", named=found[k].named or "date")
     if since[at]:
         factor, words = _UNITS[since[at]]
@@ -122,22 +120,17 @@ def _relative(column: Column, times: Array, factor: float, words: str) -> tuple[
 def _by_steps(kind: Kind, column: Column, times: Array) -> tuple[Column, list[str]]:
     """Return a column of times, in the longest unit whose steps are not too long for the kind."""
     step = _usual_step(times[np.isfinite(times)])
-    if column.unit or column.heading.unit or not kind.longest_step < step < 1e300:
+    fitting = [unit for unit in _UNITS if _UNITS[unit][0] * step <= kind.longest_step]
+    if column.unit or column.heading.unit or not fitting or fitting[0] == "s":
         return column, []
-    fit = ((unit, factor) for unit, (factor, _) in _UNITS.items())
-    unit, factor = next(
-        ((unit, factor) for unit, factor in fit if factor * step <= kind.longest_step), ("s", 1.0)
-    )
-    if unit == "s" or factor * step < _SHORTEST:
-        return column, []
-    name = column.heading.name or str(column.index + 1)
+    name = column.heading.name or column.index + 1
     doubt = Message(
-        f"no unit is told for {name}: taken as {unit}, as steps of {step:.4g} s are too long for "
-        f"a file of {kind.name}; ",
-        OptionHint({"units": {name if column.heading.name else column.index + 1: "s"}}),
+        f"no unit is told for {name}: taken as {fitting[0]}, as steps of {step:.4g} s are too long "
+        f"for a file of {kind.name}; ",
+        OptionHint({"units": {name: "s"}}),
         " tells another",
     )
-    return replace(column, factor=factor, unit="s"), [doubt]
+    return replace(column, factor=_UNITS[fitting[0]][0], unit="s"), [doubt]
 
 
 def _usual_step(times: Array) -> float:
@@ -222,23 +215,11 @@ def _of_run(rows: _Rows, own: Array, run: object) -> tuple[_Rows, Array, list[st
 def _gaps(own: Array, unit: str) -> list[str]:
     steps = np.diff(own)
     usual = float(np.median(steps)) if steps.size else 0.0
-    if not usual > 0.0:
-        return []
-    off = steps - usual
-    regular = np.mean(np.abs(off, out=off) < 0.01 * usual) > 0.5
+    regular = np.count_nonzero(np.abs(steps - usual) < 0.01 * usual) > 0.5 * steps.size
     wide = np.flatnonzero(steps > 1.5 * usual)
     if not (regular and wide.size):
         return []
     return [f"{wide.size} gaps in time, the first after {own[wide[0]]:.6g} {unit}"]
-
-
-def step_of(time: Array) -> float:
-    """Return the step of times, their mean one if they have no gaps; NaN of fewer than two."""
-    if time.size < 2:
-        return float("nan")
-    steps = np.diff(time)
-    mean = float(time[-1] - time[0]) / steps.size
-    return mean if steps.max() < 1.5 * mean else float(np.median(steps))
 
 
 def _counted(run: object, count: int) -> int:

@@ -128,27 +128,19 @@ def rows_by_frame(columns: Sequence[Column], values: Array) -> _Tracks:
 
 
 def _side_by_side(columns: Sequence[Column], values: Array, time: int, at: int) -> _Tracks:
-    ids, counts = np.unique(values[np.isfinite(values[:, at]), at], return_counts=True)
-    longest = np.sort(ids[np.argsort(-counts, kind="stable")[:_TRACKS]])
-    rows = [np.flatnonzero(values[:, at] == track) for track in longest]
-    if not rows:
-        without = [k for k in range(len(columns)) if k != at]
-        return [columns[k] for k in without], values[:, without], []
+    import pandas as pd
+
+    points = pd.DataFrame(values).dropna(subset=[time, at])
+    lengths = points[at].value_counts()
+    longest = points[points[at].isin(lengths.index[:_TRACKS])]
     places = [k for k, column in enumerate(columns) if column.role in ("x", "y")]
-    times = np.unique(values[np.concatenate(rows), time])
-    times = times[np.isfinite(times)]
-    table = np.full((len(times), 1 + len(rows) * len(places)), np.nan)
-    table[:, 0] = times
-    found = [columns[time]]
-    for track, own in zip(longest, rows, strict=True):
-        own = own[np.isfinite(values[own, time])]
-        to = np.searchsorted(times, values[own, time])
-        for k in places:
-            table[to, len(found)] = values[own, k]
-            found.append(replace(columns[k], track=f"track {track:g}"))
-    left = len(ids) - len(longest)
-    doubts = [f"{left} shorter tracks are left out"] if left else []
-    return found, table, doubts
+    table = longest.drop_duplicates([time, at], keep="last").pivot(
+        index=time, columns=at, values=places
+    )
+    found = [replace(columns[k], track=f"track {track:g}") for k, track in table.columns]
+    left = len(lengths) - _TRACKS
+    doubts = [f"{left} shorter tracks are left out"] if left > 0 else []
+    return [columns[time], *found], table.reset_index().to_numpy(np.float64), doubts
 
 
 def _nearest(frames: Array, places: Array) -> list[int]:
