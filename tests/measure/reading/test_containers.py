@@ -56,7 +56,7 @@ def test_a_sheet_is_chosen_by_its_name(read):
     assert data.y.values[0, 0] == 1.0
     assert data.time.values.tolist() == [0.0, 0.5]  # a number that is text with a decimal comma
     assert read(content, table="Run 2").y.values[0, 0] == 2.0
-    with pytest.raises(InvalidValue, match="table must be one in the spreadsheet, got 'Run 3'"):
+    with pytest.raises(InvalidValue, match="table must be one in the file, got 'Run 3'"):
         read(content, table="Run 3")
 
 

@@ -58,23 +58,15 @@ def test_phyphox_collision(read, delimiter, decimal):
         made.phyphox_csv(names, cells, delimiter, decimal),
     ):
         data = read(content)
-        units = {"knock_time": "s", "height": "m", "energy": "1"}
-        check(data, "bounces", "phyphox: (in)elastic collision", units)
+        check(data, "bounces", "phyphox: (in)elastic collision", {"knock_time": "s"})
         same(data.knock_time, made.KNOCKS)
-        flights = 9.81 * np.diff(made.KNOCKS) ** 2 / 8.0
-        same(data.height[1:], flights, 1e-8)
-        same(data.energy[1:], flights / flights[0], 1e-8)
-        assert data.height[0] > data.height[1]
-        assert "not measured" in data.attrs["doubt"]
+        assert data.attrs["doubt"] == ""
 
 
 @pytest.mark.parametrize("heard", [1, 2, 3, 5])
 def test_phyphox_collision_of_fewer_knocks_keeps_only_what_was_heard(read, heard):
     data = read(made.phyphox_collision(heard))
     same(data.knock_time, made.KNOCKS[:heard])
-    assert data.sizes == {"knock": heard, "bounce": heard}
-    assert np.isfinite(data.height[1:]).all()
-    assert np.isfinite(data.height[0]) == (heard > 2)
     names, cells = made.energy()
     with pytest.raises(FileError, match="heard no knock"):
         read(made.phyphox_csv(names, [[0.0] for _ in cells]))

@@ -87,11 +87,10 @@ def test_too_large_a_file_is_not_read(tmp_path):
     (archive({}), "without any table"),
     (archive({f"{k}.csv": "" for k in range(1001)}), "more than 1000 files"),
     (archive({"[Content_Types].xml": "", "a.csv": "1,2"}), "it is a spreadsheet"),
-    (archive({"a.csv": "1,2"}, zipfile.ZIP_BZIP2), "packed in an unusual way"),
-    (archive({"a.csv": "1,2\n" * 100})[:-30], "broken zip archive"),
+    (archive({"a.csv": "1,2\n" * 100})[:-30], "archive that cannot be unpacked"),
     (archive({"a.csv": "words"}), "a.csv: it has no row of numbers"),
     (archive({"a.csv": made.wav()}), "a.csv: it is no text"),
-    (b"PK\x03\x04", "broken zip archive"),
+    (b"PK\x03\x04", "archive that cannot be unpacked"),
 ])  # fmt: skip
 def test_refused(read, content, message):
     refused(read, content, message)
@@ -118,9 +117,9 @@ def test_bombs_that_lie_of_their_size_or_are_many(read, monkeypatch):
 def test_locked_and_damaged_archives(read):
     content = bytearray(archive({"a.csv": made.force_ms()}, zipfile.ZIP_STORED))
     content[100] ^= 1
-    refused(read, bytes(content), "broken zip archive: Bad CRC-32")
+    refused(read, bytes(content), "cannot be unpacked: Bad CRC-32")
     content[content.rindex(b"PK\x01\x02") + 8] |= 1
-    refused(read, bytes(content), "locked by a password")
+    refused(read, bytes(content), "is encrypted, password required")
 
 
 def test_names_in_archives_are_names_only(read, tmp_path):

@@ -20,9 +20,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _ASSUMED = {"time": "s", "knock_time": "s", "force": "N", "compression": "m", "x": "m", "y": "m"}
-_INFERRED = (
-    "height 0, of the drop, was not measured: phyphox infers it from the bounces that followed"
-)
 _OTHER_UNITS = {"s": "ms", "N": "kN", "m": "cm"}  # examples in doubts
 _UNITS = _ASSUMED | {"voltage": "V", "sound": "1"} | dict.fromkeys(ACCELERATIONS, "m/s^2")
 
@@ -70,7 +67,7 @@ def assemble(
         If there is no row of it.
     """
     if holds == "bounces":
-        return _bounces(columns, values)
+        return _bounces(values), []
     kind = KINDS[holds]
     # An analysis takes the first of several forces: one that an option names comes before others.
     order = sorted(range(len(columns)), key=lambda k: columns[k].named not in ROLES)
@@ -238,43 +235,18 @@ def _rows(kind: Kind, columns: Sequence[Column], values: Array, run: object) -> 
     return xr.Dataset(_data(columns, values[whole], kind.dimension), coords=numbers), []
 
 
-def _bounces(columns: Sequence[Column], values: Array) -> _Built:
-    """Return the knocks that phyphox heard, and what it derived of them; the last row counts.
-
-    If it heard no knock k, phyphox computes height k and energy k from the time since knock k - 1;
-    these are left out.
-    """
+def _bounces(values: Array) -> "xr.Dataset":
+    """Return the times of the knocks that phyphox heard, a column each; the last row counts."""
     import xarray as xr
 
     numbers = np.nan_to_num(values)
-    names = [column.heading.name.casefold() for column in columns]
-    first = [name == "bounce 0" for name in names]
-    heard = np.flatnonzero((numbers[:, first] > 0.0).any(axis=1))
+    heard = np.flatnonzero(numbers[:, 0] > 0.0)
     if not heard.size:
         raise FileError("phyphox heard no knock in it")
-    found = dict(zip(names, numbers[heard[-1]].tolist(), strict=True))
-    times = [found["bounce 0"]]
-    while found.get(f"bounce {len(times)}", 0.0) > times[-1]:
-        times.append(found[f"bounce {len(times)}"])
-    count = len(times)
-    heights, energies = (
-        np.array([found.get(f"{name} {k}", 0.0) for k in range(count)])
-        for name in ("height", "energy")
-    )
-    if count < 3:  # phyphox compares the first two flights to infer the drop
-        heights[0] = 0.0
-    energies[0] = 0.0
-    if count > 1 and not energies[1]:
-        energies[1] = 1.0  # phyphox sets the others in proportion to this one
-    data = {
-        name: ("bounce", np.where(row > 0.0, row, np.nan), {"units": unit, "long_name": text})
-        for name, row, unit, text in (
-            ("height", heights, "m", "Height: apex before this knock; of the drop at 0"),
-            ("energy", energies, "1", "Energy, of that after knock 0"),
-        )
-    }
+    times = numbers[heard[-1]]
+    rising = np.diff(times, prepend=0.0, append=0.0) > 0.0  # 0 stands for what was not heard
     said = {"units": "s", "long_name": "Bounce: time of a knock"}
-    return xr.Dataset({"knock_time": ("knock", np.array(times), said), **data}), [_INFERRED]
+    return xr.Dataset({"knock_time": ("knock", times[: np.argmin(rising)], said)})
 
 
 def _at(columns: Sequence[Column], role: str) -> int:

@@ -25,6 +25,7 @@ from stackbounce.measure.reading.text import Text, number
 
 _LABEL = re.compile(r"[0-9]+[.,][0-9]{6}\t[0-9]+[.,][0-9]{6}\t(?![-+0-9.,]+$)[^\t]*")
 _END = "***End_of_Header***"
+_KNOCK = re.compile(r"bounce [0-9]+")  # its time
 _UNSAID = "Sensor Logger does not write into a file which sensor it is of: "
 _OTHER_SENSORS = ("gyroscope", "gravity", "magnetometer", "orientation", "compass")
 _IMAGEJ = {"", "area", "label", "slice", "slice n°"}  # beside which X and Y are pixels
@@ -217,12 +218,14 @@ def phyphox(text: Text) -> Layout | None:
     """Recognise the (in)elastic collision of phyphox; its one row may be all that is there."""
     header = text.head[0]
     cells = [heading(cell) for cell in header]
-    if not {"bounce 0", "bounce 1"} <= {cell.name.casefold() for cell in cells}:
+    knocks = tuple(
+        Column(k, cell) for k, cell in enumerate(cells) if _KNOCK.fullmatch(cell.name.casefold())
+    )
+    if len(knocks) < 2:
         return None
-    columns = tuple(Column(k, cell) for k, cell in enumerate(cells) if cell.text)
     why = f"its columns {header[0]!r}, {header[1]!r} are those of phyphox's (in)elastic collision"
     first = first_row(text, 1)
-    return Layout("phyphox: (in)elastic collision", why, columns, first, holds="bounces")
+    return Layout("phyphox: (in)elastic collision", why, knocks, first, holds="bounces")
 
 
 @layout

@@ -52,8 +52,6 @@ def guess(rows: Array) -> tuple[tuple[Column, ...], str]:
         return _guessed(("time", "voltage"), f"{said}, the other as the voltage of a scope")
     if _LONGEST_SAMPLE < step <= _LONGEST_FRAME and width == 3:
         return _guessed(("time", "x", "y"), f"{said}, the others as x and y")
-    if 0.0 < step <= _LONGEST_SAMPLE:
-        return _guessed(("time", *[""] * (width - 1)), said)
     return tuple(column(k, heading("")) for k in range(width)), NOT_NAMED
 
 

@@ -90,7 +90,7 @@ def read(
         - track: `x`, `y` (time, track), NaN where a track has no point; in ``px`` and over frames
           where neither the file nor an option tells scale and frame rate
         - knocks: `knock_time` (knock)
-        - bounces: `knock_time` (knock), `height` and `energy` (bounce), by phyphox
+        - bounces: `knock_time` (knock), by phyphox
         - press curve: `compression`, `force` (point)
         - table: whatever there is (row)
 

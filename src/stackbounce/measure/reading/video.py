@@ -146,16 +146,12 @@ def _side_by_side(columns: Sequence[Column], values: Array, time: int, at: int) 
 def _nearest(frames: Array, places: Array) -> list[int]:
     """Return one row of each run of equal frames, that next to the row kept before."""
     kept: list[int] = []
-    start = 0
-    edges = np.flatnonzero(np.diff(frames) != 0.0) + 1
-    for end in [*edges.tolist(), len(frames)]:
-        own = places[start:end]
-        if end - start == 1 or not kept:
-            kept.append(start)
-        else:
-            far = np.nansum((own - places[kept[-1]]) ** 2, axis=1)
-            kept.append(start + int(np.argmin(far)))
-        start = end
+    for row, frame in enumerate(frames):
+        if not kept or frame != frames[kept[-1]]:
+            kept.append(row)
+        elif kept[1:]:
+            far = np.linalg.norm(places[[kept[-1], row]] - places[kept[-2]], axis=1)
+            kept[-1] = row if far[1] < far[0] else kept[-1]
     return kept
 
 
