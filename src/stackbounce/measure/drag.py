@@ -18,7 +18,6 @@ Found = TypeVar("Found")
 _THINNEST, _THICKEST = 1e-15, 1e6  # 1/m, of what is called a ball in air
 _MOST = 1e12  # m/s, m, s
 _LEAST_DRAG = 1e-3  # of the drag, taken where its error is nearly all of it
-_WIDER = 1e-6  # of a bracket: more than the steps of a derivative move its root
 
 
 @dataclass(frozen=True)
@@ -114,26 +113,12 @@ class Drag:
         return leaving, self._found(drag.landing_speed, leaving, gravity)
 
     def restitution_between(self, heights: Sequence[Any]) -> Number:
-        """Return the one restitution that leads from the first of some heights in m to the last.
-
-        It is one between the smallest and the largest restitution of single bounces.
-        """
-        from scipy.optimize import brentq
-
-        every = [
-            nominal(self.launch_speed(after)) / nominal(self.fallen_speed(before))
+        """Return the restitution of bounces between some heights in m, their geometric mean."""
+        kept = [
+            self.launch_speed(after) / self.fallen_speed(before)
             for before, after in pairwise(heights)
         ]
-        bounds = (1.0 - _WIDER) * min(every), (1.0 + _WIDER) * max(every)
-        count = len(every)
-
-        def between(rate: float, start: float, last: float) -> float:
-            def above(restitution: float) -> float:
-                return _height_after(rate, start, restitution, count) - last
-
-            return float(brentq(above, *bounds, xtol=1e-300))
-
-        return self._found(between, heights[0], heights[-1])
+        return math.prod(kept) ** (1.0 / len(kept))
 
     def height_after(self, start: float, restitution: float, bounces: float) -> float:
         """Return the height in m after some bounces of one restitution, from a drop height in m.

@@ -148,7 +148,7 @@ def _attributes(column: Column) -> dict[str, str | float]:
     return {**told, "column": column.index + 1, **frame}
 
 
-def _named(columns: Sequence[Column], without: Sequence[str] = ()) -> list[str]:
+def _named(columns: Sequence[Column], without: Sequence[str]) -> list[str]:
     """Return names for columns, each only once."""
     names: list[str] = list(without)
     for column in columns:
@@ -161,12 +161,13 @@ def _named(columns: Sequence[Column], without: Sequence[str] = ()) -> list[str]:
 
 
 def _data(
-    columns: Sequence[Column], values: Array, dimension: str, skip: int = -1
+    columns: Sequence[Column], values: Array, dimensions: Sequence[str], skip: int = -1
 ) -> dict[str, Any]:
+    """Return the variables of columns along the first dimension; none is called as one of them."""
     kept = [k for k in range(len(columns)) if k != skip]
-    names = _named([columns[k] for k in kept], [dimension])
+    names = _named([columns[k] for k in kept], dimensions)
     return {
-        name: (dimension, np.ascontiguousarray(values[:, k]), _attributes(columns[k]))
+        name: (dimensions[0], np.ascontiguousarray(values[:, k]), _attributes(columns[k]))
         for name, k in zip(names, kept, strict=True)
     }
 
@@ -181,7 +182,7 @@ def _series(columns: Sequence[Column], values: Array, run: object) -> _Built:
     at = _at(columns, "time")
     rows, times, doubts = in_time(values[:, at], columns[at], run, gaps=True)
     values = values[rows]
-    data = _data(columns, values, "time", skip=at)
+    data = _data(columns, values, ["time"], skip=at)
     if "sound" in data:
         lasting = np.ptp(times)
         data["sound"][2]["rate"] = (len(times) - 1) / lasting if lasting > 0.0 else np.nan
@@ -205,13 +206,11 @@ def _track(columns: Sequence[Column], values: Array, run: object) -> _Built:
     }
     for k, track in enumerate(tracks):
         own = [j for j in others if columns[j].track == track]
-        names = _named([columns[j] for j in own], ["time", "track"])
-        for name, j in zip(names, own, strict=True):
-            place = data.setdefault(
-                name, (("time", "track"), blank.copy(), _attributes(columns[j]))
-            )
-            place[1][:, k] = values[:, j]
-            place[2].update(_attributes(columns[j]))
+        found = _data([columns[j] for j in own], values[:, own], ["time", "track"])
+        for name, (_, numbers, said) in found.items():
+            place = data.setdefault(name, (("time", "track"), blank.copy(), {}))
+            place[1][:, k] = numbers
+            place[2].update(said)
     coords = {
         "time": ("time", times, _attributes(columns[at])),
         "track": [track or f"track {k}" for k, track in enumerate(tracks, 1)],
@@ -232,7 +231,7 @@ def _rows(kind: Kind, columns: Sequence[Column], values: Array, run: object) -> 
     if not whole.any():
         raise FileError(f"it has no row with {' and '.join(roles)}")
     numbers = {kind.dimension: np.flatnonzero(whole) + 1.0}
-    return xr.Dataset(_data(columns, values[whole], kind.dimension), coords=numbers), []
+    return xr.Dataset(_data(columns, values[whole], [kind.dimension]), coords=numbers), []
 
 
 def _bounces(values: Array) -> "xr.Dataset":

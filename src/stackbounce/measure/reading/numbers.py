@@ -228,8 +228,8 @@ def layout_of_array(array: "pd.DataFrame") -> Layout:
     if names:
         why = f"a NumPy array with the fields {', '.join(names[:3])}"
         return Layout("NumPy", why, columns_of(names, width), 0)
-    found = guess(array[:200].to_numpy(np.float64))
-    return Layout("NumPy", "a NumPy array", columns_of([], width), 0, guess=found)
+    columns, doubt = guess(array[:200].to_numpy(np.float64))
+    return Layout("NumPy", "a NumPy array", columns, 0, (doubt,), bare=True)
 
 
 def rows_of_array(array: "pd.DataFrame", used: Sequence[int]) -> Table:

@@ -16,7 +16,7 @@ from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading import numbers, wav
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
-from stackbounce.measure.reading.layouts import NOT_NAMED, Layout
+from stackbounce.measure.reading.layouts import NOT_NAMED, Layout, columns_of
 from stackbounce.measure.reading.limits import BYTES, refuse_others
 from stackbounce.measure.reading.options import ReadOptions, apply_options, of_run, part_of
 from stackbounce.measure.reading.roles import Column
@@ -255,9 +255,10 @@ def _table(
         if layout.end is not None:
             text = replace(text, content=text.content[: layout.end])
         rows_in, doubts = partial(numbers.rows_of, text, layout.first), list(text.doubts)
-    named, unsure = _meant(layout, options)
-    columns = apply_options(named, options)
-    doubts += () if options.names else unsure
+    if layout.bare and _told(layout, options):
+        layout = replace(layout, columns=columns_of([], len(layout.columns)), doubts=(NOT_NAMED,))
+    doubts += () if options.names else layout.doubts
+    columns = apply_options(layout.columns, options)
     columns, runs = of_run(columns, options.run, doubts)
     places = [column.index for column in columns if column.index >= 0]
     table = rows_in(places)
@@ -268,14 +269,10 @@ def _table(
     return layout, columns, table, doubts, runs
 
 
-def _meant(layout: Layout, options: ReadOptions) -> tuple[Sequence[Column], Sequence[str]]:
-    """Return the columns of a layout, or what they look like, and what is unsure."""
-    if layout.guess is None:
-        return layout.columns, layout.doubts
-    columns, doubt = layout.guess
-    if options.names or options.holds not in (None, holds_of(on_frames(columns)[0])):
-        return layout.columns, (NOT_NAMED,)
-    return columns, (doubt,)
+def _told(layout: Layout, options: ReadOptions) -> bool:
+    """Return whether options say something else of columns than what they look like."""
+    looks = holds_of(on_frames(layout.columns)[0])
+    return bool(options.names) or options.holds not in (None, looks)
 
 
 def _count(layout: Layout, columns: Sequence[Column], table: numbers.Table) -> None:

@@ -157,8 +157,6 @@ def _nearest(frames: Array, places: Array) -> list[int]:
 
 def _linked(columns: Sequence[Column], values: Array, time: int) -> _Tracks:
     """Return tracks that are put together from points, each next to where it should be."""
-    back = np.flatnonzero(np.diff(values[:, time]) < 0.0)
-    values = values[: back[0] + 1] if back.size else values
     x, y = (
         {column.track: k for k, column in enumerate(columns) if column.role == axis}
         for axis in "xy"
