@@ -19,7 +19,6 @@ from stackbounce.units import examples
 Form: TypeAlias = Literal[
     "number", "measured", "lengths", "flag", "points", "law", "file", "columns", "text"
 ]
-_FORM_NAMES = {"lengths": "LENGTHS", "points": "POINT"}
 _PANELS = {
     "ball": "What is known of the ball",
     "start": "",
@@ -60,7 +59,7 @@ class Option:
         On the command line, where it is not the name.
     rare : bool
         Whether the page offers it below the others.
-    choices : iterable of str, optional
+    choices : list of str, optional
         What there is to choose from.
     check : callable
         Refuses a number that is out of range, whether an analysis takes it or not.
@@ -78,7 +77,7 @@ class Option:
     to: Literal["read", "analyse", "numbers"] = "analyse"
     flag: str = ""
     rare: bool = False
-    choices: Iterable[str] | None = None
+    choices: list[str] | None = None
     check: Callable[..., float] = positive
 
     @property
@@ -91,13 +90,12 @@ class Option:
         """What the command line calls its value."""
         if self.form in ("number", "measured"):
             return examples()[self.unit][0].split()[-1].upper()  # a mass: MASS
-        return self.metavar or _FORM_NAMES.get(self.form, self.name.upper())
+        return self.metavar or self.name.upper()
 
     def to_mapping(self) -> dict[str, Any]:
         """Return what the page needs to offer it."""
-        choices = None if self.choices is None else list(self.choices)
-        names = ("name", "form", "label", "example", "says", "rare")
-        return {name: getattr(self, name) for name in names} | {"choices": choices}
+        names = ("name", "form", "label", "example", "says", "rare", "choices")
+        return {name: getattr(self, name) for name in names}
 
 
 def _listed(names: Iterable[str]) -> str:
@@ -118,7 +116,9 @@ def _read_options() -> Iterator[Option]:
         for name, option in options.items():
             option["says"] = option["says"].format(laws=laws, kinds=kinds)
             choices = option.pop("choices", None)
-            option["choices"] = {"{laws}": LAWS, "{kinds}": KINDS}.get(str(choices), choices)
+            option["choices"] = {"{laws}": list(LAWS), "{kinds}": list(KINDS)}.get(
+                str(choices), choices
+            )
             check = _CHECKS[option.pop("check", "positive")]
             yield Option(name, **option, panel=_PANELS[group], check=check)
 

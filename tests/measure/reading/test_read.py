@@ -219,9 +219,9 @@ def test_simple_files(read, form):
     ({"units": {"t": "px"}}, InvalidValue, "units: 'px' is no unit that is known"),
     ({"units": {"t": 3}}, InvalidType, "units must map columns to text"),
     ({"table": "x"}, InvalidValue, "table: there is one only"),
-    ({"table": 3}, InvalidType, "table must be a name"),
+    ({"table": 3}, InvalidValue, "table: there is one only"),
     ({"run": 2}, InvalidValue, "run must be one of the 1 that there are, got 2"),
-    ({"run": True}, InvalidType, "run must be a name or a number"),
+    ({"run": True}, InvalidValue, "run must be one of the 1 that there are, got True"),
     ({"decimal": ";"}, InvalidValue, "decimal must be"),
     ({"decimal": 1}, InvalidValue, "decimal must be"),
 ])  # fmt: skip

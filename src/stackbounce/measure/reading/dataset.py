@@ -1,6 +1,6 @@
 """Columns -> the Dataset of what they hold."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -66,8 +66,11 @@ def assemble(
     FileError
         If there is no row of it.
     """
+    import xarray as xr
+
     if holds == "bounces":
-        return _bounces(values), []
+        data, coordinates, doubts = _bounces(values)
+        return xr.Dataset(data, coordinates), doubts
     kind = KINDS[holds]
     # An analysis takes the first of several forces: one that an option names comes before others.
     order = sorted(range(len(columns)), key=lambda k: columns[k].named not in ROLES)
@@ -81,8 +84,8 @@ def assemble(
     for k, column in enumerate(columns):
         if column.factor != 1.0 and k != clock:
             values[:, k] *= column.factor
-    data, more = build(columns, values, run)
-    return data, doubts + more
+    data, coordinates, more = build(columns, values, run)
+    return xr.Dataset(data, coordinates), doubts + more
 
 
 def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
@@ -161,38 +164,34 @@ def _named(columns: Sequence[Column], without: Sequence[str]) -> list[str]:
 
 
 def _data(
-    columns: Sequence[Column], values: Array, dimensions: Sequence[str], skip: int = -1
-) -> dict[str, Any]:
+    columns: Sequence[Column], values: Array, dimensions: Sequence[str]
+) -> dict[str, tuple[str, Array, dict[str, Any]]]:
     """Return the variables of columns along the first dimension; none is called as one of them."""
-    kept = [k for k in range(len(columns)) if k != skip]
-    names = _named([columns[k] for k in kept], dimensions)
+    names = _named(columns, dimensions)
     return {
         name: (dimensions[0], np.ascontiguousarray(values[:, k]), _attributes(columns[k]))
-        for name, k in zip(names, kept, strict=True)
+        for k, name in enumerate(names)
     }
 
 
-_Built = tuple["xr.Dataset", list[str]]
+_Built = tuple[Mapping[str, Any], Mapping[str, Any], list[str]]
+"""The variables of a Dataset, its coordinates, and what is unsure."""
 
 
 def _series(columns: Sequence[Column], values: Array, run: object) -> _Built:
     """Return waveforms, sounds and accelerations: anything over time."""
-    import xarray as xr
-
     at = _at(columns, "time")
     rows, times, doubts = in_time(values[:, at], columns[at], run, gaps=True)
-    values = values[rows]
-    data = _data(columns, values, ["time"], skip=at)
+    others = [k for k in range(len(columns)) if k != at]
+    data = _data([columns[k] for k in others], values[rows][:, others], ["time"])
     if "sound" in data:
         lasting = np.ptp(times)
         data["sound"][2]["rate"] = (len(times) - 1) / lasting if lasting > 0.0 else np.nan
-    return xr.Dataset(data, coords={"time": ("time", times, _attributes(columns[at]))}), doubts
+    return data, {"time": ("time", times, _attributes(columns[at]))}, doubts
 
 
 def _track(columns: Sequence[Column], values: Array, run: object) -> _Built:
-    """Return the Dataset of tracks: x, y and further columns of each, and doubts."""
-    import xarray as xr
-
+    """Return tracks: x, y and further columns of each."""
     columns, values, several = rows_by_frame(columns, values)
     at = _at(columns, "time")
     rows, times, doubts = in_time(values[:, at], columns[at], run, gaps=False)
@@ -217,13 +216,11 @@ def _track(columns: Sequence[Column], values: Array, run: object) -> _Built:
     }
     if not any(columns[k].role == "x" for k in others):
         doubts.append("only one position: taken as the height y, upwards")
-    return xr.Dataset(data, coords=coords), doubts
+    return data, coords, doubts
 
 
 def _rows(kind: Kind, columns: Sequence[Column], values: Array, run: object) -> _Built:
-    """Return the Dataset of rows, without those that lack a needed number."""
-    import xarray as xr
-
+    """Return rows, without those that lack a needed number."""
     if run is not None:
         raise InvalidValue(about_option("run", ": there is none to choose, as this holds no times"))
     roles = [each[0] for each in kind.columns]
@@ -231,13 +228,11 @@ def _rows(kind: Kind, columns: Sequence[Column], values: Array, run: object) -> 
     if not whole.any():
         raise FileError(f"it has no row with {' and '.join(roles)}")
     numbers = {kind.dimension: np.flatnonzero(whole) + 1.0}
-    return xr.Dataset(_data(columns, values[whole], [kind.dimension]), coords=numbers), []
+    return _data(columns, values[whole], [kind.dimension]), numbers, []
 
 
-def _bounces(values: Array) -> "xr.Dataset":
+def _bounces(values: Array) -> _Built:
     """Return the times of the knocks that phyphox heard, a column each; the last row counts."""
-    import xarray as xr
-
     numbers = np.nan_to_num(values)
     heard = np.flatnonzero(numbers[:, 0] > 0.0)
     if not heard.size:
@@ -245,7 +240,7 @@ def _bounces(values: Array) -> "xr.Dataset":
     times = numbers[heard[-1]]
     rising = np.diff(times, prepend=0.0, append=0.0) > 0.0  # 0 stands for what was not heard
     said = {"units": "s", "long_name": "Bounce: time of a knock"}
-    return xr.Dataset({"knock_time": ("knock", times[: np.argmin(rising)], said)})
+    return {"knock_time": ("knock", times[: np.argmin(rising)], said)}, {}, []
 
 
 def _at(columns: Sequence[Column], role: str) -> int:

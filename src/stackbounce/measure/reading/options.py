@@ -1,8 +1,8 @@
 """The options of `read`, how they change the columns of a file, and which part they choose."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, positive, shown
 from stackbounce.measure.kinds import KINDS, kind_named
@@ -14,10 +14,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _Key = str | int
-_KINDS: dict[str, tuple[Any, str]] = {
-    "table": (str, "a name"),
-    "run": (str | int, "a name or a number"),
-}
 
 
 @dataclass(frozen=True)
@@ -43,10 +39,6 @@ class ReadOptions:
                 wrong = f" must be what a file holds, got {shown(self.holds)}; {near}"
                 raise InvalidValue(about_option("holds", wrong))
             object.__setattr__(self, "holds", holds)
-        for option, (kind, wanted) in _KINDS.items():
-            given = getattr(self, option)
-            if isinstance(given, bool) or not isinstance(given, kind | None):
-                raise InvalidType(about_option(option, f" must be {wanted}, got {shown(given)}"))
         if self.decimal not in (None, ".", ","):
             wrong = f' must be "." or ",", got {shown(self.decimal)}'
             raise InvalidValue(about_option("decimal", wrong))
@@ -61,7 +53,7 @@ class ReadOptions:
                 wrong = f" must give a column its meaning, such as 2=force, got {shown(name)}"
                 raise InvalidValue(about_option("names", wrong))
         for unit in _checked("units", self.units).values():
-            if unit != "S" and in_si(unit) is None:
+            if in_si(unit) is None:
                 wrong = f": {shown(unit)} is no unit that is known, such as 'mm'"
                 raise InvalidValue(about_option("units", wrong))
 
@@ -93,11 +85,6 @@ def apply_options(columns: Sequence[Column], options: ReadOptions) -> list[Colum
             for k in places:
                 name, unit = (value, None) if option == "names" else ("", value)
                 found[k] = found[k].called(name, unit)
-    if any(column.named == "time" for column in found):  # a named time replaces that of a header
-        found = [
-            replace(column, role="") if column.role == "time" and column.named != "time" else column
-            for column in found
-        ]
     return found
 
 

@@ -182,7 +182,6 @@ def column(index: int, said: Heading, role: str = "", track: str = "") -> Column
 def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
     """Return role, factor to SI, SI unit and a doubt; `told` is a role that is already known."""
     word = " ".join(name.casefold().replace("_", " ").split())
-    unit = "s" if unit == "S" else unit  # oscilloscopes mean seconds, not siemens
     factor, symbol = (in_si(unit) if unit else None) or (1.0, "")
     doubt = ""
     if _PIXELS.fullmatch(unit):

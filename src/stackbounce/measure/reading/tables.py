@@ -93,8 +93,6 @@ def tables_in(content: bytearray) -> Tables | None:
     """Return the tables in a packing of its own, each as a program writes it; None if it is one."""
     if content.startswith((b"PK\x03\x04", b"PK\x05\x06")):
         return from_xlsx(content) if b"xl/workbook.xml" in content else from_zip(content)
-    if content.startswith(b"\xd0\xcf\x11\xe0"):
-        raise FileError("it is an old Excel file (.xls): save it as .xlsx or CSV")
     return from_project(content)
 
 
