@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 from stackbounce.errors import finite, fraction, non_negative, positive
-from stackbounce.measure.kinds import KINDS, TYPED
+from stackbounce.measure.kinds import KINDS
 from stackbounce.model.laws import LAWS
 from stackbounce.units import examples
 
@@ -130,9 +130,3 @@ OPTIONS: tuple[Option, ...] = tuple(_read_options())
 def options_for(*to: str) -> dict[str, Option]:
     """Return the options of the reader, of the analyses or of numbers, by their names."""
     return {option.name: option for option in OPTIONS if option.to in to}
-
-
-def taken_by(option: Option) -> list[str]:
-    """Return the kinds whose analysis takes an option; the reader's are for every file."""
-    kinds = {**KINDS, **{kind.name: kind for kind in TYPED}}
-    return [name for name, kind in kinds.items() if option.name in kind.options]

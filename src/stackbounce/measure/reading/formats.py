@@ -35,10 +35,7 @@ _CLOSED_UP = (
 )
 _SUMMARY = re.compile(r"\n+Track\s")  # a line for each track, below all points
 _NUMBERED = re.compile(r"([xy]) ?([0-9]{1,3})")
-_SPOT_ROLES = {
-    "TRACK_ID": "track_id", "FRAME": "frame", "POSITION_X": "x", "POSITION_Y": "y",
-    "POSITION_T": "time",
-}  # fmt: skip
+_SPOT = ("TRACK_ID", "FRAME", "POSITION_X", "POSITION_Y", "POSITION_T")
 
 
 @layout
@@ -339,8 +336,8 @@ def trackmate(text: Text) -> Layout | None:
     columns = []
     for k, name in enumerate(names):
         unit = units[k].strip("() ") if k < len(units) else ""
-        if name in _SPOT_ROLES and not (name == "POSITION_T" and unit in ("", "frame", "frames")):
-            columns.append(column(k, heading(name, unit), _SPOT_ROLES[name]))
+        if name in _SPOT and not (name == "POSITION_T" and unit in ("", "frame", "frames")):
+            columns.append(column(k, heading(name, unit)))
     why = "FRAME, POSITION_X, POSITION_Y are columns of TrackMate's spots"
     return Layout("TrackMate", why, tuple(columns), first)
 

@@ -114,10 +114,7 @@ def of_run(
             wrong = f" must be one that is there, got {shown(run)}; {nearest(run, runs)}"
             raise InvalidValue(about_option("run", wrong))
         chosen = named[0]
-    own = [column for column in columns if column.heading.run in (chosen, "")]
-    if not any(column.role == "time" for column in own):  # one time for all runs
-        own = [column for column in columns if column.role == "time"][:1] + own
-    return own, True
+    return [column for column in columns if column.heading.run in (chosen, "")], True
 
 
 def checked(option: str, given: object) -> None:

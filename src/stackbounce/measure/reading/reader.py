@@ -195,20 +195,20 @@ def _from_tables(tables: Tables, options: ReadOptions) -> "xr.Dataset":
     if options.table is not None:
         names = [chosen(tables, options.table)]
     options = replace(options, table=None, decimal=tables.decimal or options.decimal)
-    read: list[tuple[str, xr.Dataset]] = []
+    read: dict[str, xr.Dataset] = {}
     for name in names:
         try:
             content = bytearray(tables.members.pop(name))
             inner = from_project(content)  # one of Tracker in a zip archive
             own = _from_tables(inner, options) if inner else _from_table(name, content, options)
-            read.append((name, own))
         except StackbounceError as error:
             if name == names[-1] and not read:
                 raise type(error)(Message.of(error).of_file(name)) from error
             continue
-        if read[-1][1].attrs["holds"] != "table":
+        read[name] = own
+        if own.attrs["holds"] != "table":
             break
-    name, data = next((entry for entry in read if entry[1].attrs["holds"] != "table"), read[0])
+    name, data = min(read.items(), key=lambda entry: entry[1].attrs["holds"] == "table")
     if tables.program and not data.attrs["format"].startswith(tables.program):
         data.attrs["format"] = tables.program
     data.attrs["why"] = "; ".join(filter(None, [tables.why, data.attrs["why"]]))
@@ -224,10 +224,8 @@ def _from_table(name: str, content: bytearray, options: ReadOptions) -> "xr.Data
     layout, columns, table, doubts, runs = _table(name, content, options)
     _count(layout, columns, table)
     doubts += _flaws(table)
-    values = table.values
-    if layout.holds != "bounces":
-        columns, values = _numeric(columns, table)
-        columns = without_counts(columns, values)
+    columns, values = _numeric(columns, table)
+    columns = without_counts(columns, values)
     holds = options.holds or layout.holds or holds_of(columns)
     if holds == "bounces" != layout.holds:
         whose = ": only phyphox's (in)elastic collision holds bounces"

@@ -159,8 +159,7 @@ class Column:
         said = self.heading if unit is None else replace(self.heading, unit=unit)
         role, factor, symbol, doubt = _role(name or self.heading.name, said.unit, self.role)
         if name:
-            frames = name == "time" and self.role == "frame"  # which are its times
-            role = "frame" if frames else name if name in ROLES else ""
+            role = name if name in ROLES else ""
         named = name or self.named
         return Column(self.index, said, role, factor, symbol, self.track, named, doubt)
 

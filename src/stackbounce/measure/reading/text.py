@@ -82,9 +82,7 @@ def decode(content: bytearray) -> str:
     strange = len(_CONTROL.findall(text[:100_000]))
     if strange > len(text[:100_000]) / 1000:
         raise FileError(_BINARY)
-    if "\r" in text:
-        text = text.replace("\r\n", "\n").replace("\r", "\n")
-    return text
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def split(line: str, delimiter: str) -> list[str]:
