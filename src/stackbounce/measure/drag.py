@@ -61,10 +61,9 @@ class Drag:
     density: Number | float = Air.density
 
     def __post_init__(self) -> None:
-        units = {"mass": "kilograms", "diameter": "metres", "density": "kg/m**3"}
-        for name in ("mass", "diameter", "coefficient", "density"):
-            value = measured(name, getattr(self, name), units.get(name, ""))
-            object.__setattr__(self, name, value)
+        units = {"mass": "kilograms", "diameter": "metres", "coefficient": "", "density": "kg/m**3"}
+        for name, unit in units.items():
+            object.__setattr__(self, name, measured(name, getattr(self, name), unit))
         try:
             rate = nominal(self.rate)
         except ArithmeticError:
@@ -123,9 +122,14 @@ class Drag:
     def height_after(self, start: float, restitution: float, bounces: float) -> float:
         """Return the height in m after some bounces of one restitution, from a drop height in m.
 
-        Parts of a bounce are allowed, to draw a curve.
+        Parts of a bounce are allowed, to draw a curve. With ``p = 1/v**2`` a bounce makes
+        ``p/e**2`` of p, and a flight ``p + k/g``.
         """
-        return _height_after(nominal(self.rate), start, restitution, bounces)
+        rate = nominal(self.rate)
+        g, q = STANDARD_GRAVITY, restitution**-2  # the height does not depend on g
+        flights = (q**bounces - q) / (q - 1.0) if q != 1.0 else bounces - 1.0
+        p = q**bounces / drag.fallen_speed(rate, start, g) ** 2 + rate / g * flights
+        return drag.risen(rate, p**-0.5, g)
 
     def rows(self) -> list[Row]:
         """Return the numbers of the air, for the table of a result."""
@@ -169,17 +173,6 @@ def speed_after_fall(height: Any, gravity: float, drag: Drag | None) -> Any:
     4.0
     """
     return (2.0 * gravity * height) ** 0.5 if drag is None else drag.fallen_speed(height, gravity)
-
-
-def _height_after(rate: float, start: float, restitution: float, bounces: float) -> float:
-    """Return the height after some bounces.
-
-    With ``p = 1/v**2`` a bounce makes ``p/e**2`` of p and a flight makes ``p + k/g``.
-    """
-    g, q = STANDARD_GRAVITY, restitution**-2  # the height does not depend on g
-    flights = (q**bounces - q) / (q - 1.0) if q != 1.0 else bounces - 1.0
-    p = q**bounces / drag.fallen_speed(rate, start, g) ** 2 + rate / g * flights
-    return drag.risen(rate, p**-0.5, g)
 
 
 def drag_of(mass: Any, diameter: Any, drag_coefficient: Any, air_density: Any) -> Drag | None:

@@ -189,7 +189,7 @@ SIMPLE = {
     "Tektronix TDS2000 oscilloscope": (made.tek_tds, {"time": T - 1e-3, "voltage": V5}, 1e-12),
 }
 HELD = {"knock_time": "knocks", "sound": "sound", "force": "waveform", "voltage": "waveform"}
-UNITS = {"knock_time": "s", "interval": "s", "sound": "1", "force": "N", "voltage": "V"}
+UNITS = {"knock_time": "s", "interval": "s", "sound": "", "force": "N", "voltage": "V"}
 
 
 @pytest.mark.parametrize("form", SIMPLE)

@@ -24,7 +24,6 @@ from stackbounce.measure.reading.roles import POINT, Column, Heading, column, he
 from stackbounce.measure.reading.text import Text, number
 
 _LABEL = re.compile(r"[0-9]+[.,][0-9]{6}\t[0-9]+[.,][0-9]{6}\t(?![-+0-9.,]+$)[^\t]*")
-_END = "***End_of_Header***"
 _KNOCK = re.compile(r"bounce [0-9]+")  # its time
 _UNSAID = "Sensor Logger does not write into a file which sensor it is of: "
 _OTHER_SENSORS = ("gyroscope", "gravity", "magnetometer", "orientation", "compass")
@@ -58,7 +57,7 @@ def labview(text: Text) -> Layout | None:
         return None
     at = line_of(text, "X_Value")
     if not at:
-        raise FileError(f"it begins as a file of LabVIEW and has no 'X_Value' below {_END}")
+        raise FileError("it begins as a file of LabVIEW and has no 'X_Value' below its header")
     keys = keys_above(text, at)
     units = [*keys.get("Y_Unit_Label", []), *[None] * len(text.head[at])]
     channels = [

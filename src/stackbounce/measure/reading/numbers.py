@@ -131,8 +131,6 @@ def _parsed(chunk: str, text: Text, used: Sequence[int]) -> Array | None:
     import pandas as pd
 
     blanks = text.delimiter == " "
-    if blanks and not chunk.isascii():  # Python splits at blanks that pandas takes for letters
-        return None
     quoted = not blanks and '"' in chunk
     wanted = sorted(set(used))
     width = len(split(chunk.lstrip("\n").partition("\n")[0], text.delimiter))
@@ -183,11 +181,6 @@ def _cell_by_cell(lines: list[str], text: Text, used: Sequence[int], table: Tabl
             table.strange += [cell is None for cell in row]
         rows.append(row)
     return np.array(rows, np.float64).reshape(len(rows), len(used))  # None becomes NaN
-
-
-def is_array(content: bytes | bytearray) -> bool:
-    """Return whether bytes are an array as `numpy.save` writes it."""
-    return content.startswith(b"\x93NUMPY")
 
 
 def array_in(content: bytes | bytearray) -> "pd.DataFrame":

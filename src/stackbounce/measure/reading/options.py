@@ -45,9 +45,6 @@ class ReadOptions:
         for option, unit in (("frame_rate", "frames per second"), ("scale", "metres per pixel")):
             if getattr(self, option) is not None:
                 positive(option, getattr(self, option), unit)
-        for option in ("start", "stop"):
-            if getattr(self, option) is not None:
-                checked(option, getattr(self, option))
         for name in _checked("names", self.names).values():
             if not name.isidentifier():
                 wrong = f" must give a column its meaning, such as 2=force, got {shown(name)}"
@@ -117,14 +114,6 @@ def of_run(
     return [column for column in columns if column.heading.run in (chosen, "")], True
 
 
-def checked(option: str, given: object) -> None:
-    """Raise `InvalidValue` where an end of a part is neither a time nor a number."""
-    unit = None if isinstance(given, bool) else unit_written(str(given))
-    if unit is None or (unit and (in_si(unit) or ("", ""))[1] != "s"):
-        wrong = f" must be a time, such as 1.2s, or a frame or row, such as 120, got {shown(given)}"
-        raise InvalidValue(about_option(option, wrong))
-
-
 def part_of(
     data: "xr.Dataset", start: float | str | None = None, stop: float | str | None = None
 ) -> "xr.Dataset":
@@ -141,17 +130,20 @@ def part_of(
     Raises
     ------
     InvalidValue
-        If nothing lies between them, or a time is given where rows or frames are counted.
+        If nothing lies between them, one is neither a time nor a number, or a time is given where
+        rows or frames are counted.
     """
-    if start is None and stop is None:
-        return data
     name = next(n for n in ("time", "knock_time", *map(str, data.dims)) if n in data.variables)
     along = data[name]
     unit = along.attrs.get("units", "row")
     frame = float(along.attrs.get("frame", unit == "row"))  # of a frame or row; 0 of times
 
     def end(option: str, given: float | str, half: float) -> float:
-        if frame and not unit_written(str(given)):
+        written = unit_written(str(given))
+        if written is None or (written and (in_si(written) or ("", ""))[1] != "s"):
+            wrong = " must be a time, such as 1.2s, or a frame or row, such as 120"
+            raise InvalidValue(about_option(option, f"{wrong}, got {shown(given)}"))
+        if frame and not written:
             return (float(given) + half) * frame
         if unit != "s":
             wrong = f" must be the number of a {unit}, as the file has no times, got {shown(given)}"

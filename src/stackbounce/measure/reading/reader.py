@@ -242,7 +242,7 @@ def _table(
     The text is freed on return, as it may be larger than all of these.
     """
     rows_in: Callable[[Sequence[int]], numbers.Table]
-    if numbers.is_array(content):
+    if content.startswith(np.lib.format.MAGIC_PREFIX):
         array = numbers.array_in(content)
         layout, doubts = numbers.layout_of_array(array), []
         rows_in = partial(numbers.rows_of_array, array)

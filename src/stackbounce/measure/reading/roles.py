@@ -203,8 +203,6 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
         symbol = "s"
     if role in ("x", "y") and not told and factor >= _FAR:
         role = ""
-    if role == "sound" and unit in ARBITRARY:
-        symbol = "1"
     if not role and symbol in _BY_UNIT and not _BETWEEN.search(word):
         role = _BY_UNIT[symbol]
     if role == "force" and symbol == "kg":

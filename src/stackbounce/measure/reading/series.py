@@ -87,8 +87,13 @@ def on_the_clock(
             found[k] = replace(found[k], role="", unit="", named=found[k].named or "date")
     if since[at]:
         factor, words = _UNITS[since[at]]
-        found[at], doubt = _relative(found[at], values[:, at], factor, words)
-        return found, [doubt]
+        times = values[:, at]
+        first = times[np.isfinite(times)][0]
+        times -= first
+        when = datetime.fromtimestamp(factor * first, UTC).strftime("%Y-%m-%d %H:%M:%S UTC")
+        name = found[at].heading.name or found[at].variable
+        found[at] = replace(found[at], factor=factor, unit="s")
+        return found, [f"{name} counts {words} since 1970: taken from the first on, {when}"]
     found[at], doubts = _by_steps(kind, found[at], values[:, at])
     return found, doubts
 
@@ -103,15 +108,6 @@ def _epoch(column: Column, times: Array) -> str:
         if told and all(_EPOCH[0] < factor * time < _EPOCH[1] for time in known[[0, -1]]):
             return unit
     return ""
-
-
-def _relative(column: Column, times: Array, factor: float, words: str) -> tuple[Column, str]:
-    first = float(times[np.isfinite(times)][0])
-    times -= first
-    when = datetime.fromtimestamp(factor * first, UTC).strftime("%Y-%m-%d %H:%M:%S UTC")
-    name = column.heading.name or column.variable
-    doubt = f"{name} counts {words} since 1970: taken from the first on, {when}"
-    return replace(column, factor=factor, unit="s"), doubt
 
 
 def _by_steps(kind: Kind, column: Column, times: Array) -> tuple[Column, list[str]]:

@@ -16,8 +16,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 from xml.etree.ElementTree import Element, ParseError, fromstring
 
-import numpy as np
-
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
 from stackbounce.extras import need
 from stackbounce.measure.messages import about_option
@@ -82,11 +80,7 @@ def as_text(rows: Iterable[Sequence[object]]) -> bytes:
 
 
 def _cell(value: object) -> str:
-    if value is None:
-        return ""
-    if isinstance(value, float | np.floating):
-        return repr(float(value))
-    return " ".join(str(value).split())
+    return "" if value is None else " ".join(str(value).split())
 
 
 def tables_in(content: bytearray) -> Tables | None:

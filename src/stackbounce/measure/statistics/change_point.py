@@ -135,7 +135,8 @@ def _search(
     decreases = []
     for power in _POWERS:
         rise = since**power / noise
-        plain, bent = (_beside(base, slope) for slope in (rise, rise * since))
+        both = _padded(np.hstack([rise, rise * since]))
+        plain, bent = np.hsplit(both - base @ (base.T @ both), 2)  # beside gain and shift
         along = left @ plain, left @ bent
         size = np.sum(plain**2, axis=0), np.sum(plain * bent, axis=0), np.sum(bent**2, axis=0)
         prior = ((power - powers) / _POWER_ERROR) ** 2 + ((bend - bends) / _BEND_ERROR) ** 2
@@ -160,9 +161,3 @@ def _search(
 def _padded(columns: Array) -> Array:
     """Return columns with a row of zeros, which stands for the prior of the gain."""
     return np.concatenate([columns, np.zeros((1, columns.shape[1]))])
-
-
-def _beside(base: Array, columns: Array) -> Array:
-    """Return the part of columns that is orthogonal to gain and shift."""
-    padded = _padded(columns)
-    return np.asarray(padded - base @ (base.T @ padded))
