@@ -30,7 +30,6 @@ _BLANKS = sorted({form for word in MISSING for form in (word, word.upper(), word
 # Sizes within the range of any instrument: oscilloscopes write 9.9E37 for what is beyond it.
 _LEAST, _MOST = 1e-60, 1e30
 _TRUTH = "uUsS"  # letters of "true" and "false" that occur in no number
-_NUMBER_KINDS = "biuf"  # of NumPy
 _BROKEN = (ValueError, TypeError, LookupError, SyntaxError, EOFError, RecursionError, TokenError)
 
 
@@ -200,7 +199,7 @@ def array_in(content: bytes | bytearray) -> "pd.DataFrame":
     except (*_BROKEN, MemoryError) as error:
         why = " ".join(str(error).split())[:200]
         raise FileError(f"it is a NumPy array that cannot be read ({why})") from error
-    if frame.empty or any(kind.kind not in _NUMBER_KINDS for kind in frame.dtypes):
+    if frame.empty or any(kind.kind not in "biuf" for kind in frame.dtypes):
         what = f"{array.dtype} and shape {array.shape}"
         raise FileError(f"it is a NumPy array of {what}: save one with rows of plain numbers")
     return frame

@@ -72,11 +72,8 @@ def as_text(rows: Iterable[Sequence[object]]) -> bytes:
     >>> as_text([("t (s)", "y"), (0.5, None)])
     b't (s)\ty\n0.5\t\n'
     """
-    text = io.StringIO()
-    for row in rows:
-        text.write("\t".join(map(_cell, row)))
-        text.write("\n")
-    return text.getvalue().encode()
+    lines = ("\t".join(map(_cell, row)) + "\n" for row in rows)
+    return "".join(lines).encode()
 
 
 def _cell(value: object) -> str:
