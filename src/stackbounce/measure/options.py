@@ -59,7 +59,7 @@ class Option:
         On the command line, where it is not the name.
     rare : bool
         Whether the page offers it below the others.
-    choices : list of str, optional
+    choices : iterable of str, optional
         What there is to choose from.
     check : callable
         Refuses a number that is out of range, whether an analysis takes it or not.
@@ -77,7 +77,7 @@ class Option:
     to: Literal["read", "analyse", "numbers"] = "analyse"
     flag: str = ""
     rare: bool = False
-    choices: list[str] | None = None
+    choices: Iterable[str] | None = None
     check: Callable[..., float] = positive
 
     @property
@@ -94,8 +94,9 @@ class Option:
 
     def to_mapping(self) -> dict[str, Any]:
         """Return what the page needs to offer it."""
-        names = ("name", "form", "label", "example", "says", "rare", "choices")
-        return {name: getattr(self, name) for name in names}
+        choices = None if self.choices is None else list(self.choices)
+        names = ("name", "form", "label", "example", "says", "rare")
+        return {name: getattr(self, name) for name in names} | {"choices": choices}
 
 
 def _listed(names: Iterable[str]) -> str:
@@ -116,9 +117,7 @@ def _read_options() -> Iterator[Option]:
         for name, option in options.items():
             option["says"] = option["says"].format(laws=laws, kinds=kinds)
             choices = option.pop("choices", None)
-            option["choices"] = {"{laws}": list(LAWS), "{kinds}": list(KINDS)}.get(
-                str(choices), choices
-            )
+            option["choices"] = {"{laws}": LAWS, "{kinds}": KINDS}.get(str(choices), choices)
             check = _CHECKS[option.pop("check", "positive")]
             yield Option(name, **option, panel=_PANELS[group], check=check)
 
