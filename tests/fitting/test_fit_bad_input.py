@@ -37,7 +37,7 @@ def refused(kind, message, drop=STACK, data=DATA, vary=VARY, **options):
         ({"rebound_ratios.1": (1.0, 0.0)}, InvalidValue, "error must be a positive number"),
         ({"rebound_ratios.1": (1.0, NAN)}, InvalidValue, "finite number, got nan"),
         ({"rebound_ratios.1": (NAN, 0.1)}, InvalidValue, "finite number, got nan"),
-        ({"rebound_ratios.1": (1.0, 1e308)}, InvalidValue, "error must be a number from 0 to"),
+        ({"rebound_ratios.1": (1.0, 1e308)}, InvalidValue, "error must be at most 1e+100"),
         ({"rebound_ratios.1": (1e300, 1e-300)}, InvalidValue, "must be at most 1e+100 of its err"),
         ({"rebound_ratios.1": "a lot"}, UnitError, "rebound_ratios.1 must be a pure number"),
         ({"durations.0": "5 ± 1 kg"}, UnitError, "durations.0 must be"),

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import between, positive
+from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.units import quantity, unit_written
 
 # 1.64(2)e3 m: the number, its decimals, the error of its last digits, the power of ten, the unit.
@@ -127,10 +127,14 @@ def deviation(name: str, value: object, *, zero: bool = True) -> float:
     --------
     >>> deviation("mass", 1e200)
     Traceback (most recent call last):
-    stackbounce.errors.InvalidValue: mass's error must be a number from 0 to 1e+100, got 1e+200
+    stackbounce.errors.InvalidValue: mass's error must be at most 1e+100, got 1e+200
     """
-    called = f"{name}'s error"
-    return between(called, value if zero else positive(called, value), 0.0, LARGEST)
+    found = (finite if zero else positive)(f"{name}'s error", value)
+    if found < 0.0:
+        raise InvalidValue(f"{name}'s error must be 0 or above, got {found:g}")
+    if found > LARGEST:
+        raise InvalidValue(f"{name}'s error must be at most {LARGEST:g}, got {found:g}")
+    return found
 
 
 def measured_if_given(name: str, value: Any, of: str = "", **how: Any) -> Number | None:
