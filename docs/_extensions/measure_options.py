@@ -7,7 +7,14 @@ from docutils.statemachine import StringList
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-from stackbounce.measure.options import OPTIONS, Option, taken_by
+from stackbounce.measure.kinds import KINDS, TYPED
+from stackbounce.measure.options import OPTIONS, Option
+
+
+def taken_by(option: Option) -> list[str]:
+    """Return the kinds whose analysis takes an option; the reader's are for every file."""
+    kinds = {**KINDS, **{kind.name: kind for kind in TYPED}}
+    return [name for name, kind in kinds.items() if option.name in kind.options]
 
 
 def row(option: Option) -> str:

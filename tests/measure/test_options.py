@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from measure_options import row
+from measure_options import row, taken_by
 
 import stackbounce as sb
 from stackbounce.cli import main
@@ -16,7 +16,7 @@ from stackbounce.explorer.answers import records
 from stackbounce.measure import analyse
 from stackbounce.measure.kinds import KINDS, TYPED
 from stackbounce.measure.option_values import read_options
-from stackbounce.measure.options import OPTIONS, options_for, taken_by
+from stackbounce.measure.options import OPTIONS, options_for
 from stackbounce.measure.setup import Setup
 
 PAGE = Path(__file__).parents[2] / "docs" / "measure.md"

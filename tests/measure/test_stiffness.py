@@ -70,7 +70,6 @@ def test_constants_know_their_correlation():
     [
         (sb.Rigid, {"restitution": ufloat(0.0, 0.01)}),
         (sb.Rigid, {"restitution": ufloat(1.0, 0.01)}),
-        (sb.Spring, {"mass": 1, "contact_time": ufloat(1e-3, 1e-5), "restitution": ufloat(1, 0.1)}),
         (sb.PowerLaw, {**MEASURED, "restitution": 1.0, "exponent": ufloat(1.0, 0.1)}),
         (sb.Hysteretic, {**MEASURED, "restitution": ufloat(1.0, 0.02)}),
     ],

@@ -20,7 +20,7 @@ def summary(
     return {
         "stackbounce": __version__,
         "files": [source.to_mapping() for source in done],
-        "law": None if law is None else [row_mapping(row) for row in law.all_rows()],
+        "law": None if law is None else [row_mapping(row) for row in law.rows()],
         "ball": dict(ball) or None,
     }
 
@@ -38,7 +38,7 @@ def print_measured(console: Console, done: Sequence[Measurement], law: LawConsta
             console.print(f"  {note}")
     if law is not None:
         console.print(f"The contact as {type(law.law).__name__}", style="bold")
-        console.print(table_of_rows(law.all_rows()))
+        console.print(table_of_rows(law.rows()))
 
 
 def law_of(known: Mapping[str, Any], done: Sequence[Measurement]) -> LawConstants:

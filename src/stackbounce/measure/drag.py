@@ -18,7 +18,6 @@ Found = TypeVar("Found")
 _THINNEST, _THICKEST = 1e-15, 1e6  # 1/m, of what is called a ball in air
 _MOST = 1e12  # m/s, m, s
 _LEAST_DRAG = 1e-3  # of the drag, taken where its error is nearly all of it
-_WIDER = 1e-6  # of a bracket: more than the steps of a derivative move its root
 
 
 @dataclass(frozen=True)
@@ -62,10 +61,9 @@ class Drag:
     density: Number | float = Air.density
 
     def __post_init__(self) -> None:
-        units = {"mass": "kilograms", "diameter": "metres", "density": "kg/m**3"}
-        for name in ("mass", "diameter", "coefficient", "density"):
-            value = measured(name, getattr(self, name), units.get(name, ""))
-            object.__setattr__(self, name, value)
+        units = {"mass": "kilograms", "diameter": "metres", "coefficient": "", "density": "kg/m**3"}
+        for name, unit in units.items():
+            object.__setattr__(self, name, measured(name, getattr(self, name), unit))
         try:
             rate = nominal(self.rate)
         except ArithmeticError:
@@ -114,33 +112,24 @@ class Drag:
         return leaving, self._found(drag.landing_speed, leaving, gravity)
 
     def restitution_between(self, heights: Sequence[Any]) -> Number:
-        """Return the one restitution that leads from the first of some heights in m to the last.
-
-        It is one between the smallest and the largest restitution of single bounces.
-        """
-        from scipy.optimize import brentq
-
-        every = [
-            nominal(self.launch_speed(after)) / nominal(self.fallen_speed(before))
+        """Return the restitution of bounces between some heights in m, their geometric mean."""
+        kept = [
+            self.launch_speed(after) / self.fallen_speed(before)
             for before, after in pairwise(heights)
         ]
-        bounds = (1.0 - _WIDER) * min(every), (1.0 + _WIDER) * max(every)
-        count = len(every)
-
-        def between(rate: float, start: float, last: float) -> float:
-            def above(restitution: float) -> float:
-                return _height_after(rate, start, restitution, count) - last
-
-            return float(brentq(above, *bounds, xtol=1e-300))
-
-        return self._found(between, heights[0], heights[-1])
+        return math.prod(kept) ** (1.0 / len(kept))
 
     def height_after(self, start: float, restitution: float, bounces: float) -> float:
         """Return the height in m after some bounces of one restitution, from a drop height in m.
 
-        Parts of a bounce are allowed, to draw a curve.
+        Parts of a bounce are allowed, to draw a curve. With ``p = 1/v**2`` a bounce makes
+        ``p/e**2`` of p, and a flight ``p + k/g``.
         """
-        return _height_after(nominal(self.rate), start, restitution, bounces)
+        rate = nominal(self.rate)
+        g, q = STANDARD_GRAVITY, restitution**-2  # the height does not depend on g
+        flights = (q**bounces - q) / (q - 1.0) if q != 1.0 else bounces - 1.0
+        p = q**bounces / drag.fallen_speed(rate, start, g) ** 2 + rate / g * flights
+        return drag.risen(rate, p**-0.5, g)
 
     def rows(self) -> list[Row]:
         """Return the numbers of the air, for the table of a result."""
@@ -184,17 +173,6 @@ def speed_after_fall(height: Any, gravity: float, drag: Drag | None) -> Any:
     4.0
     """
     return (2.0 * gravity * height) ** 0.5 if drag is None else drag.fallen_speed(height, gravity)
-
-
-def _height_after(rate: float, start: float, restitution: float, bounces: float) -> float:
-    """Return the height after some bounces.
-
-    With ``p = 1/v**2`` a bounce makes ``p/e**2`` of p and a flight makes ``p + k/g``.
-    """
-    g, q = STANDARD_GRAVITY, restitution**-2  # the height does not depend on g
-    flights = (q**bounces - q) / (q - 1.0) if q != 1.0 else bounces - 1.0
-    p = q**bounces / drag.fallen_speed(rate, start, g) ** 2 + rate / g * flights
-    return drag.risen(rate, p**-0.5, g)
 
 
 def drag_of(mass: Any, diameter: Any, drag_coefficient: Any, air_density: Any) -> Drag | None:

@@ -89,16 +89,11 @@ def _lengths(text: str, option: Option, called: str) -> list[Any]:
     ]
 
 
-def _points(value: Any, _: Option, called: str) -> tuple[str, ...]:
+def _points(value: Any, _: Option, __: str) -> tuple[str, ...]:
     """Return the points that the drop's height and the bounces' were measured to."""
     from stackbounce.measure.setup import places
 
-    if not isinstance(value, str):
-        return places(value)
-    words = tuple(word.strip() for word in value.split(","))
-    if len(words) > 2:
-        raise InvalidValue(f"{called} must be a point or two, got {shown(value)}")
-    return places(words * 2 if len(words) == 1 else words)
+    return places(value)
 
 
 def _law(value: Any, _: Option, called: str) -> type[ContactLaw]:

@@ -12,14 +12,13 @@ from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 from stackbounce.errors import finite, fraction, non_negative, positive
-from stackbounce.measure.kinds import KINDS, TYPED
+from stackbounce.measure.kinds import KINDS
 from stackbounce.model.laws import LAWS
 from stackbounce.units import examples
 
 Form: TypeAlias = Literal[
     "number", "measured", "lengths", "flag", "points", "law", "file", "columns", "text"
 ]
-_FORM_NAMES = {"lengths": "LENGTHS", "points": "POINT"}
 _PANELS = {
     "ball": "What is known of the ball",
     "start": "",
@@ -91,7 +90,7 @@ class Option:
         """What the command line calls its value."""
         if self.form in ("number", "measured"):
             return examples()[self.unit][0].split()[-1].upper()  # a mass: MASS
-        return self.metavar or _FORM_NAMES.get(self.form, self.name.upper())
+        return self.metavar or self.name.upper()
 
     def to_mapping(self) -> dict[str, Any]:
         """Return what the page needs to offer it."""
@@ -130,9 +129,3 @@ OPTIONS: tuple[Option, ...] = tuple(_read_options())
 def options_for(*to: str) -> dict[str, Option]:
     """Return the options of the reader, of the analyses or of numbers, by their names."""
     return {option.name: option for option in OPTIONS if option.to in to}
-
-
-def taken_by(option: Option) -> list[str]:
-    """Return the kinds whose analysis takes an option; the reader's are for every file."""
-    kinds = {**KINDS, **{kind.name: kind for kind in TYPED}}
-    return [name for name, kind in kinds.items() if option.name in kind.options]

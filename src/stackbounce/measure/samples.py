@@ -101,11 +101,8 @@ def resolution(values: NDArray[np.floating]) -> float:
         changes = np.unique(np.round(np.diff(some) / step))
         seen = len(distinct) <= _REPEATED * len(some) or len(changes) > _CHANGES
         off = np.abs(multiples - np.round(multiples))
-        if (
-            seen
-            and np.mean(off < np.minimum(_STEP_UNEVEN * np.sqrt(multiples), _DISTANCE_OFF))
-            > _ON_STEPS
-        ):
+        whole = off < np.minimum(_STEP_UNEVEN * np.sqrt(multiples), _DISTANCE_OFF)
+        if seen and np.mean(whole) > _ON_STEPS:
             return float(step)
     return 0.0
 

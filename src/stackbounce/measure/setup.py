@@ -88,10 +88,13 @@ def places(measured_to: object) -> tuple[Place, Place]:
 
     Examples
     --------
-    >>> places("centre"), places(("bottom", "top"))
-    (('centre', 'centre'), ('bottom', 'top'))
+    >>> places("centre"), places(("bottom", "top")), places("bottom, top")
+    (('centre', 'centre'), ('bottom', 'top'), ('bottom', 'top'))
     """
-    pair: Any = (measured_to, measured_to) if isinstance(measured_to, str) else measured_to
+    pair: Any = measured_to
+    if isinstance(measured_to, str):
+        points = [point.strip() for point in measured_to.split(",")]
+        pair = points * 2 if len(points) == 1 else points
     if not (isinstance(pair, tuple | list) and len(pair) == 2):
         raise InvalidType(
             f"measured_to must be bottom, centre or top, or a pair, got {shown(measured_to)}"

@@ -87,11 +87,10 @@ def test_too_large_a_file_is_not_read(tmp_path):
     (archive({}), "without any table"),
     (archive({f"{k}.csv": "" for k in range(1001)}), "more than 1000 files"),
     (archive({"[Content_Types].xml": "", "a.csv": "1,2"}), "it is a spreadsheet"),
-    (archive({"a.csv": "1,2"}, zipfile.ZIP_BZIP2), "packed in an unusual way"),
-    (archive({"a.csv": "1,2\n" * 100})[:-30], "broken zip archive"),
+    (archive({"a.csv": "1,2\n" * 100})[:-30], "archive that cannot be unpacked"),
     (archive({"a.csv": "words"}), "a.csv: it has no row of numbers"),
     (archive({"a.csv": made.wav()}), "a.csv: it is no text"),
-    (b"PK\x03\x04", "broken zip archive"),
+    (b"PK\x03\x04", "archive that cannot be unpacked"),
 ])  # fmt: skip
 def test_refused(read, content, message):
     refused(read, content, message)
@@ -118,9 +117,9 @@ def test_bombs_that_lie_of_their_size_or_are_many(read, monkeypatch):
 def test_locked_and_damaged_archives(read):
     content = bytearray(archive({"a.csv": made.force_ms()}, zipfile.ZIP_STORED))
     content[100] ^= 1
-    refused(read, bytes(content), "broken zip archive: Bad CRC-32")
+    refused(read, bytes(content), "cannot be unpacked: Bad CRC-32")
     content[content.rindex(b"PK\x01\x02") + 8] |= 1
-    refused(read, bytes(content), "locked by a password")
+    refused(read, bytes(content), "is encrypted, password required")
 
 
 def test_names_in_archives_are_names_only(read, tmp_path):
@@ -144,9 +143,7 @@ def test_which_table_of_an_archive(read):
     refused(read, content, "did you mean Aside.csv?", InvalidValue, table="Asides.csv")
 
 
-@pytest.mark.parametrize(
-    "encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "latin-1", "cp1252"]
-)
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1", "cp1252"])
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
 def test_encodings(read, encoding, end):
     text = end.join(["Zeit (µs);Höhe (mm)", "0;1,5", "1;2,5", ""])
@@ -189,7 +186,7 @@ def test_cells_that_are_no_numbers(read):
     data = read(text)
     np.testing.assert_array_equal(np.isfinite(data.force), [1] + [0] * 9 + [1])
     assert "4 cells are no numbers, the first 'oops'" in data.attrs["doubt"]
-    assert "1 numbers are infinite" in data.attrs["doubt"]
+    assert "1 numbers are beyond" in data.attrs["doubt"]
 
 
 def test_words_and_rows_without_a_time_are_left_out(read):
@@ -203,8 +200,7 @@ def test_words_and_rows_without_a_time_are_left_out(read):
 def test_ragged_rows(read):
     data = read("t (s),F (N)\n0,1\n1,2,9\n2\n3,4\n4,5\n")
     np.testing.assert_array_equal(data.force, [1, 2, np.nan, 4, 5])
-    more, fewer = (f"1 rows have {word} cells than the others" for word in ("more", "fewer"))
-    assert data.attrs["doubt"] == f"{more}; {fewer}"
+    assert data.attrs["doubt"] == "1 rows have more cells than the others"
 
 
 def test_names_that_come_twice_or_not_at_all(read):
@@ -293,9 +289,8 @@ CELLS = st.one_of(
 
 def parsed(cells):
     """Return the numbers of a column of cells, or None where one of them is no plain number."""
-    table = numbers.Table(np.empty((0, 1)), np.zeros(1, dtype=np.int64))
     text = Text("", "\t", ".", [], [], [], [], "")
-    return numbers._parsed("\n".join(f"{cell}\t0" for cell in cells), text, [0], table)
+    return numbers._parsed("\n".join(f"{cell}\t0" for cell in cells), text, [0])
 
 
 @given(st.lists(CELLS, min_size=1, max_size=6))

@@ -1,6 +1,6 @@
 """Columns -> the Dataset of what they hold."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -13,19 +13,14 @@ from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.roles import ACCELERATIONS, ARBITRARY, FRAME, ROLES, Column
-from stackbounce.measure.reading.series import in_time, on_the_clock, step_of
+from stackbounce.measure.reading.series import in_time, on_the_clock
 from stackbounce.measure.reading.video import rows_by_frame
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _ASSUMED = {"time": "s", "knock_time": "s", "force": "N", "compression": "m", "x": "m", "y": "m"}
-_INFERRED = (
-    "height 0, of the drop, was not measured: phyphox infers it from the bounces that followed"
-)
 _OTHER_UNITS = {"s": "ms", "N": "kN", "m": "cm"}  # examples in doubts
-_SMALLEST = 1e-60  # number in any unit; squares and ratios of such are finite
-_LARGEST = 1e60  # number in any unit
 _UNITS = _ASSUMED | {"voltage": "V", "sound": "1"} | dict.fromkeys(ACCELERATIONS, "m/s^2")
 
 
@@ -71,13 +66,15 @@ def assemble(
     FileError
         If there is no row of it.
     """
-    sizes = np.abs(values)  # programs write numbers that nothing can be where one is missing
-    measurable = (sizes == 0.0) | ((sizes >= _SMALLEST) & (sizes <= _LARGEST))
-    values = np.where(measurable, values, np.nan)
+    import xarray as xr
+
     if holds == "bounces":
-        return _bounces(columns, values)
+        data, coordinates, doubts = _bounces(values)
+        return xr.Dataset(data, coordinates), doubts
     kind = KINDS[holds]
-    columns, values = _named_first(columns, values)
+    # An analysis takes the first of several forces: one that an option names comes before others.
+    order = sorted(range(len(columns)), key=lambda k: columns[k].named not in ROLES)
+    columns, values = [columns[k] for k in order], values[:, order]
     over_time = {"time": _series, "track": _track}.get(kind.dimension)
     build = over_time or partial(_rows, kind)
     columns, unsure = on_the_clock(kind, _fitting(holds, columns), values)
@@ -87,19 +84,8 @@ def assemble(
     for k, column in enumerate(columns):
         if column.factor != 1.0 and k != clock:
             values[:, k] *= column.factor
-    data, more = build(columns, values, run)
-    return data, doubts + more
-
-
-def _named_first(columns: Sequence[Column], values: Array) -> tuple[Sequence[Column], Array]:
-    """Return columns and their numbers, those that an option gives a role before the others.
-
-    Of several forces an analysis takes the first.
-    """
-    order = sorted(range(len(columns)), key=lambda k: columns[k].named not in ROLES)
-    if order == list(range(len(columns))):
-        return columns, values
-    return [columns[k] for k in order], values[:, order]
+    data, coordinates, more = build(columns, values, run)
+    return xr.Dataset(data, coordinates), doubts + more
 
 
 def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
@@ -165,7 +151,7 @@ def _attributes(column: Column) -> dict[str, str | float]:
     return {**told, "column": column.index + 1, **frame}
 
 
-def _named(columns: Sequence[Column], without: Sequence[str] = ()) -> list[str]:
+def _named(columns: Sequence[Column], without: Sequence[str]) -> list[str]:
     """Return names for columns, each only once."""
     names: list[str] = list(without)
     for column in columns:
@@ -178,36 +164,34 @@ def _named(columns: Sequence[Column], without: Sequence[str] = ()) -> list[str]:
 
 
 def _data(
-    columns: Sequence[Column], values: Array, dimension: str, skip: int = -1
-) -> dict[str, Any]:
-    kept = [k for k in range(len(columns)) if k != skip]
-    names = _named([columns[k] for k in kept], [dimension])
+    columns: Sequence[Column], values: Array, dimensions: Sequence[str]
+) -> dict[str, tuple[str, Array, dict[str, Any]]]:
+    """Return the variables of columns along the first dimension; none is called as one of them."""
+    names = _named(columns, dimensions)
     return {
-        name: (dimension, np.ascontiguousarray(values[:, k]), _attributes(columns[k]))
-        for name, k in zip(names, kept, strict=True)
+        name: (dimensions[0], np.ascontiguousarray(values[:, k]), _attributes(columns[k]))
+        for k, name in enumerate(names)
     }
 
 
-_Built = tuple["xr.Dataset", list[str]]
+_Built = tuple[Mapping[str, Any], Mapping[str, Any], list[str]]
+"""The variables of a Dataset, its coordinates, and what is unsure."""
 
 
 def _series(columns: Sequence[Column], values: Array, run: object) -> _Built:
     """Return waveforms, sounds and accelerations: anything over time."""
-    import xarray as xr
-
     at = _at(columns, "time")
     rows, times, doubts = in_time(values[:, at], columns[at], run, gaps=True)
-    values = values[rows]
-    data = _data(columns, values, "time", skip=at)
+    others = [k for k in range(len(columns)) if k != at]
+    data = _data([columns[k] for k in others], values[rows][:, others], ["time"])
     if "sound" in data:
-        data["sound"][2]["rate"] = 1.0 / step if (step := step_of(times)) > 0.0 else np.nan
-    return xr.Dataset(data, coords={"time": ("time", times, _attributes(columns[at]))}), doubts
+        lasting = np.ptp(times)
+        data["sound"][2]["rate"] = (len(times) - 1) / lasting if lasting > 0.0 else np.nan
+    return data, {"time": ("time", times, _attributes(columns[at]))}, doubts
 
 
 def _track(columns: Sequence[Column], values: Array, run: object) -> _Built:
-    """Return the Dataset of tracks: x, y and further columns of each, and doubts."""
-    import xarray as xr
-
+    """Return tracks: x, y and further columns of each."""
     columns, values, several = rows_by_frame(columns, values)
     at = _at(columns, "time")
     rows, times, doubts = in_time(values[:, at], columns[at], run, gaps=False)
@@ -221,26 +205,22 @@ def _track(columns: Sequence[Column], values: Array, run: object) -> _Built:
     }
     for k, track in enumerate(tracks):
         own = [j for j in others if columns[j].track == track]
-        names = _named([columns[j] for j in own], ["time", "track"])
-        for name, j in zip(names, own, strict=True):
-            place = data.setdefault(
-                name, (("time", "track"), blank.copy(), _attributes(columns[j]))
-            )
-            place[1][:, k] = values[:, j]
-            place[2].update(_attributes(columns[j]))
+        found = _data([columns[j] for j in own], values[:, own], ["time", "track"])
+        for name, (_, numbers, said) in found.items():
+            place = data.setdefault(name, (("time", "track"), blank.copy(), {}))
+            place[1][:, k] = numbers
+            place[2].update(said)
     coords = {
         "time": ("time", times, _attributes(columns[at])),
         "track": [track or f"track {k}" for k, track in enumerate(tracks, 1)],
     }
     if not any(columns[k].role == "x" for k in others):
         doubts.append("only one position: taken as the height y, upwards")
-    return xr.Dataset(data, coords=coords), doubts
+    return data, coords, doubts
 
 
 def _rows(kind: Kind, columns: Sequence[Column], values: Array, run: object) -> _Built:
-    """Return the Dataset of rows, without those that lack a needed number."""
-    import xarray as xr
-
+    """Return rows, without those that lack a needed number."""
     if run is not None:
         raise InvalidValue(about_option("run", ": there is none to choose, as this holds no times"))
     roles = [each[0] for each in kind.columns]
@@ -248,46 +228,19 @@ def _rows(kind: Kind, columns: Sequence[Column], values: Array, run: object) -> 
     if not whole.any():
         raise FileError(f"it has no row with {' and '.join(roles)}")
     numbers = {kind.dimension: np.flatnonzero(whole) + 1.0}
-    return xr.Dataset(_data(columns, values[whole], kind.dimension), coords=numbers), []
+    return _data(columns, values[whole], [kind.dimension]), numbers, []
 
 
-def _bounces(columns: Sequence[Column], values: Array) -> _Built:
-    """Return the knocks that phyphox heard, and what it derived of them; the last row counts.
-
-    If it heard no knock k, phyphox computes height k and energy k from the time since knock k - 1;
-    these are left out.
-    """
-    import xarray as xr
-
+def _bounces(values: Array) -> _Built:
+    """Return the times of the knocks that phyphox heard, a column each; the last row counts."""
     numbers = np.nan_to_num(values)
-    names = [column.heading.name.casefold() for column in columns]
-    first = [name == "bounce 0" for name in names]
-    heard = np.flatnonzero((numbers[:, first] > 0.0).any(axis=1))
+    heard = np.flatnonzero(numbers[:, 0] > 0.0)
     if not heard.size:
         raise FileError("phyphox heard no knock in it")
-    found = dict(zip(names, numbers[heard[-1]].tolist(), strict=True))
-    times = [found["bounce 0"]]
-    while found.get(f"bounce {len(times)}", 0.0) > times[-1]:
-        times.append(found[f"bounce {len(times)}"])
-    count = len(times)
-    heights, energies = (
-        np.array([found.get(f"{name} {k}", 0.0) for k in range(count)])
-        for name in ("height", "energy")
-    )
-    if count < 3:  # phyphox compares the first two flights to infer the drop
-        heights[0] = 0.0
-    energies[0] = 0.0
-    if count > 1 and not energies[1]:
-        energies[1] = 1.0  # phyphox sets the others in proportion to this one
-    data = {
-        name: ("bounce", np.where(row > 0.0, row, np.nan), {"units": unit, "long_name": text})
-        for name, row, unit, text in (
-            ("height", heights, "m", "Height: apex before this knock; of the drop at 0"),
-            ("energy", energies, "1", "Energy, of that after knock 0"),
-        )
-    }
+    times = numbers[heard[-1]]
+    rising = np.diff(times, prepend=0.0, append=0.0) > 0.0  # 0 stands for what was not heard
     said = {"units": "s", "long_name": "Bounce: time of a knock"}
-    return xr.Dataset({"knock_time": ("knock", np.array(times), said), **data}), [_INFERRED]
+    return {"knock_time": ("knock", times[: np.argmin(rising)], said)}, {}, []
 
 
 def _at(columns: Sequence[Column], role: str) -> int:

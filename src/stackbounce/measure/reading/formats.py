@@ -1,8 +1,8 @@
 """The layouts of programs: a function for each, in the order in which they are tried.
 
-Programs that log sensors (Audacity, LabVIEW, Logger Pro, PASCO Capstone, Vernier), oscilloscopes
-(GW Instek, LeCroy, PicoScope, Rigol, Siglent, Tektronix), apps of phones (phyphox, Sensor Logger)
-and video analysis (AviMéca, ImageJ, Tracker, TrackMate).
+Programs that log sensors (Audacity, LabVIEW, Logger Pro), oscilloscopes (GW Instek, LeCroy, Rigol,
+Siglent, Tektronix), apps of phones (phyphox, Sensor Logger) and video analysis (ImageJ, Tracker,
+TrackMate). A program whose header says all needs none: its tables are read as any others.
 """
 
 import re
@@ -23,54 +23,18 @@ from stackbounce.measure.reading.layouts import (
 from stackbounce.measure.reading.roles import POINT, Column, Heading, column, heading, is_unit
 from stackbounce.measure.reading.text import Text, number
 
-_RUN = re.compile(r"(Run|Set|Lauf|Ensayo|Essai|Ajo|Kørsel|Körning|Serie) #\d+$")
-_AUTO = re.compile(r"\s+Auto$")  # times that Capstone counts itself, the same in all runs
 _LABEL = re.compile(r"[0-9]+[.,][0-9]{6}\t[0-9]+[.,][0-9]{6}\t(?![-+0-9.,]+$)[^\t]*")
-_END = "***End_of_Header***"
-_EXPERIMENTS: dict[tuple[str, ...], str] = {
-    ("event time", "interval"): "acoustic stopwatch",
-    ("time", "recording"): "audio scope",
-    ("time", "acceleration x"): "acceleration with g",
-    ("time", "linear acceleration x"): "acceleration without g",
-}
+_KNOCK = re.compile(r"bounce [0-9]+")  # its time
 _UNSAID = "Sensor Logger does not write into a file which sensor it is of: "
 _OTHER_SENSORS = ("gyroscope", "gravity", "magnetometer", "orientation", "compass")
-_IMAGEJ = {
-    "",
-    "area",
-    "mean",
-    "label",
-    "counter",
-    "slice",
-    "slice n°",
-    "xm",
-    "bx",
-    "intden",
-}
+_IMAGEJ = {"", "area", "label", "slice", "slice n°"}  # beside which X and Y are pixels
 _CLOSED_UP = (
     "blank cells were lost, so that numbers stand under Flag: points are put together to tracks by "
     "where they are"
 )
 _SUMMARY = re.compile(r"\n+Track\s")  # a line for each track, below all points
 _NUMBERED = re.compile(r"([xy]) ?([0-9]{1,3})")
-_SPOT_ROLES = {
-    "TRACK_ID": "track_id", "FRAME": "frame", "POSITION_X": "x", "POSITION_Y": "y",
-    "POSITION_T": "time",
-}  # fmt: skip
-
-
-@layout
-def capstone(text: Text) -> Layout | None:
-    """Recognise PASCO Capstone: names end in ``Run #1``, a time's perhaps in ``Auto``."""
-    for k, row in enumerate(text.head):
-        cells = [cell for cell in row if cell]
-        runs = [cell for cell in cells if _RUN.search(cell)]
-        if len(cells) > 1 and runs and all(cell in runs or _AUTO.search(cell) for cell in cells):
-            row = [_AUTO.sub("", cell) for cell in row]
-            why = f"each column's name has its run after it, as in {runs[0]!r}"
-            columns = columns_of(row, len(row))
-            return Layout("PASCO Capstone", why, columns, first_row(text, k + 1))
-    return None
+_SPOT = ("TRACK_ID", "FRAME", "POSITION_X", "POSITION_Y", "POSITION_T")
 
 
 @layout
@@ -93,7 +57,7 @@ def labview(text: Text) -> Layout | None:
         return None
     at = line_of(text, "X_Value")
     if not at:
-        raise FileError(f"it begins as a file of LabVIEW and has no 'X_Value' below {_END}")
+        raise FileError("it begins as a file of LabVIEW and has no 'X_Value' below its header")
     keys = keys_above(text, at)
     units = [*keys.get("Y_Unit_Label", []), *[None] * len(text.head[at])]
     channels = [
@@ -126,18 +90,6 @@ def logger_pro(text: Text) -> Layout | None:
     columns = columns_of(names, len(text.head[first]), above[-1])
     why = f"its first line 'Vernier Format' is that of a text from Logger Pro ({above[2][0]!r})"
     return Layout("Logger Pro", why, columns, first)
-
-
-@layout
-def vernier(text: Text) -> Layout | None:
-    """Recognise Vernier: each column's name begins with its run."""
-    header = text.head[0]
-    headings = [heading(cell) for cell in header if cell]
-    runs = [heading.run for heading in headings]
-    if len(runs) < 2 or not all(runs) or "#" in runs[0] or not headings[0].text.startswith(runs[0]):
-        return None
-    why = f"each column's name has its run before it, as in {header[0]!r}"
-    return Layout("Vernier", why, columns_of(header, len(header)), first_row(text, 1))
 
 
 def _traces(names: Sequence[str], units: Sequence[str], first: int = 0) -> tuple[Column, ...]:
@@ -181,21 +133,6 @@ def lecroy(text: Text) -> Layout | None:
     columns = _traces(text.head[k], [""] * len(text.head[k]))
     why = f"its first cell {text.head[0][0]!r} is that of a LeCroy"
     return Layout("LeCroy oscilloscope", why, columns, first_row(text, k + 1))
-
-
-@layout
-def picoscope(text: Text) -> Layout | None:
-    """Recognise PicoScope: ``Time,Channel A`` over ``(ms),(V)`` and a blank line."""
-    head = text.head
-    if len(head) < 3 or head[0][:1] != ["Time"] or len(head[0]) < 2 or len(head[1]) < 2:
-        return None
-    if not all(re.fullmatch(r"\(.*\)", cell) and is_unit(cell) for cell in head[1]):
-        return None
-    columns = columns_of(head[0], min(len(head[0]), len(head[1])), head[1])
-    if any(column.unit == "N" for column in columns):  # a press, such as Instron Bluehill's tables
-        return None
-    why = f"names over units in brackets, {head[1][0]},{head[1][1]}, are how PicoScope writes"
-    return Layout("PicoScope", why, columns, first_row(text, 2))
 
 
 @layout
@@ -274,19 +211,17 @@ def tektronix_tds(text: Text) -> Layout | None:
 
 @layout
 def phyphox(text: Text) -> Layout | None:
-    """Recognise the experiments of phyphox by the names of their columns."""
+    """Recognise the (in)elastic collision of phyphox; its one row may be all that is there."""
     header = text.head[0]
-    names = [heading(cell).name.casefold() for cell in header if cell]
-    collision = {"bounce 0", "bounce 1"} <= set(names)
-    experiment = "(in)elastic collision" if collision else _EXPERIMENTS.get(tuple(names[:2]))
-    if experiment is None:
+    cells = [heading(cell) for cell in header]
+    knocks = tuple(
+        Column(k, cell) for k, cell in enumerate(cells) if _KNOCK.fullmatch(cell.name.casefold())
+    )
+    if len(knocks) < 2:
         return None
-    columns = columns_of(header, len(header))
-    if collision:  # its one row may be all that is there
-        columns = tuple(Column(k, heading(cell)) for k, cell in enumerate(header) if cell)
-    why = f"its columns {header[0]!r}, {header[1]!r} are those of phyphox's {experiment}"
-    holds = "bounces" if collision else ""
-    return Layout(f"phyphox: {experiment}", why, columns, first_row(text, 1), holds=holds)
+    why = f"its columns {header[0]!r}, {header[1]!r} are those of phyphox's (in)elastic collision"
+    first = first_row(text, 1)
+    return Layout("phyphox: (in)elastic collision", why, knocks, first, holds="bounces")
 
 
 @layout
@@ -312,20 +247,6 @@ def sensor_logger(text: Text) -> Layout | None:
     why = f"its columns {', '.join(names[:3])} … are those of Sensor Logger"
     first = first_row(text, 1)
     return Layout(f"Sensor Logger: {what}", why, tuple(columns), first, (doubt,))
-
-
-@layout
-def avimeca(text: Text) -> Layout | None:
-    """Recognise AviMéca: a title, ``t``, ``x``, ``y``, and their units in a line below."""
-    head = text.head
-    at = line_of(text, "t")
-    if not at or at + 1 >= len(head) or "avim" not in text.lines[0].casefold():
-        return None
-    if not all(map(is_unit, filter(None, head[at + 1]))):
-        return None
-    columns = columns_of(head[at], len(head[at]), head[at + 1])
-    why = f"its first line {text.lines[0].strip()[:40]!r} is that of AviMéca"
-    return Layout("AviMéca", why, columns, first_row(text, at + 2))
 
 
 @layout
@@ -414,8 +335,8 @@ def trackmate(text: Text) -> Layout | None:
     columns = []
     for k, name in enumerate(names):
         unit = units[k].strip("() ") if k < len(units) else ""
-        if name in _SPOT_ROLES and not (name == "POSITION_T" and unit in ("", "frame", "frames")):
-            columns.append(column(k, heading(name, unit), _SPOT_ROLES[name]))
+        if name in _SPOT and not (name == "POSITION_T" and unit in ("", "frame", "frames")):
+            columns.append(column(k, heading(name, unit)))
     why = "FRAME, POSITION_X, POSITION_Y are columns of TrackMate's spots"
     return Layout("TrackMate", why, tuple(columns), first)
 

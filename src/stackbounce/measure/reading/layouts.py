@@ -52,8 +52,6 @@ def guess(rows: Array) -> tuple[tuple[Column, ...], str]:
         return _guessed(("time", "voltage"), f"{said}, the other as the voltage of a scope")
     if _LONGEST_SAMPLE < step <= _LONGEST_FRAME and width == 3:
         return _guessed(("time", "x", "y"), f"{said}, the others as x and y")
-    if 0.0 < step <= _LONGEST_SAMPLE:
-        return _guessed(("time", *[""] * (width - 1)), said)
     return tuple(column(k, heading("")) for k in range(width)), NOT_NAMED
 
 
@@ -94,8 +92,8 @@ class Layout:
         Start and step in s, where the column of times counts samples or rows.
     holds : str, optional
         The kind of measurement, if it does not follow from the columns.
-    guess : tuple of Column and str, optional
-        What columns without names look like, and why.
+    bare : bool, optional
+        Whether columns have no names, so that they are what their numbers look like.
     end : int, optional
         Where in the text the table ends, if something else follows.
     """
@@ -107,7 +105,7 @@ class Layout:
     doubts: tuple[str, ...] = ()
     clock: tuple[float, float] | None = None
     holds: str = ""
-    guess: tuple[tuple[Column, ...], str] | None = None
+    bare: bool = False
     end: int | None = None
 
 
@@ -193,9 +191,9 @@ def general(text: Text) -> Layout:
         first = above[-1] if above else first
         return Layout("table of numbers", why, columns_of(beside, width), first)
     if not above or first - above[-1] > 2:
-        found = guess(_numbers(text, first, width))
+        columns, doubt = guess(_numbers(text, first, width))
         why = "rows of numbers without a header"
-        return Layout("table of numbers", why, columns_of([], width), first, guess=found)
+        return Layout("table of numbers", why, columns, first, (doubt,), bare=True)
     names = _named(text, above[-1], width)
     units = None
     if len(above) > 1 and all(is_unit(cell) for cell in names if cell):

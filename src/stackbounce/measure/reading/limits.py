@@ -26,6 +26,7 @@ _OTHERS = (
     (0, b"%PDF", "a PDF document", "export the numbers as CSV"),
     (0, b"\x89HDF", "an HDF5 file", "export the numbers as CSV"),
     (0, b"MATLAB", "a MATLAB file", "export the numbers as CSV"),
+    (0, b"\xd0\xcf\x11\xe0", "an old Excel file (.xls)", "save it as .xlsx or CSV"),
     (0, b"\x1f\x8b", "compressed by gzip", "unpack it"),
     (0, b"7z\xbc\xaf", "a 7z archive", "unpack it"),
     (0, b"Rar!", "a RAR archive", "unpack it"),

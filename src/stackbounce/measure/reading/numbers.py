@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from tokenize import TokenError
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,12 +21,15 @@ from stackbounce.measure.reading.layouts import Layout, columns_of, guess
 from stackbounce.measure.reading.limits import CELLS, COLUMNS, LINE
 from stackbounce.measure.reading.text import MISSING, Text, number, split
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 _CHUNK = LINE  # characters that are parsed at once, so that no line in them is too long
 _ODD = 2**23  # characters that are parsed cell by cell in Python, at most: some seconds
 _BLANKS = sorted({form for word in MISSING for form in (word, word.upper(), word.title(), "NaN")})
-_MOST = 1e30  # beyond any instrument's range, for which oscilloscopes write 9.9E37
+# Sizes within the range of any instrument: oscilloscopes write 9.9E37 for what is beyond it.
+_LEAST, _MOST = 1e-60, 1e30
 _TRUTH = "uUsS"  # letters of "true" and "false" that occur in no number
-_NUMBER_KINDS = "biuf"  # of NumPy
 _BROKEN = (ValueError, TypeError, LookupError, SyntaxError, EOFError, RecursionError, TokenError)
 
 
@@ -42,24 +45,23 @@ class Table:
         How many cells of each column are neither numbers nor missing.
     first : str
         The first of these.
-    infinite : int
-        How many numbers are infinite: beyond the range of an instrument.
+    beyond : int
+        How many numbers are beyond the range of any instrument.
     words : int
         How many lines have no number at all.
     word : str
         The first of these.
-    longer, shorter : int
-        How many rows have more cells, or fewer, than there are columns.
+    longer : int
+        How many rows have more cells than there are columns.
     """
 
     values: Array
     strange: NDArray[np.int64]
     first: str = ""
-    infinite: int = 0
+    beyond: int = 0
     words: int = 0
     word: str = ""
     longer: int = 0
-    shorter: int = 0
 
 
 def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
@@ -80,29 +82,29 @@ def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
         If a line is longer than `limits.LINE`, or there are more than `limits.CELLS` numbers.
     """
     table = Table(np.empty((0, len(used))), np.zeros(len(used), dtype=np.int64))
-    start = text.starts[first]
-    most = min(text.content.count("\n", start) + 1, CELLS // len(used) + 1)
-    values = np.empty((len(used), most)).T  # columns are contiguous; rows not written cost nothing
+    blocks = [table.values]
     count = odd = 0
-    for chunk in _chunks(text.content, start):
-        block = _parsed(chunk, text, used, table)
+    for chunk in _chunks(text.content, text.starts[first]):
+        block = _parsed(chunk, text, used)
         if block is None:
             odd += len(chunk)
             if odd > _ODD:
                 raise FileError("too many of its lines are not just numbers")
             block = _cell_by_cell(chunk.split("\n"), text, used, table)
-        if (count + len(block)) * len(used) > CELLS:
+        count += block.size
+        if count > CELLS:
             raise FileError(f"it has more than {CELLS} numbers: cut out what is of interest")
-        values[count : count + len(block)] = block
-        count += len(block)
-    values = values[:count]
-    blank = np.isnan(values).all(axis=1)
-    table.values = values[~blank] if blank.any() else values
-    infinite = table.values > _MOST
-    infinite |= table.values < -_MOST
-    table.infinite = int(infinite.sum())
-    if table.infinite:
-        table.values[infinite] = np.nan
+        blocks.append(block)
+    return _with(np.concatenate(blocks), table)
+
+
+def _with(values: Array, table: Table) -> Table:
+    """Put numbers into a table, without blank rows and without those that no instrument has."""
+    sizes = np.abs(values)
+    beyond = (sizes > _MOST) | ((sizes < _LEAST) & (sizes > 0.0))
+    values[beyond] = np.nan
+    table.beyond = int(np.count_nonzero(beyond))
+    table.values = values[~np.isnan(values).all(axis=1)]
     return table
 
 
@@ -119,7 +121,7 @@ def _chunks(content: str, start: int) -> Iterator[str]:
         start = end + 1
 
 
-def _parsed(chunk: str, text: Text, used: Sequence[int], table: Table) -> Array | None:
+def _parsed(chunk: str, text: Text, used: Sequence[int]) -> Array | None:
     """Return rows whose wanted cells are all plain numbers or missing, else None.
 
     The parser is that of pandas, which since 3.1 rounds every number to the nearest float, as
@@ -128,8 +130,6 @@ def _parsed(chunk: str, text: Text, used: Sequence[int], table: Table) -> Array 
     import pandas as pd
 
     blanks = text.delimiter == " "
-    if blanks and not chunk.isascii():  # Python splits at blanks that pandas takes for letters
-        return None
     quoted = not blanks and '"' in chunk
     wanted = sorted(set(used))
     width = len(split(chunk.lstrip("\n").partition("\n")[0], text.delimiter))
@@ -153,12 +153,8 @@ def _parsed(chunk: str, text: Text, used: Sequence[int], table: Table) -> Array 
     if any(kind.kind not in "fiu" for kind in frame.dtypes):
         return None
     block: Array = frame[list(used)].to_numpy(dtype=np.float64)
-    need = max(used) + 1
-    if quoted or np.isnan(block).any():
-        widths = [len(split(line, text.delimiter)) for line in chunk.split("\n") if line.strip()]
-        if len(widths) != len(block):  # a quotation mark that joined lines
-            return None
-        table.shorter += sum(width < need for width in widths)
+    if quoted and len(block) != sum(not line.isspace() for line in chunk.split("\n") if line):
+        return None  # a quotation mark joined lines
     return block
 
 
@@ -171,7 +167,6 @@ def _cell_by_cell(lines: list[str], text: Text, used: Sequence[int], table: Tabl
         if not any(cells):
             continue
         table.longer += any(cells[need:])
-        table.shorter += len(cells) < need
         row = [number(cells[k], text.decimal) if k < len(cells) else nan for k in used]
         if None in row:
             # a line of words among the numbers
@@ -187,96 +182,64 @@ def _cell_by_cell(lines: list[str], text: Text, used: Sequence[int], table: Tabl
     return np.array(rows, np.float64).reshape(len(rows), len(used))  # None becomes NaN
 
 
-def is_array(content: bytes | bytearray) -> bool:
-    """Return whether bytes are an array as `numpy.save` writes it."""
-    return content.startswith(b"\x93NUMPY")
-
-
-def array_in(content: bytes | bytearray) -> NDArray[Any]:
-    """Return an array of columns, (rows, columns), or one of records, (rows,).
-
-    Its size is checked before memory is taken for it.
+def array_in(content: bytes | bytearray) -> "pd.DataFrame":
+    """Return an array as a table, with a column for each of its own or for each of its fields.
 
     Raises
     ------
     FileError
-        If it is cut off, too large, or holds no numbers.
+        If it is cut off, empty, no table, or holds no numbers.
     """
+    import pandas as pd
+
     try:
-        shape, fortran, kind, begin = _header(content)
-    except _BROKEN as error:
+        array = np.load(io.BytesIO(content), allow_pickle=False)
+        lying = array.ndim == 2 and array.shape[1] > COLUMNS >= array.shape[0]
+        frame = pd.DataFrame(array.T if lying else array)
+    except (*_BROKEN, MemoryError) as error:
         why = " ".join(str(error).split())[:200]
         raise FileError(f"it is a NumPy array that cannot be read ({why})") from error
-    kinds = [kind[name] for name in kind.names] if kind.names else [kind]
-    if any(kind.kind not in _NUMBER_KINDS for kind in kinds):
-        raise FileError(f"it is a NumPy array of {kind}: save one of plain numbers")
-    count = math.prod(shape)
-    if not 0 < count <= (len(content) - begin) // max(kind.itemsize, 1):
-        raise FileError(f"it is a NumPy array of shape {shape} that is empty or cut off")
-    flat = np.frombuffer(content, kind, count, begin)
-    array = flat.reshape(shape, order="F" if fortran else "C")
-    if kind.names is not None and array.ndim == 1:
-        return array
-    if array.ndim == 1:
-        return array[:, None]
-    if array.ndim != 2 or kind.names is not None:
-        raise FileError(f"it is a NumPy array of shape {shape}: save one with rows and columns")
-    return array.T if array.shape[1] > COLUMNS >= array.shape[0] else array
+    if frame.empty or any(kind.kind not in "biuf" for kind in frame.dtypes):
+        what = f"{array.dtype} and shape {array.shape}"
+        raise FileError(f"it is a NumPy array of {what}: save one with rows of plain numbers")
+    return frame
 
 
-def _header(content: bytes | bytearray) -> tuple[tuple[int, ...], bool, np.dtype[Any], int]:
-    """Return the shape of an array, whether its columns come first, its type, and where it is."""
-    stream = io.BytesIO(content[:20000])
-    version = np.lib.format.read_magic(stream)
-    one, two = np.lib.format.read_array_header_1_0, np.lib.format.read_array_header_2_0
-    shape, fortran, kind = (one if version[0] == 1 else two)(stream)
-    return shape, fortran, kind, stream.tell()
-
-
-def layout_of_array(array: NDArray[Any]) -> Layout:
+def layout_of_array(array: "pd.DataFrame") -> Layout:
     """Return the layout of an array: that of its fields' names, or what its numbers look like.
 
     Raises
     ------
     FileError
-        If it has no rows, too many columns or too many numbers.
+        If it has too many columns or too many numbers.
     """
-    names = array.dtype.names
-    width = len(names) if names else array.shape[1]
-    if not array.size or width > COLUMNS or array.size > CELLS:
+    width = len(array.columns)
+    if width > COLUMNS or array.size > CELLS:
         raise FileError(f"it is a NumPy array of shape {array.shape}: cut out what is of interest")
+    names = [name for name in array.columns if isinstance(name, str)]
     if names:
         why = f"a NumPy array with the fields {', '.join(names[:3])}"
         return Layout("NumPy", why, columns_of(names, width), 0)
-    found = guess(np.asarray(array[:200], dtype=np.float64))
-    return Layout("NumPy", "a NumPy array", columns_of([], width), 0, guess=found)
+    columns, doubt = guess(array[:200].to_numpy(np.float64))
+    return Layout("NumPy", "a NumPy array", columns, 0, (doubt,), bare=True)
 
 
-def rows_of_array(array: NDArray[Any], used: Sequence[int]) -> Table:
-    """Return the numbers of some columns; rows without any number are left out."""
-    names = array.dtype.names
-    values = np.empty((len(used), len(array))).T
-    for k, index in enumerate(used):
-        values[:, k] = array[names[index]] if names else array[:, index]
-    infinite = np.isinf(values)
-    values[infinite] = np.nan
-    values = values[~np.isnan(values).all(axis=1)]
-    return Table(values, np.zeros(len(used), dtype=np.int64), infinite=int(infinite.sum()))
+def rows_of_array(array: "pd.DataFrame", used: Sequence[int]) -> Table:
+    """Return the numbers of some columns."""
+    values = array.iloc[:, list(used)].to_numpy(np.float64, copy=True)
+    return _with(values, Table(values, np.zeros(len(used), dtype=np.int64)))
 
 
 def joined(members: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Return the arrays of an .npz file; those with one column and equally long as one table."""
-    found = {name.removesuffix(".npy"): array_in(member) for name, member in members.items()}
-    single = {name: value for name, value in found.items() if value.shape[1:] == (1,)}
-    lengths = {len(array) for array in single.values()}
-    if len(single) < 2 or len(lengths) > 1:
+    """Return the arrays of an .npz file, as one table if they are columns of one length."""
+    import pandas as pd
+
+    arrays = {name.removesuffix(".npy"): array_in(member) for name, member in members.items()}
+    if len(arrays) < 2 or len({len(array) for array in arrays.values()}) > 1:
         return dict(members)
-    table = np.empty(lengths.pop(), dtype=[(name, np.float64) for name in single])
-    for name, value in single.items():
-        table[name] = value[:, 0]
+    if any(list(array.columns) != [0] for array in arrays.values()):
+        return dict(members)
     packed = io.BytesIO()
-    np.save(packed, table, allow_pickle=False)
-    rest = {
-        name: member for name, member in members.items() if name.removesuffix(".npy") not in single
-    }
-    return {"arrays": packed.getvalue(), **rest}
+    table = pd.DataFrame({name: array[0] for name, array in arrays.items()})
+    np.save(packed, table.to_records(index=False))
+    return {"arrays": packed.getvalue()}

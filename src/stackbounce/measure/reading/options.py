@@ -1,8 +1,8 @@
 """The options of `read`, how they change the columns of a file, and which part they choose."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, positive, shown
 from stackbounce.measure.kinds import KINDS, kind_named
@@ -14,11 +14,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _Key = str | int
-_KINDS: dict[str, tuple[Any, str]] = {
-    "table": (str, "a name"),
-    "run": (str | int, "a name or a number"),
-    "decimal": (str, '"." or ","'),
-}
 
 
 @dataclass(frozen=True)
@@ -44,22 +39,18 @@ class ReadOptions:
                 wrong = f" must be what a file holds, got {shown(self.holds)}; {near}"
                 raise InvalidValue(about_option("holds", wrong))
             object.__setattr__(self, "holds", holds)
-        for option, (kind, wanted) in _KINDS.items():
-            given = getattr(self, option)
-            if isinstance(given, bool) or not isinstance(given, kind | None):
-                raise InvalidType(about_option(option, f" must be {wanted}, got {shown(given)}"))
+        if self.decimal not in (None, ".", ","):
+            wrong = f' must be "." or ",", got {shown(self.decimal)}'
+            raise InvalidValue(about_option("decimal", wrong))
         for option, unit in (("frame_rate", "frames per second"), ("scale", "metres per pixel")):
             if getattr(self, option) is not None:
                 positive(option, getattr(self, option), unit)
-        for option in ("start", "stop"):
-            if getattr(self, option) is not None:
-                checked(option, getattr(self, option))
         for name in _checked("names", self.names).values():
             if not name.isidentifier():
                 wrong = f" must give a column its meaning, such as 2=force, got {shown(name)}"
                 raise InvalidValue(about_option("names", wrong))
         for unit in _checked("units", self.units).values():
-            if unit != "S" and in_si(unit) is None:
+            if in_si(unit) is None:
                 wrong = f": {shown(unit)} is no unit that is known, such as 'mm'"
                 raise InvalidValue(about_option("units", wrong))
 
@@ -91,11 +82,6 @@ def apply_options(columns: Sequence[Column], options: ReadOptions) -> list[Colum
             for k in places:
                 name, unit = (value, None) if option == "names" else ("", value)
                 found[k] = found[k].called(name, unit)
-    if any(column.named == "time" for column in found):  # a named time replaces that of a header
-        found = [
-            replace(column, role="") if column.role == "time" and column.named != "time" else column
-            for column in found
-        ]
     return found
 
 
@@ -125,18 +111,7 @@ def of_run(
             wrong = f" must be one that is there, got {shown(run)}; {nearest(run, runs)}"
             raise InvalidValue(about_option("run", wrong))
         chosen = named[0]
-    own = [column for column in columns if column.heading.run in (chosen, "")]
-    if not any(column.role == "time" for column in own):  # one time for all runs
-        own = [column for column in columns if column.role == "time"][:1] + own
-    return own, True
-
-
-def checked(option: str, given: object) -> None:
-    """Raise `InvalidValue` where an end of a part is neither a time nor a number."""
-    unit = None if isinstance(given, bool) else unit_written(str(given))
-    if unit is None or (unit and (in_si(unit) or ("", ""))[1] != "s"):
-        wrong = f" must be a time, such as 1.2s, or a frame or row, such as 120, got {shown(given)}"
-        raise InvalidValue(about_option(option, wrong))
+    return [column for column in columns if column.heading.run in (chosen, "")], True
 
 
 def part_of(
@@ -155,17 +130,20 @@ def part_of(
     Raises
     ------
     InvalidValue
-        If nothing lies between them, or a time is given where rows or frames are counted.
+        If nothing lies between them, one is neither a time nor a number, or a time is given where
+        rows or frames are counted.
     """
-    if start is None and stop is None:
-        return data
     name = next(n for n in ("time", "knock_time", *map(str, data.dims)) if n in data.variables)
     along = data[name]
     unit = along.attrs.get("units", "row")
     frame = float(along.attrs.get("frame", unit == "row"))  # of a frame or row; 0 of times
 
     def end(option: str, given: float | str, half: float) -> float:
-        if frame and not unit_written(str(given)):
+        written = unit_written(str(given))
+        if written is None or (written and (in_si(written) or ("", ""))[1] != "s"):
+            wrong = " must be a time, such as 1.2s, or a frame or row, such as 120"
+            raise InvalidValue(about_option(option, f"{wrong}, got {shown(given)}"))
+        if frame and not written:
             return (float(given) + half) * frame
         if unit != "s":
             wrong = f" must be the number of a {unit}, as the file has no times, got {shown(given)}"

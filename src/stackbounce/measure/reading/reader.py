@@ -16,7 +16,7 @@ from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading import numbers, wav
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
-from stackbounce.measure.reading.layouts import NOT_NAMED, Layout
+from stackbounce.measure.reading.layouts import NOT_NAMED, Layout, columns_of
 from stackbounce.measure.reading.limits import BYTES, refuse_others
 from stackbounce.measure.reading.options import ReadOptions, apply_options, of_run, part_of
 from stackbounce.measure.reading.roles import Column
@@ -90,7 +90,7 @@ def read(
         - track: `x`, `y` (time, track), NaN where a track has no point; in ``px`` and over frames
           where neither the file nor an option tells scale and frame rate
         - knocks: `knock_time` (knock)
-        - bounces: `knock_time` (knock), `height` and `energy` (bounce), by phyphox
+        - bounces: `knock_time` (knock), by phyphox
         - press curve: `compression`, `force` (point)
         - table: whatever there is (row)
 
@@ -195,20 +195,20 @@ def _from_tables(tables: Tables, options: ReadOptions) -> "xr.Dataset":
     if options.table is not None:
         names = [chosen(tables, options.table)]
     options = replace(options, table=None, decimal=tables.decimal or options.decimal)
-    read: list[tuple[str, xr.Dataset]] = []
+    read: dict[str, xr.Dataset] = {}
     for name in names:
         try:
             content = bytearray(tables.members.pop(name))
             inner = from_project(content)  # one of Tracker in a zip archive
             own = _from_tables(inner, options) if inner else _from_table(name, content, options)
-            read.append((name, own))
         except StackbounceError as error:
             if name == names[-1] and not read:
                 raise type(error)(Message.of(error).of_file(name)) from error
             continue
-        if read[-1][1].attrs["holds"] != "table":
+        read[name] = own
+        if own.attrs["holds"] != "table":
             break
-    name, data = next((entry for entry in read if entry[1].attrs["holds"] != "table"), read[0])
+    name, data = min(read.items(), key=lambda entry: entry[1].attrs["holds"] == "table")
     if tables.program and not data.attrs["format"].startswith(tables.program):
         data.attrs["format"] = tables.program
     data.attrs["why"] = "; ".join(filter(None, [tables.why, data.attrs["why"]]))
@@ -224,10 +224,8 @@ def _from_table(name: str, content: bytearray, options: ReadOptions) -> "xr.Data
     layout, columns, table, doubts, runs = _table(name, content, options)
     _count(layout, columns, table)
     doubts += _flaws(table)
-    values = table.values
-    if layout.holds != "bounces":
-        columns, values = _numeric(columns, table)
-        columns = without_counts(columns, values)
+    columns, values = _numeric(columns, table)
+    columns = without_counts(columns, values)
     holds = options.holds or layout.holds or holds_of(columns)
     if holds == "bounces" != layout.holds:
         whose = ": only phyphox's (in)elastic collision holds bounces"
@@ -244,7 +242,7 @@ def _table(
     The text is freed on return, as it may be larger than all of these.
     """
     rows_in: Callable[[Sequence[int]], numbers.Table]
-    if numbers.is_array(content):
+    if content.startswith(np.lib.format.MAGIC_PREFIX):
         array = numbers.array_in(content)
         layout, doubts = numbers.layout_of_array(array), []
         rows_in = partial(numbers.rows_of_array, array)
@@ -255,9 +253,10 @@ def _table(
         if layout.end is not None:
             text = replace(text, content=text.content[: layout.end])
         rows_in, doubts = partial(numbers.rows_of, text, layout.first), list(text.doubts)
-    named, unsure = _meant(layout, options)
-    columns = apply_options(named, options)
-    doubts += () if options.names else unsure
+    if layout.bare and _told(layout, options):
+        layout = replace(layout, columns=columns_of([], len(layout.columns)), doubts=(NOT_NAMED,))
+    doubts += () if options.names else layout.doubts
+    columns = apply_options(layout.columns, options)
     columns, runs = of_run(columns, options.run, doubts)
     places = [column.index for column in columns if column.index >= 0]
     table = rows_in(places)
@@ -268,14 +267,10 @@ def _table(
     return layout, columns, table, doubts, runs
 
 
-def _meant(layout: Layout, options: ReadOptions) -> tuple[Sequence[Column], Sequence[str]]:
-    """Return the columns of a layout, or what they look like, and what is unsure."""
-    if layout.guess is None:
-        return layout.columns, layout.doubts
-    columns, doubt = layout.guess
-    if options.names or options.holds not in (None, holds_of(on_frames(columns)[0])):
-        return layout.columns, (NOT_NAMED,)
-    return columns, (doubt,)
+def _told(layout: Layout, options: ReadOptions) -> bool:
+    """Return whether options say something else of columns than what they look like."""
+    looks = holds_of(on_frames(layout.columns)[0])
+    return bool(options.names) or options.holds not in (None, looks)
 
 
 def _count(layout: Layout, columns: Sequence[Column], table: numbers.Table) -> None:
@@ -306,9 +301,8 @@ def _flaws(table: numbers.Table) -> list[str]:
     flaws = (
         (strange, f"cells are no numbers, the first {first}: taken as missing"),
         (table.words, f"lines among the numbers are words, first {word}: left out"),
-        (table.infinite, "numbers are infinite, beyond the range: taken as missing"),
+        (table.beyond, "numbers are beyond any instrument's range: taken as missing"),
         (table.longer, "rows have more cells than the others"),
-        (table.shorter, "rows have fewer cells than the others"),
     )
     return [f"{count} {words}" for count, words in flaws if count]
 

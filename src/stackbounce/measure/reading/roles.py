@@ -81,7 +81,7 @@ def heading(text: str, unit: str | None = None) -> Heading:
     ('N', 'N', 'volt')
     """
     text = " ".join(text.lstrip("#%").split())[:200]
-    name, run = text, ""
+    name, run = text.removesuffix(" Auto"), ""  # of times that Capstone counts itself
     if (found := _AFTER.fullmatch(name)) or (found := _BEFORE.fullmatch(name)):
         before = found.re is _BEFORE
         run, name = (found[1], found[2]) if before else (found[2], found[1])
@@ -159,8 +159,7 @@ class Column:
         said = self.heading if unit is None else replace(self.heading, unit=unit)
         role, factor, symbol, doubt = _role(name or self.heading.name, said.unit, self.role)
         if name:
-            frames = name == "time" and self.role == "frame"  # which are its times
-            role = "frame" if frames else name if name in ROLES else ""
+            role = name if name in ROLES else ""
         named = name or self.named
         return Column(self.index, said, role, factor, symbol, self.track, named, doubt)
 
@@ -182,7 +181,6 @@ def column(index: int, said: Heading, role: str = "", track: str = "") -> Column
 def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
     """Return role, factor to SI, SI unit and a doubt; `told` is a role that is already known."""
     word = " ".join(name.casefold().replace("_", " ").split())
-    unit = "s" if unit == "S" else unit  # oscilloscopes mean seconds, not siemens
     factor, symbol = (in_si(unit) if unit else None) or (1.0, "")
     doubt = ""
     if _PIXELS.fullmatch(unit):
@@ -205,8 +203,6 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
         symbol = "s"
     if role in ("x", "y") and not told and factor >= _FAR:
         role = ""
-    if role == "sound" and unit in ARBITRARY:
-        symbol = "1"
     if not role and symbol in _BY_UNIT and not _BETWEEN.search(word):
         role = _BY_UNIT[symbol]
     if role == "force" and symbol == "kg":

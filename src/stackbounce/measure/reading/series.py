@@ -4,7 +4,7 @@ Digits tell to what steps times were rounded, whether they are even, and what th
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import UTC, datetime
 from decimal import Decimal
 from typing import TypeAlias
@@ -21,8 +21,6 @@ from stackbounce.measure.reading.roles import Column
 _UNITS = {"s": (1.0, "seconds"), "ms": (1e-3, "milliseconds"), "µs": (1e-6, "microseconds"),
           "ns": (1e-9, "nanoseconds")}  # fmt: skip
 _EPOCH = (631152000.0, 4102444800.0)  # s since 1970, from 1990 to 2100
-_LONGEST = 3600.0  # s: steps of times since 1970, which may be those of a slow sensor
-_SHORTEST = 1e-9  # s: no step is shorter
 _RUNS = 50
 """Runs below each other, at most: with more, the column does not hold times."""
 
@@ -83,15 +81,19 @@ def on_the_clock(
     if not places:
         return found, []
     since = {k: _epoch(found[k], values[:, k]) for k in places}
-    elapsed = [k for k in places if not since[k]]
-    at = (elapsed or places)[0]
-    for k in places if elapsed else ():
-        if since[k]:  # seconds since the start stand beside it
+    at = min(places, key=lambda k: since[k] != "")  # seconds since the start, if there are some
+    for k in places:
+        if since[k] and k != at:
             found[k] = replace(found[k], role="", unit="", named=found[k].named or "date")
     if since[at]:
         factor, words = _UNITS[since[at]]
-        found[at], doubt = _relative(found[at], values[:, at], factor, words)
-        return found, [doubt]
+        times = values[:, at]
+        first = times[np.isfinite(times)][0]
+        times -= first
+        when = datetime.fromtimestamp(factor * first, UTC).strftime("%Y-%m-%d %H:%M:%S UTC")
+        name = found[at].heading.name or found[at].variable
+        found[at] = replace(found[at], factor=factor, unit="s")
+        return found, [f"{name} counts {words} since 1970: taken from the first on, {when}"]
     found[at], doubts = _by_steps(kind, found[at], values[:, at])
     return found, doubts
 
@@ -101,43 +103,27 @@ def _epoch(column: Column, times: Array) -> str:
     known = times[np.isfinite(times)]
     if not known.size:
         return ""
-    first, last, step = float(known[0]), float(known[-1]), _usual_step(known)
     for unit, (factor, _) in _UNITS.items():
         told = not column.unit or abs(column.factor / factor - 1.0) < 1e-9
-        within = all(_EPOCH[0] < factor * time < _EPOCH[1] for time in (first, last))
-        if told and within and factor * step <= _LONGEST:
+        if told and all(_EPOCH[0] < factor * time < _EPOCH[1] for time in known[[0, -1]]):
             return unit
     return ""
-
-
-def _relative(column: Column, times: Array, factor: float, words: str) -> tuple[Column, str]:
-    first = float(times[np.isfinite(times)][0])
-    times -= first
-    when = datetime.fromtimestamp(factor * first, UTC).strftime("%Y-%m-%d %H:%M:%S UTC")
-    name = column.heading.name or column.variable
-    doubt = f"{name} counts {words} since 1970: taken from the first on, {when}"
-    return replace(column, factor=factor, unit="s"), doubt
 
 
 def _by_steps(kind: Kind, column: Column, times: Array) -> tuple[Column, list[str]]:
     """Return a column of times, in the longest unit whose steps are not too long for the kind."""
     step = _usual_step(times[np.isfinite(times)])
-    if column.unit or column.heading.unit or not kind.longest_step < step < 1e300:
+    fitting = [unit for unit in _UNITS if _UNITS[unit][0] * step <= kind.longest_step]
+    if column.unit or column.heading.unit or not fitting or fitting[0] == "s":
         return column, []
-    fit = ((unit, factor) for unit, (factor, _) in _UNITS.items())
-    unit, factor = next(
-        ((unit, factor) for unit, factor in fit if factor * step <= kind.longest_step), ("s", 1.0)
-    )
-    if unit == "s" or factor * step < _SHORTEST:
-        return column, []
-    name = column.heading.name or str(column.index + 1)
+    name = column.heading.name or column.index + 1
     doubt = Message(
-        f"no unit is told for {name}: taken as {unit}, as steps of {step:.4g} s are too long for "
-        f"a file of {kind.name}; ",
-        OptionHint({"units": {name if column.heading.name else column.index + 1: "s"}}),
+        f"no unit is told for {name}: taken as {fitting[0]}, as steps of {step:.4g} s are too long "
+        f"for a file of {kind.name}; ",
+        OptionHint({"units": {name: "s"}}),
         " tells another",
     )
-    return replace(column, factor=factor, unit="s"), [doubt]
+    return replace(column, factor=_UNITS[fitting[0]][0], unit="s"), [doubt]
 
 
 def _usual_step(times: Array) -> float:
@@ -181,17 +167,17 @@ def in_time(
     if own.size > 1 and own[0] == own[-1]:
         constant = f"time is {factor * own[0]:.6g} {unit} in all of {own.size} rows: "
         raise InvalidValue(Message(constant, _ANOTHER))
-    rounded = rounding_of(own)
+    rounded = rounding_steps(own)
     even = even_times(own, rounded)
     repeated = int(np.count_nonzero(np.diff(own) == 0.0))
     if even is not None:
         step = factor * (own[-1] - own[0]) / (own.size - 1)
-        digits = factor * float(rounded.steps(own[[0, -1]]).max())
+        digits = factor * float(rounded[[0, -1]].max())
         to = f"{digits:.2g} {unit}" + f" ({repeated} repeat)" * (repeated > 0)
         even_step = f"taken as even, with a step of {step:.6g} {unit}"
         return rows, factor * even, [*doubts, f"times are rounded to {to}: {even_step}"]
     if repeated:
-        step = factor * float(np.median(rounded.steps(own)))
+        step = factor * float(np.median(rounded))
         doubts.append(
             f"{repeated} times are repeated: spread over the {step:.2g} {unit} of their digits"
         )
@@ -222,23 +208,11 @@ def _of_run(rows: _Rows, own: Array, run: object) -> tuple[_Rows, Array, list[st
 def _gaps(own: Array, unit: str) -> list[str]:
     steps = np.diff(own)
     usual = float(np.median(steps)) if steps.size else 0.0
-    if not usual > 0.0:
-        return []
-    off = steps - usual
-    regular = np.mean(np.abs(off, out=off) < 0.01 * usual) > 0.5
+    regular = np.count_nonzero(np.abs(steps - usual) < 0.01 * usual) > 0.5 * steps.size
     wide = np.flatnonzero(steps > 1.5 * usual)
     if not (regular and wide.size):
         return []
     return [f"{wide.size} gaps in time, the first after {own[wide[0]]:.6g} {unit}"]
-
-
-def step_of(time: Array) -> float:
-    """Return the step of times, their mean one if they have no gaps; NaN of fewer than two."""
-    if time.size < 2:
-        return float("nan")
-    steps = np.diff(time)
-    mean = float(time[-1] - time[0]) / steps.size
-    return mean if steps.max() < 1.5 * mean else float(np.median(steps))
 
 
 def _counted(run: object, count: int) -> int:
@@ -248,50 +222,16 @@ def _counted(run: object, count: int) -> int:
     return int(str(run))
 
 
-@dataclass(frozen=True)
-class Rounding:
-    """How numbers were rounded: to decimals, to digits, or to a float of 32 bits.
+def rounding_steps(values: Array) -> Array:
+    """Return the distance of neighbouring numbers that could be written, at each finite value.
 
-    Parameters
-    ----------
-    decimals : int
-        The most that a number has behind the decimal point; negative where all are whole tens.
-    digits : int
-        The most that a number has.
-    single : bool
-        Whether all are floats of 32 bits.
-    """
-
-    decimals: int
-    digits: int
-    single: bool
-
-    def steps(self, values: Array) -> Array:
-        """Return the distance of neighbouring numbers that could be written, at each value.
-
-        Examples
-        --------
-        >>> Rounding(4, 6, False).steps(np.array([0.5, 12.5, 123.5])).tolist()
-        [0.0001, 0.0001, 0.001]
-        """
-        size = np.maximum(np.abs(values), 1e-300)
-        written = 10.0 ** (np.floor(np.log10(size) * (1.0 + 1e-15)) + 1 - self.digits)
-        written = np.maximum(written, 10.0 ** float(-self.decimals))
-        if self.single:
-            binary = np.spacing(np.abs(values).astype(np.float32)).astype(np.float64)
-            written += binary
-        return np.asarray(written)
-
-
-def rounding_of(values: Array) -> Rounding:
-    """Return how finite numbers were rounded.
+    The digits tell whether the numbers were rounded to decimals, to digits, or to a float of 32
+    bits, of which programs write nine.
 
     Examples
     --------
-    >>> rounding_of(np.array([0.0, 0.0226757, 453.492]))
-    Rounding(decimals=7, digits=6, single=False)
-    >>> rounding_of(np.array([0.1, 0.7], dtype=np.float32).astype(float)).single
-    True
+    >>> rounding_steps(np.array([0.0025, 12.5678, 123.456])).tolist()
+    [0.0001, 0.0001, 0.001]
     """
     some = values[:: max(1, len(values) // _COUNTED)]
     decimals, digits = -300, 1
@@ -302,18 +242,21 @@ def rounding_of(values: Array) -> Rounding:
             digits = max(digits, len(figures))
     near = some.astype(np.float32).astype(np.float64)
     single = bool(np.all(np.abs(some - near) <= _NINTH_DIGIT * np.abs(some)))
-    return Rounding(decimals, digits, single and digits > _SINGLE_DIGITS)
+    size = np.maximum(np.abs(values), 1e-300)
+    steps = 10.0 ** (np.floor(np.log10(size) * (1.0 + 1e-15)) + 1 - digits)
+    steps = np.maximum(steps, 10.0 ** float(-decimals))
+    if single and digits > _SINGLE_DIGITS:
+        steps += np.spacing(np.abs(values).astype(np.float32)).astype(np.float64)
+    return np.asarray(steps)
 
 
-def even_times(times: Array, rounded: Rounding) -> Array | None:
+def even_times(times: Array, steps: Array) -> Array | None:
     """Return even times that agree with all given ones within their rounding.
 
     Parameters
     ----------
-    times : ndarray
-        (n,) as they are written, never decreasing.
-    rounded : Rounding
-        To what.
+    times, steps : ndarray
+        (n,) as they are written, never decreasing, and what each was rounded to.
 
     Returns
     -------
@@ -322,7 +265,7 @@ def even_times(times: Array, rounded: Rounding) -> Array | None:
 
     Examples
     --------
-    >>> even_times(np.round(np.arange(100) / 30.0, 2), Rounding(2, 3, False))[1:5].round(3)
+    >>> even_times(np.round(np.arange(100) / 30.0, 2), np.full(100, 0.01))[1:5].round(3)
     array([0.033, 0.067, 0.1  , 0.133])
     """
     count = len(times)
@@ -332,7 +275,7 @@ def even_times(times: Array, rounded: Rounding) -> Array | None:
     places = np.arange(count, dtype=np.float64)
     off = times[0] + step * places
     np.abs(np.subtract(times, off, out=off), out=off)
-    half = np.maximum(0.5 * rounded.steps(times), _UNSEEN * step)
+    half = np.maximum(0.5 * steps, _UNSEEN * step)
     if off.max() <= _UNSEEN * step or (off > 2.0 * half + half[-1] + half[0]).any():
         return None
     odd = np.abs(np.diff(times) - step) > _ODD * step
@@ -342,27 +285,19 @@ def even_times(times: Array, rounded: Rounding) -> Array | None:
     return even if (np.abs(times - even) <= (1.0 + _SLACK) * half).all() else None
 
 
-def spread(times: Array, rounded: Rounding) -> Array:
+def spread(times: Array, steps: Array) -> Array:
     """Return times in which those that repeat are spread over what they were rounded to.
 
     Parameters
     ----------
-    times : ndarray
-        (n,) as they are written, never decreasing.
-    rounded : Rounding
-        To what.
+    times, steps : ndarray
+        (n,) as they are written, never decreasing, and what each was rounded to.
 
     Examples
     --------
-    >>> spread(np.array([0.0, 0.1, 0.1, 0.2]), Rounding(1, 1, False)).round(3)
+    >>> spread(np.array([0.0, 0.1, 0.1, 0.2]), np.full(4, 0.1)).round(3)
     array([0.   , 0.075, 0.125, 0.2  ])
     """
-    different, first, counts = np.unique(times, return_index=True, return_counts=True)
-    half = 0.5 * rounded.steps(different)
-    between = 0.5 * np.diff(different)
-    low = -np.minimum(half, np.concatenate([half[:1], between]))
-    high = np.minimum(half, np.concatenate([between, half[-1:]]))
-    of = np.repeat(np.arange(len(different)), counts)
+    _, first, of, counts = np.unique(times, True, True, True)
     place = (np.arange(len(times)) - first[of] + 0.5) / counts[of]
-    moved = times + low[of] + (high - low)[of] * place
-    return np.where(counts[of] > 1, moved, times)
+    return np.sort(times + steps * (place - 0.5))  # where fewer digits begin, steps overlap

@@ -16,8 +16,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 from xml.etree.ElementTree import Element, ParseError, fromstring
 
-import numpy as np
-
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
 from stackbounce.extras import need
 from stackbounce.measure.messages import about_option
@@ -56,8 +54,6 @@ class Tables:
         Which program wrote the file, if that is known without its tables.
     why : str, optional
         By what it was recognised.
-    kind : str, optional
-        What the file is called in messages.
     decimal : str, optional
         The decimal mark of its tables, where that is known.
     """
@@ -65,7 +61,6 @@ class Tables:
     members: dict[str, bytes]
     program: str = ""
     why: str = ""
-    kind: str = "archive"
     decimal: str | None = None
 
 
@@ -77,28 +72,18 @@ def as_text(rows: Iterable[Sequence[object]]) -> bytes:
     >>> as_text([("t (s)", "y"), (0.5, None)])
     b't (s)\ty\n0.5\t\n'
     """
-    text = io.StringIO()
-    for row in rows:
-        text.write("\t".join(map(_cell, row)))
-        text.write("\n")
-    return text.getvalue().encode()
+    lines = ("\t".join(map(_cell, row)) + "\n" for row in rows)
+    return "".join(lines).encode()
 
 
 def _cell(value: object) -> str:
-    if value is None:
-        return ""
-    if isinstance(value, float | np.floating):
-        return repr(float(value))
-    return " ".join(str(value).split())
+    return "" if value is None else " ".join(str(value).split())
 
 
 def tables_in(content: bytearray) -> Tables | None:
     """Return the tables in a packing of its own, each as a program writes it; None if it is one."""
     if content.startswith((b"PK\x03\x04", b"PK\x05\x06")):
-        is_book = b"xl/workbook.xml" in content or b"xl/workbook.bin" in content
-        return from_xlsx(content) if is_book else from_zip(content)
-    if content.startswith(b"\xd0\xcf\x11\xe0"):
-        raise FileError("it is an old Excel file (.xls): save it as .xlsx or CSV")
+        return from_xlsx(content) if b"xl/workbook.xml" in content else from_zip(content)
     return from_project(content)
 
 
@@ -119,7 +104,7 @@ def chosen(tables: Tables, table: object) -> str:
             found.append(name)
     if len(found) != 1:
         near = nearest(table, tables.members)
-        wrong = f" must be one in the {tables.kind}, got {shown(table)}; {near}"
+        wrong = f" must be one in the file, got {shown(table)}; {near}"
         raise InvalidValue(about_option("table", wrong))
     return found[0]
 
@@ -142,7 +127,8 @@ def from_zip(content: bytearray) -> Tables:
     except FileError:
         raise
     except _BROKEN as error:
-        raise FileError(f"it is a broken zip archive: {' '.join(str(error).split())}") from error
+        why = " ".join(str(error).split())
+        raise FileError(f"it is a zip archive that cannot be unpacked: {why}") from error
 
 
 def _tables(archive: zipfile.ZipFile) -> Tables:
@@ -160,13 +146,9 @@ def _tables(archive: zipfile.ZipFile) -> Tables:
     found: dict[str, bytes] = {}
     left = BYTES
     for entry in wanted:
-        name = shown(entry.filename)
-        if entry.flag_bits & 1:
-            raise FileError(f"its {name} is locked by a password: unpack it")
-        if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-            raise FileError(f"its {name} is packed in an unusual way: unpack it")
         if entry.file_size > 2**20 and entry.file_size > _RATIO * max(entry.compress_size, 1):
-            raise FileError(f"its {name} would unpack to more than {_RATIO} times its size")
+            much = f"more than {_RATIO} times its size"
+            raise FileError(f"its {shown(entry.filename)} would unpack to {much}")
         found[entry.filename] = _unzip(archive, entry, left)
         left -= len(found[entry.filename])
     if all(name.endswith(".npy") for name in names):
@@ -213,7 +195,7 @@ def from_xlsx(content: bytearray) -> Tables:
     found = {name: found[name] for name in names if found[name].strip()}
     if not found:
         raise FileError("it is a spreadsheet without any cell: save the one with numbers")
-    return Tables(found, "", "it is a sheet of a spreadsheet", "spreadsheet", ".")
+    return Tables(found, "", "it is a sheet of a spreadsheet", ".")
 
 
 def _sheets(content: bytearray) -> Iterator[tuple[str, _Rows]]:
@@ -323,7 +305,7 @@ def _tracker(tree: Element) -> Tables:
             for k, one in _frames(mass)
         }
         if points:
-            name = (_text(mass, "name") or "mass").replace("\t", " ")
+            name = _text(mass, "name") or "mass"
             seen[name if name not in seen else f"{name} {len(seen) + 1}"] = points
     if not seen:
         raise FileError("it is a file of Tracker without a track of a point mass")
@@ -338,7 +320,7 @@ def _tracker(tree: Element) -> Tables:
         places = (cell for row in seen.values() for cell in row.get(k, (None, None)))
         rows.append([1e-3 * (begin + step * (k - start)), *places])
     why = "its XML is Tracker's; pixels are converted by its clock, axes and scale"
-    return Tables({"tracks": as_text(rows)}, "Tracker", why, "file", ".")
+    return Tables({"tracks": as_text(rows)}, "Tracker", why, ".")
 
 
 def _logger_pro(tree: Element) -> Tables:
@@ -364,7 +346,7 @@ def _logger_pro(tree: Element) -> Tables:
     padded = [column + [""] * (length - len(column)) for column in columns]
     why = "its XML is Logger Pro's"
     members = {"data": as_text([names, *zip(*padded, strict=True)])}
-    return Tables(members, "Logger Pro", why, "file", ".")
+    return Tables(members, "Logger Pro", why, ".")
 
 
 def _objects(tree: Element, of: str) -> Iterator[Element]:

@@ -4,9 +4,10 @@ import csv
 import re
 from collections import Counter
 from dataclasses import dataclass
+from itertools import accumulate
 
-from stackbounce.errors import FileError, InvalidValue, shown
-from stackbounce.measure.messages import Message, OptionHint, about_option
+from stackbounce.errors import FileError, shown
+from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.reading.limits import COLUMNS, LINE
 
 HEAD = 200
@@ -65,20 +66,14 @@ def decode(content: bytearray) -> str:
     Raises
     ------
     FileError
-        If they are no text in UTF-8, UTF-16, Latin-1 or cp1250.
+        If they are no text in UTF-8, marked UTF-16, Latin-1 or cp1250.
     """
     marks = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
-    encoding = next((name for mark, name in marks if content.startswith(mark)), "")
-    start = content[:1000]
-    if not encoding and b"\0" in start:
-        low, high = sorted((start[k::2].count(0), 2 - k) for k in (0, 1))
-        if low[0] or 8 * high[0] < len(start):  # numbers as text have zeros in each second byte
-            raise FileError(_BINARY)
-        encoding = "utf-16-le" if high[1] == 1 else "utf-16-be"
+    encoding = next((name for mark, name in marks if content.startswith(mark)), "utf-8")
     try:
-        text = content.decode(encoding or "utf-8")
+        text = content.decode(encoding)
     except UnicodeDecodeError as error:
-        if "16" in encoding:
+        if encoding == "utf-16":
             raise FileError(_BINARY) from error
         text = content.decode("latin-1")
         if _CENTRAL.search(text[:1000]):
@@ -87,9 +82,7 @@ def decode(content: bytearray) -> str:
     strange = len(_CONTROL.findall(text[:100_000]))
     if strange > len(text[:100_000]) / 1000:
         raise FileError(_BINARY)
-    if "\r" in text:
-        text = text.replace("\r\n", "\n").replace("\r", "\n")
-    return text
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def split(line: str, delimiter: str) -> list[str]:
@@ -164,8 +157,6 @@ def tabulate(content: str, decimal: str | None, name: str) -> Text:
     FileError
         If a line is too long, there are too many columns, or there is no row of numbers.
     """
-    if decimal not in (None, ".", ","):
-        raise InvalidValue(about_option("decimal", f' must be "." or ",", got {shown(decimal)}'))
     starts, lines = _head(content)
     scores = {delimiter: _score(lines, delimiter, decimal or ".,") for delimiter in _DELIMITERS}
     if decimal == "," and not any('"' in line for line in lines):
@@ -186,18 +177,12 @@ def tabulate(content: str, decimal: str | None, name: str) -> Text:
 
 
 def _head(content: str) -> tuple[list[int], list[str]]:
-    starts: list[int] = []
-    lines: list[str] = []
-    start = 0
-    while start < len(content) and len(lines) < HEAD and start < LINE:
-        end = content.find("\n", start, start + LINE)
-        if end < 0 and len(content) > start + LINE:
-            raise FileError(f"line {len(lines) + 1} has more than {LINE} characters")
-        end = len(content) if end < 0 else end
-        starts.append(start)
-        lines.append(content[start:end])
-        start = end + 1
-    return starts, lines
+    lines = content[:LINE].split("\n", HEAD)[:HEAD]
+    if len(content) > LINE and len(lines) < HEAD:
+        lines.pop()  # it is cut off
+    if not lines:
+        raise FileError(f"its first line has more than {LINE} characters")
+    return [0, *accumulate(len(line) + 1 for line in lines[:-1])], lines
 
 
 def count_numbers(row: list[str], decimal: str) -> int:

@@ -128,49 +128,35 @@ def rows_by_frame(columns: Sequence[Column], values: Array) -> _Tracks:
 
 
 def _side_by_side(columns: Sequence[Column], values: Array, time: int, at: int) -> _Tracks:
-    ids, counts = np.unique(values[np.isfinite(values[:, at]), at], return_counts=True)
-    longest = np.sort(ids[np.argsort(-counts, kind="stable")[:_TRACKS]])
-    rows = [np.flatnonzero(values[:, at] == track) for track in longest]
-    if not rows:
-        without = [k for k in range(len(columns)) if k != at]
-        return [columns[k] for k in without], values[:, without], []
+    import pandas as pd
+
+    points = pd.DataFrame(values).dropna(subset=[time, at])
+    lengths = points[at].value_counts()
+    longest = points[points[at].isin(lengths.index[:_TRACKS])]
     places = [k for k, column in enumerate(columns) if column.role in ("x", "y")]
-    times = np.unique(values[np.concatenate(rows), time])
-    times = times[np.isfinite(times)]
-    table = np.full((len(times), 1 + len(rows) * len(places)), np.nan)
-    table[:, 0] = times
-    found = [columns[time]]
-    for track, own in zip(longest, rows, strict=True):
-        own = own[np.isfinite(values[own, time])]
-        to = np.searchsorted(times, values[own, time])
-        for k in places:
-            table[to, len(found)] = values[own, k]
-            found.append(replace(columns[k], track=f"track {track:g}"))
-    left = len(ids) - len(longest)
-    doubts = [f"{left} shorter tracks are left out"] if left else []
-    return found, table, doubts
+    table = longest.drop_duplicates([time, at], keep="last").pivot(
+        index=time, columns=at, values=places
+    )
+    found = [replace(columns[k], track=f"track {track:g}") for k, track in table.columns]
+    left = len(lengths) - _TRACKS
+    doubts = [f"{left} shorter tracks are left out"] if left > 0 else []
+    return [columns[time], *found], table.reset_index().to_numpy(np.float64), doubts
 
 
 def _nearest(frames: Array, places: Array) -> list[int]:
     """Return one row of each run of equal frames, that next to the row kept before."""
     kept: list[int] = []
-    start = 0
-    edges = np.flatnonzero(np.diff(frames) != 0.0) + 1
-    for end in [*edges.tolist(), len(frames)]:
-        own = places[start:end]
-        if end - start == 1 or not kept:
-            kept.append(start)
-        else:
-            far = np.nansum((own - places[kept[-1]]) ** 2, axis=1)
-            kept.append(start + int(np.argmin(far)))
-        start = end
+    for row, frame in enumerate(frames):
+        if not kept or frame != frames[kept[-1]]:
+            kept.append(row)
+        elif kept[1:]:
+            far = np.linalg.norm(places[[kept[-1], row]] - places[kept[-2]], axis=1)
+            kept[-1] = row if far[1] < far[0] else kept[-1]
     return kept
 
 
 def _linked(columns: Sequence[Column], values: Array, time: int) -> _Tracks:
     """Return tracks that are put together from points, each next to where it should be."""
-    back = np.flatnonzero(np.diff(values[:, time]) < 0.0)
-    values = values[: back[0] + 1] if back.size else values
     x, y = (
         {column.track: k for k, column in enumerate(columns) if column.role == axis}
         for axis in "xy"

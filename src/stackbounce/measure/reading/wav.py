@@ -20,7 +20,7 @@ _STREAMED = (0, 0xFFFFFFFF)  # sizes that recorders write before they know the e
 
 def is_wav(content: bytearray) -> bool:
     """Return whether bytes are a RIFF file of the kind WAVE."""
-    riff = content.startswith((b"RIFF", b"RF64", b"RIFX"))
+    riff = content.startswith((b"RIFF", b"RF64"))
     return riff and bytes(content[8:12]) in (b"WAVE", b"")
 
 
@@ -37,9 +37,8 @@ def read_wav(content: bytearray) -> tuple["xr.Dataset", str, list[str]]:
     """
     import xarray as xr
 
-    order = ">" if content[:4] == b"RIFX" else "<"
-    form, start, size = _found(content, order)
-    channels, rate, _, frame = struct.unpack_from(f"{order}HIIH", form, 2)
+    form, start, size = _found(content)
+    channels, rate, _, frame = struct.unpack_from("<HIIH", form, 2)
     if not 0 < channels <= frame or rate < 1:
         raise FileError(
             f"it is a WAV sound, but broken: {channels} channels in {frame} bytes at {rate} Hz"
@@ -55,7 +54,7 @@ def read_wav(content: bytearray) -> tuple["xr.Dataset", str, list[str]]:
     if frames * channels > CELLS:
         raise FileError(f"it is a WAV sound of more than {CELLS} samples: cut out the bounces")
     part = memoryview(content)[start : start + frames * frame]
-    samples = _decoded(form, part, order, frames)
+    samples = _decoded(form, part, frames)
     sound = _folded(samples)
     integers = samples.dtype.kind in "iu"
     bad = ~np.isfinite(sound)
@@ -73,13 +72,13 @@ def read_wav(content: bytearray) -> tuple["xr.Dataset", str, list[str]]:
     return data, f"it begins as RIFF WAVE: {depth} bit {kind}, {many}, {rate} Hz", doubts
 
 
-def _found(content: bytearray, order: str) -> tuple[bytearray, int, int]:
+def _found(content: bytearray) -> tuple[bytearray, int, int]:
     """Return the format chunk, and where the samples start and their size as the file has it."""
     form, start = bytearray(), 20
     for _ in range(_CHUNKS):
         if start > len(content):
             break
-        name, size = struct.unpack_from(f"{order}4sI", content, start - 8)
+        name, size = struct.unpack_from("<4sI", content, start - 8)
         if name == b"fmt ":
             form = content[start : start + size - size % 2]
             if len(form) < 16:
@@ -91,16 +90,15 @@ def _found(content: bytearray, order: str) -> tuple[bytearray, int, int]:
     raise FileError(f"it is a WAV sound, but broken: {missing} is missing")
 
 
-def _decoded(form: bytearray, samples: memoryview, order: str, frames: int) -> NDArray[Any]:
+def _decoded(form: bytearray, samples: memoryview, frames: int) -> NDArray[Any]:
     """Return samples (frames, channels), from a WAV file of these two chunks with true sizes."""
     from scipy.io import wavfile
 
-    rate, _, frame = struct.unpack_from(f"{order}IIH", form, 4)
-    kind, size = b"RIFX" if order == ">" else b"RIFF", f"{order}I"
+    rate, _, frame = struct.unpack_from("<IIH", form, 4)
     try:
-        struct.pack_into(size, form, 8, rate * frame)  # which some recorders get wrong
-        head = kind + struct.pack(size, 20 + len(form) + len(samples)) + b"WAVEfmt "
-        head += struct.pack(size, len(form)) + form + b"data" + struct.pack(size, len(samples))
+        struct.pack_into("<I", form, 8, rate * frame)  # which some recorders get wrong
+        head = b"RIFF" + struct.pack("<I", 20 + len(form) + len(samples)) + b"WAVEfmt "
+        head += struct.pack("<I", len(form)) + form + b"data" + struct.pack("<I", len(samples))
         _, decoded = wavfile.read(io.BytesIO(b"".join([head, samples])))
         return np.asarray(decoded).reshape(frames, -1)
     except (ValueError, TypeError, ArithmeticError, struct.error) as error:

@@ -131,17 +131,19 @@ def _search(
     since = np.maximum(times[:, None] - tried, 0.0) / (until - tried)
     powers = _POWER + _POWER_CHANGE * tried / lasting
     bends = _BEND + _BEND_CHANGE * tried / lasting
-    table = np.full((len(_POWERS), len(_BENDS), _TIMES), np.inf)
-    for i, power in enumerate(_POWERS):
+    bend = _BENDS[:, None]
+    decreases = []
+    for power in _POWERS:
         rise = since**power / noise
-        plain, bent = (_beside(base, slope) for slope in (rise, rise * since))
+        both = _padded(np.hstack([rise, rise * since]))
+        plain, bent = np.hsplit(both - base @ (base.T @ both), 2)  # beside gain and shift
         along = left @ plain, left @ bent
         size = np.sum(plain**2, axis=0), np.sum(plain * bent, axis=0), np.sum(bent**2, axis=0)
-        for j, bend in enumerate(_BENDS):
-            prior = ((power - powers) / _POWER_ERROR) ** 2 + ((bend - bends) / _BEND_ERROR) ** 2
-            pressing = np.maximum(along[0] + bend * along[1], 0.0)
-            whole = size[0] + 2.0 * bend * size[1] + bend**2 * size[2]
-            table[i, j] = without - pressing**2 / np.maximum(whole, 1e-300) + prior
+        prior = ((power - powers) / _POWER_ERROR) ** 2 + ((bend - bends) / _BEND_ERROR) ** 2
+        pressing = np.maximum(along[0] + bend * along[1], 0.0)
+        whole = size[0] + 2.0 * bend * size[1] + bend**2 * size[2]
+        decreases.append(pressing**2 / np.maximum(whole, 1e-300) - prior)
+    table = without - np.array(decreases)  # (exponents, bends, times)
     least = float(table.min())
     i, j, k = (int(place) for place in np.unravel_index(int(table.argmin()), table.shape))
     best = _padded(since[:, [k]] ** _POWERS[i] * (1.0 + _BENDS[j] * since[:, [k]]) / noise)
@@ -159,9 +161,3 @@ def _search(
 def _padded(columns: Array) -> Array:
     """Return columns with a row of zeros, which stands for the prior of the gain."""
     return np.concatenate([columns, np.zeros((1, columns.shape[1]))])
-
-
-def _beside(base: Array, columns: Array) -> Array:
-    """Return the part of columns that is orthogonal to gain and shift."""
-    padded = _padded(columns)
-    return np.asarray(padded - base @ (base.T @ padded))

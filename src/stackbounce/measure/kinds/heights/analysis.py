@@ -30,7 +30,8 @@ class Heights(Finding):
     restitutions : tuple of ufloat
         Of each bounce. Neighbours share a height, so their errors are correlated.
     mean : ufloat
-        The one restitution that leads from the drop height to the last height.
+        The one restitution that leads from the drop height to the last height; in air, the
+        geometric mean of all.
     repeated : bool
         Whether the heights are those of the first bounce in repeated drops.
     notes : tuple of str
