@@ -19,31 +19,12 @@ statistics/   regression, change points, AR noise
 """
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.extras import need
 
-if TYPE_CHECKING:
-    from stackbounce.measure.constants import dynamic_stiffness as dynamic_stiffness
-    from stackbounce.measure.constants import law_constants as law_constants
-    from stackbounce.measure.constants import one_ball as one_ball
-    from stackbounce.measure.constants import one_law as one_law
-    from stackbounce.measure.drag import Drag as Drag
-    from stackbounce.measure.kinds.acceleration.analysis import accelerometer as accelerometer
-    from stackbounce.measure.kinds.bounces.analysis import bounces as bounces
-    from stackbounce.measure.kinds.heights.analysis import heights as heights
-    from stackbounce.measure.kinds.press.analysis import press as press
-    from stackbounce.measure.kinds.press.series import split_series as split_series
-    from stackbounce.measure.kinds.sound.analysis import knocks as knocks
-    from stackbounce.measure.kinds.track.analysis import track as track
-    from stackbounce.measure.kinds.waveform.analysis import waveform as waveform
-    from stackbounce.measure.kinds.waveform.gap.delay import gap_from_delay as gap_from_delay
-    from stackbounce.measure.kinds.waveform.gap.delay import sensor_gap as sensor_gap
-    from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap as floor_gap
-    from stackbounce.measure.measurement import analyse as analyse
-    from stackbounce.measure.reading import read as read
-
 # Each name is imported when it is first used: the command line's help needs only the options.
+# Checkers of types read `__init__.pyi`.
 _MODULES = {
     "measurement": "analyse",
     "constants": "dynamic_stiffness law_constants one_ball one_law",

@@ -14,15 +14,14 @@ from stackbounce.units import handy, rounded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure, SubFigure
+    from matplotlib.figure import Figure
 
 Array: TypeAlias = NDArray[np.float64]
 
 _REACH = 4.0  # standard errors drawn on both sides
 _WORTH = 9.0  # other minima are drawn if chi squared is less than this above the minimum
-_FINE, _CELLS, _STEPS = 401, 81, 41  # values of a curve, of each side of a map, of a profile
+_STEPS = 61  # values of a profile
 _TOP = 10.0  # upper end of a profile's axis
-_BANDS = (0.0, 1.0, 4.0, 9.0, 16.0, 25.0, 100.0)
 _CURVE, _BEST, _OTHER = COLORS[0], COLORS[1], "white"
 _MEASURED, _FITTED = "#4d4d4d", COLORS[1]
 _MOST_RECORDS = 4
@@ -34,51 +33,27 @@ _SHOWN = 0.998  # central share of the draws within the axes
 _WITHIN = (0.393, 0.865)  # of the draws of two: one and two standard deviations of a Gaussian
 
 
-def draw_profile(axes: "Axes", fit: Any) -> None:
-    """Draw chi squared against the only fitted parameter, and its error."""
-    x = np.linspace(*_extent(fit, 0), _FINE)
-    parameter = fit.objective.parameters[0]
-    values = parameter.value(x)
-    above = fit.objective.chi_squared(x[:, None]) - fit.chi_squared
-    _draw_curve(axes, values, above)
+def draw_profile(axes: "Axes", fit: Any, k: int) -> None:
+    """Draw chi squared against a fitted parameter, with all others fitted anew, and its error."""
+    parameter = fit.objective.parameters[k]
+    values = parameter.value(np.linspace(*_extent(fit, k), _STEPS))
+    for rise, text in ((1.0, "1 σ"), (4.0, "2 σ")):
+        axes.axhline(rise, color="#404040", linestyle="--", linewidth=0.8)
+        place: Any = {"transform": axes.get_yaxis_transform(), "ha": "right", "va": "bottom"}
+        axes.text(0.995, rise, text, fontsize=8, **place)
+    axes.plot(values, fit.profile(parameter.name, values) - fit.chi_squared, color=_CURVE)
     best = fit[parameter.name]
     for at in (best.nominal_value - best.std_dev, best.nominal_value + best.std_dev):
         axes.axvline(at, color=_BEST, linewidth=0.8)
-    for k, minimum in enumerate(fit.minima):
+    for j, minimum in enumerate(fit.minima):
         more = minimum.chi_squared - fit.chi_squared
-        look: Any = {"color": _BEST if k == 0 else _OTHER, "markeredgecolor": "black"}
-        axes.plot(parameter.value(minimum.x), more, "o", zorder=4, clip_on=False, **look)
+        look: Any = {"color": _BEST if j == 0 else _OTHER, "markeredgecolor": "black"}
+        axes.plot(parameter.value(minimum.x[k]), more, "o", zorder=4, clip_on=False, **look)
     axes.set_xlim(values[0], values[-1])
     axes.set_ylim(0.0, _TOP)
-    label(axes, "x", parameter.name, _scale(fit, 0, values))
+    log = parameter.logarithmic and values[-1] > 3.0 * values[0]
+    label(axes, "x", parameter.name, Scale(values, log, parameter.unit))
     axes.set_ylabel("chi squared above its minimum")
-
-
-def draw_map(figure: "SubFigure", fit: Any) -> None:
-    """Draw chi squared over two parameters, and the profile of each beside the map."""
-    grid: Any = {"width_ratios": (4, 1.2), "height_ratios": (1.2, 4)}
-    (top, corner), (axes, right) = figure.subplots(2, 2, sharex="col", sharey="row", **grid)
-    corner.set_axis_off()
-    across, up = (np.linspace(*_extent(fit, k), _CELLS) for k in (0, 1))
-    trials = np.stack([axis.ravel() for axis in np.meshgrid(across, up)], axis=1)
-    above = (fit.objective.chi_squared(trials) - fit.chi_squared).reshape(_CELLS, _CELLS)
-    x, y = (
-        parameter.value(own)
-        for parameter, own in zip(fit.objective.parameters, (across, up), strict=True)
-    )
-    _draw_bands(axes, x, y, np.maximum(above, 0.0))
-    _draw_minima(axes, fit)
-    for k, (panel, values, turned) in enumerate(((top, x, False), (right, y, True))):
-        chosen = values[:: (_CELLS - 1) // (_STEPS - 1)]
-        rise = fit.profile(fit.names[k], chosen) - fit.chi_squared
-        _draw_curve(panel, chosen, rise, turned=turned)
-        getattr(panel, "set_xlim" if turned else "set_ylim")(0.0, _TOP)
-    axes.set_xlim(x[0], x[-1])
-    axes.set_ylim(y[0], y[-1])
-    for k, (which, values) in enumerate((("x", x), ("y", y))):
-        label(axes, which, fit.names[k], _scale(fit, k, values))
-    top.set_ylabel("profile")
-    right.set_xlabel("profile")
 
 
 def _extent(fit: Any, k: int) -> tuple[float, float]:
@@ -91,49 +66,6 @@ def _extent(fit: Any, k: int) -> tuple[float, float]:
         minimum.x[k] for minimum in fit.minima if minimum.chi_squared < fit.chi_squared + _WORTH
     ]
     return max(low, min(near) - reach), min(high, max(near) + reach)
-
-
-def _scale(fit: Any, k: int, values: Array) -> Scale:
-    parameter = fit.objective.parameters[k]
-    log = parameter.logarithmic and values[-1] > 3.0 * values[0]
-    return Scale(values, log, parameter.unit)
-
-
-def _draw_curve(axes: "Axes", values: Array, above: Array, *, turned: bool = False) -> None:
-    """Draw a profile, with lines at one and two standard deviations; ``turned`` swaps the axes."""
-    line, plot = (axes.axvline, (above, values)) if turned else (axes.axhline, (values, above))
-    for rise, text in ((1.0, "1 σ"), (4.0, "2 σ")):
-        line(rise, color="#404040", linestyle="--", linewidth=0.8)
-        place = (rise, 0.98) if turned else (0.995, rise)
-        transform = axes.get_xaxis_transform() if turned else axes.get_yaxis_transform()
-        look: Any = {"ha": "right", "va": "top" if turned else "bottom", "fontsize": 8}
-        axes.text(*place, text, transform=transform, rotation=90 if turned else 0, **look)
-    axes.plot(*plot, color=_CURVE)
-
-
-def _draw_bands(axes: "Axes", x: Array, y: Array, above: Array) -> None:
-    """Draw chi squared as colors, with contours at one, two and three standard deviations.
-
-    The extents of each contour along the axes are the standard deviations of the parameters.
-    """
-    from matplotlib import colormaps
-
-    colors = colormaps["Blues_r"](np.linspace(0.15, 1.0, len(_BANDS)))
-    axes.contourf(x, y, above, levels=_BANDS, colors=colors, extend="max")
-    drawn = axes.contour(x, y, above, levels=_BANDS[1:4], colors="black", linewidths=0.9)
-    axes.clabel(drawn, fmt=dict(zip(_BANDS[1:4], ("1 σ", "2 σ", "3 σ"), strict=True)), fontsize=8)
-    axes.grid(visible=False)
-
-
-def _draw_minima(axes: "Axes", fit: Any) -> None:
-    """Mark the best values with their errors, and the other minima."""
-    first, second = (fit[name] for name in fit.names)
-    bars = {"xerr": first.std_dev, "yerr": second.std_dev, "linewidth": 1.2}
-    look: Any = {"fmt": "o", "color": _BEST, "markeredgecolor": "black", "zorder": 4}
-    axes.errorbar(first.nominal_value, second.nominal_value, **bars, **look)
-    for minimum in fit.minima[1:]:
-        place = [p.value(x) for p, x in zip(fit.objective.parameters, minimum.x, strict=True)]
-        axes.plot(*place, "s", color=_OTHER, markeredgecolor="black", markersize=6, zorder=3)
 
 
 def fit(found: Any, axes: Any = None) -> "Figure":
@@ -183,9 +115,8 @@ def fitted(fit: Any, axes: Any = None) -> "Figure":
         Not shown and not saved. If the drops differ in one number, such as the height: what was
         measured against it, the fitted curve with a band of one standard deviation, and the pulls,
         fitted minus measured numbers in standard errors; else the pulls alone. Force
-        records with the fitted curves. Below, chi squared: a curve for one parameter, a map with
-        the profile of each for two. With force records chi squared is not drawn, because each trial
-        takes long.
+        records with the fitted curves. Below, for one or two parameters, the profile of chi squared
+        of each. With force records it is not drawn, because each trial takes long.
 
     Examples
     --------
@@ -201,7 +132,7 @@ def fitted(fit: Any, axes: Any = None) -> "Figure":
     residuals, records = fit.residuals, fit.records[:_MOST_RECORDS]
     count, number = 0 if records else len(fit.names), find_number(fit)
     heights = [4.4 if number else 1.8] if residuals else []
-    heights += [2.4] * len(records) + ([3.0] if count == 1 else [5.6] if count == 2 else [])
+    heights += [2.4] * len(records) + [3.0] * (count in (1, 2))
     with styled_figure(_WIDE, sum(heights) + 0.3) as figure:
         parts = figure.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0]
         figure.suptitle(_title(fit), x=0.01, ha="left", fontsize=10)
@@ -212,10 +143,10 @@ def fitted(fit: Any, axes: Any = None) -> "Figure":
             draw_pulls(parts[0].subplots(), pulls, [residual.label for residual in residuals])
         for part, record in zip(parts[bool(residuals) :], records, strict=False):
             _draw_record(part.subplots(), record)
-        if count == 1:
-            draw_profile(parts[-1].subplots(), fit)
-        elif count == 2:
-            draw_map(parts[-1], fit)
+        if count in (1, 2):
+            panels = parts[-1].subplots(1, count, squeeze=False)[0]
+            for k, panel in enumerate(panels):
+                draw_profile(panel, fit, k)
     return figure
 
 
