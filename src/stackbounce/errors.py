@@ -250,6 +250,18 @@ def a_or_an(noun: str) -> str:
     return f"{'an' if noun[:1] in 'aeiou' else 'a'} {noun}"
 
 
+def counted(count: int, noun: str) -> str:
+    """Return a number of things in words.
+
+    Examples
+    --------
+    >>> counted(1, "drop"), counted(2, "degree of freedom")
+    ('1 drop', '2 degrees of freedom')
+    """
+    one, of, rest = noun.partition(" of ")
+    return f"{count} {one}{'' if count == 1 else 's'}{of}{rest}"
+
+
 def _of(unit: str) -> str:
     return f" of {unit}" if unit else ""
 

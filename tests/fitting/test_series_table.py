@@ -245,6 +245,16 @@ def test_the_command_prints_draws_and_writes_a_page(tmp_path, capsys):
     assert [law["law"] for law in series["laws"]] == ["Viscoelastic"]
 
 
+def test_measure_and_fit_point_to_each_other(tmp_path, capsys):
+    bounces, knocks = tmp_path / "heights.csv", tmp_path / "knocks.csv"
+    bounces.write_text(PAIRS[0])
+    knocks.write_text("knock time (s)\n0.0\n0.9\n1.62\n2.2\n")
+    assert main(["measure", str(bounces)]) == 2
+    assert f"stackbounce fit {bounces} fits it" in capsys.readouterr().err
+    assert main(["fit", str(knocks)]) == 2
+    assert f"stackbounce measure {knocks} analyses it" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -81,7 +81,6 @@ def test_what_is_not_recognised_is_described_with_a_command_that_is_accepted(ref
         ("Time (s),Bx (µT),By (µT)", (TIMES, WAVE, WAVE), ""),
         ("a (s),b (s),c (s)", (TIMES, WAVE, WAVE), ""),
         ("Distance (m),Mass (kg),Error (kg)", (TIMES, WAVE, WAVE), ""),
-        ("Trial,Drop height (cm),Rebound (cm)", (range(40), WAVE, WAVE), ""),
         ("Time (s),Altitude (m)", (range(40), WAVE), ""),
         ("h (cm),t (s)", (range(20, 120, 20), (0.20, 0.28, 0.35, 0.40, 0.45)), ""),
         ("Lap,Time (s)", (range(9), WAVE[:9]), ""),
@@ -135,10 +134,6 @@ def test_a_doubt_on_the_command_line_is_typed(tmp_path, capfd):
 @pytest.mark.parametrize("name", [*KINDS, "press-curve", "Press", "press_curve"])
 def test_every_kind_that_is_offered_is_accepted(name, read):
     content = table("", np.arange(9) / 100, wave(9))
-    if name == "bounces":
-        with pytest.raises(InvalidValue, match="only phyphox's"):
-            read(content, holds=name)
-        return
     wanted = "press curve" if name.casefold().startswith("press") else name
     assert read(content, holds=name).attrs["holds"] == wanted
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from stackbounce.errors import FileError, InvalidValue
+from stackbounce.errors import FileError, InvalidValue, counted
 from stackbounce.extras import need
 from stackbounce.files import check_own, check_place, write_file
 
@@ -37,8 +37,7 @@ def check_solved(counts: Mapping[str, int]) -> None:
     wrong = {name: counts[name] for name in ("EVENT_LIMIT", "INVALID") if counts.get(name)}
     if wrong:
         listed = ", ".join(f"{count} {name}" for name, count in wrong.items())
-        total = sum(counts.values())
-        drops = f"{sum(wrong.values())} of {total} drop{'' if total == 1 else 's'}"
+        drops = f"{sum(wrong.values())} of {counted(sum(counts.values()), 'drop')}"
         raise Unsolved(f"no result for {drops}: {listed}")
 
 

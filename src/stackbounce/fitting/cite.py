@@ -3,8 +3,8 @@
 from collections.abc import Iterable
 from typing import Any
 
+from stackbounce.errors import counted
 from stackbounce.fitting.comparison import Comparison
-from stackbounce.fitting.notes import describe_freedom
 from stackbounce.fitting.result import Fit
 from stackbounce.fitting.series import SeriesFit
 from stackbounce.model.laws import LAWS, ContactLaw
@@ -45,7 +45,7 @@ def cite(found: Fit | Comparison | SeriesFit) -> str:
     if isinstance(found, SeriesFit):
         series = [compared.series for compared in found.comparisons]
         numbers = sum(own.values.size for own in series)
-        data = f"{numbers} restitutions of {_count(len(series), 'ball')}"
+        data = f"{numbers} restitutions of {counted(len(series), 'ball')}"
         names = [law for own in found.comparisons for row in own.outcomes for law in row.laws]
         laws: Iterable[Any] = [LAWS[name] for name in dict.fromkeys(names)]
         result = "The goodness of each is told by chi squared and its probability p."
@@ -53,14 +53,14 @@ def cite(found: Fit | Comparison | SeriesFit) -> str:
         fits = found.fits if isinstance(found, Comparison) else {"": found}
         one = next(iter(fits.values()))
         drops = one.objective.measured
-        data = f"{_count(one.objective.size, 'number')} of {_count(len(drops), 'drop')}"
+        data = f"{counted(one.objective.size, 'number')} of {counted(len(drops), 'drop')}"
         laws = [
             law for own in fits.values() for drop in own.drops.values() for law in drop.contacts
         ]
         if isinstance(found, Comparison):
             result = f"The models are compared by {found.criterion.upper()}."
         else:
-            freedom = describe_freedom(found.degrees_of_freedom)
+            freedom = counted(found.degrees_of_freedom, "degree of freedom")
             varied = ", ".join(
                 f"{name} = {found[name]:.1uS} {unit}".rstrip() for name, unit in found.units.items()
             )
@@ -75,7 +75,3 @@ def cite(found: Fit | Comparison | SeriesFit) -> str:
 
 def _source(law: type[ContactLaw]) -> str:
     return f"{law.__name__}, {law.formula} ({law.source})"
-
-
-def _count(count: int, what: str) -> str:
-    return f"{count} {what}{'' if count == 1 else 's'}"

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from stackbounce.errors import counted
 from stackbounce.fitting.covariance import OPEN, find_leverages
 from stackbounce.fitting.least_squares import EQUAL
 from stackbounce.fitting.objective import ABSENT
@@ -23,22 +24,11 @@ _SHARE = 0.3  # of the largest part of an undetermined direction: parameters abo
 _EDGE = 1e-3  # of the width between the bounds: how near a bound is reached
 
 
-def describe_freedom(count: int) -> str:
-    """Return a number of degrees of freedom in words.
-
-    Examples
-    --------
-    >>> describe_freedom(1), describe_freedom(2)
-    ('1 degree of freedom', '2 degrees of freedom')
-    """
-    return f"{count} degree{'' if count == 1 else 's'} of freedom"
-
-
 def describe_goodness(fit: "Fit") -> str:
     """Return chi squared in words."""
     count = fit.degrees_of_freedom
     size = 0.0 if fit.chi_squared < _ROUND_OFF else fit.chi_squared
-    words = f"Chi squared: {size:.4g} for {describe_freedom(count)}"
+    words = f"Chi squared: {size:.4g} for {counted(count, 'degree of freedom')}"
     if not count:
         return f"{words}: too few data to tell whether the model is right."
     share = 100.0 * fit.probability
@@ -131,7 +121,8 @@ def _describe_misfit(fit: "Fit") -> str:
     # chi squared has no distribution with 0 degrees of freedom: 1 is taken instead
     if chi2.sf(fit.chi_squared, max(1, fit.degrees_of_freedom)) >= _UNLIKELY:
         return ""
-    bad = f"chi squared is {fit.chi_squared:.4g} for {describe_freedom(fit.degrees_of_freedom)}"
+    freedom = counted(fit.degrees_of_freedom, "degree of freedom")
+    bad = f"chi squared is {fit.chi_squared:.4g} for {freedom}"
     return f"the model does not describe the data: {bad}; its parameters' errors mean little"
 
 

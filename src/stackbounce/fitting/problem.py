@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidType, InvalidValue, between, nearest, shown, whole
+from stackbounce.errors import InvalidType, InvalidValue, between, counted, nearest, shown, whole
 from stackbounce.fitting.least_squares import Minimum, expected_trials, find_minima
 from stackbounce.fitting.measurements import Measured, read_measured
 from stackbounce.fitting.objective import Objective, touch_name
@@ -127,9 +127,9 @@ class FitProblem:
         ties = read_ties(self.drops, parameters, self.tie)
         objective = Objective(self.drops, measured, parameters + touches, ties, self.rtol)
         if objective.size < objective.free:
-            asked = _count(objective.free, "number")
+            asked = counted(objective.free, "number")
             raise TooFewData(
-                f"vary has {asked} for {_count(objective.size, 'measured number')}: fix some, or "
+                f"vary has {asked} for {counted(objective.size, 'measured number')}: fix some, or "
                 "say what is known of them (a Range with a prior)"
             )
         return objective
@@ -343,7 +343,3 @@ def _first_trial(objective: Objective) -> Any:
 
 def _is_empty(given: object) -> bool:
     return isinstance(given, Mapping) and not given
-
-
-def _count(count: int, what: str) -> str:
-    return f"{count} {what}{'' if count == 1 else 's'}"

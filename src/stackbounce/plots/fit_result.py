@@ -135,7 +135,7 @@ def fitted(fit: Any, axes: Any = None) -> "Figure":
     heights += [2.4] * len(records) + [3.0] * (count in (1, 2))
     with styled_figure(_WIDE, sum(heights) + 0.3) as figure:
         parts = figure.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0]
-        figure.suptitle(_title(fit), x=0.01, ha="left", fontsize=10)
+        figure.suptitle(fit.remarks[0], x=0.01, ha="left", fontsize=8.5)
         if number:
             draw_by_number(panels_of(parts[0], fit), {"": fit}, number)
         elif residuals:
@@ -148,13 +148,6 @@ def fitted(fit: Any, axes: Any = None) -> "Figure":
             for k, panel in enumerate(panels):
                 draw_profile(panel, fit, k)
     return figure
-
-
-def _title(fit: Any) -> str:
-    count = fit.degrees_of_freedom
-    words = f"{count} degree{'' if count == 1 else 's'} of freedom"
-    chi_squared = 0.0 if fit.chi_squared < 1e-9 else fit.chi_squared
-    return f"chi squared {chi_squared:.3g} for {words}"
 
 
 def _draw_record(axes: "Axes", record: Any) -> None:

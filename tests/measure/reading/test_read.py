@@ -58,7 +58,7 @@ def test_phyphox_collision(read, delimiter, decimal):
         made.phyphox_csv(names, cells, delimiter, decimal),
     ):
         data = read(content)
-        check(data, "bounces", "phyphox: (in)elastic collision", {"knock_time": "s"})
+        check(data, "knocks", "phyphox: (in)elastic collision", {"knock_time": "s"})
         same(data.knock_time, made.KNOCKS)
         assert data.attrs["doubt"] == ""
 
@@ -208,7 +208,6 @@ def test_simple_files(read, form):
     ({"holds": "sand"}, InvalidValue, "holds must be what a file holds, got 'sand'; did you mean"),
     ({"holds": "track"}, InvalidValue, "a track needs columns of time and y or x; it has t"),
     ({"holds": "acceleration"}, InvalidValue, "an acceleration needs columns"),
-    ({"holds": "bounces"}, InvalidValue, "only phyphox's"),
     ({"holds": 3}, InvalidValue, "holds must be what"),
     ({"names": {"z": "force"}}, InvalidValue, "names: there is no column 'z'; known: t "),
     ({"names": {3: "force"}}, InvalidValue, "names: there is no column 3"),

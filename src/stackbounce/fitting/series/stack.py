@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue
-from stackbounce.fitting.notes import describe_freedom
+from stackbounce.errors import InvalidValue, counted
 from stackbounce.fitting.rows import Row, rows_of
 from stackbounce.fitting.series.columns import UNITS, Column, columns_of
 from stackbounce.fitting.series.readings import Numbers, headed, numbers_in, with_unit
@@ -136,7 +135,7 @@ def _errors(
     estimate = 0.5 * own.digit
     why = "half of the step in which they were written"
     if freedom and (scatter := math.sqrt(float(np.sum(np.square(apart))) / freedom)) > estimate:
-        why = f"the scatter of repeated drops, with {describe_freedom(freedom)}"
+        why = f"the scatter of repeated drops, with {counted(freedom, 'degree of freedom')}"
         estimate = scatter
     notes.append(
         f"The error of {column.text!r} is {why}, {with_unit(estimate, unit)}; --error tells "

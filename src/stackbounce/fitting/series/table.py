@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, nearest, positive, shown
-from stackbounce.fitting.notes import describe_freedom
+from stackbounce.errors import InvalidValue, counted, nearest, positive, shown
 from stackbounce.fitting.rows import rows_of
 from stackbounce.fitting.series.columns import UNITS, role_of
 from stackbounce.fitting.series.readings import MEASURED, STARTS, readings_of, with_unit
@@ -206,7 +205,7 @@ def _said_of_scatter(readings: "pd.DataFrame", values: Array, scatter: float, me
     of = f" of {readings.group.iloc[0]}" if readings.group.iloc[0] else ""
     said = (
         f"The error of one {what}{of} is the scatter of repeated readings, "
-        f"{with_unit(scatter, unit)}, with {describe_freedom(freedom)}."
+        f"{with_unit(scatter, unit)}, with {counted(freedom, 'degree of freedom')}."
     )
     apart = np.abs(values - np.nanmedian(values, axis=1, keepdims=True))
     counts = np.isfinite(values).sum(axis=1, keepdims=True)

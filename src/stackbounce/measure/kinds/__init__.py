@@ -2,7 +2,7 @@
 
 from stackbounce.measure.kind import Kind
 from stackbounce.measure.kinds.acceleration import ACCELERATION
-from stackbounce.measure.kinds.bounces import BOUNCES, KNOCKS
+from stackbounce.measure.kinds.bounces import KNOCKS
 from stackbounce.measure.kinds.contact import CONTACT
 from stackbounce.measure.kinds.heights import TABLE
 from stackbounce.measure.kinds.press import PRESS
@@ -13,8 +13,7 @@ from stackbounce.measure.kinds.waveform import WAVEFORM
 __all__ = ["KINDS", "TYPED", "Kind", "kind_named"]
 
 KINDS: dict[str, Kind] = {
-    kind.name: kind
-    for kind in (KNOCKS, BOUNCES, PRESS, WAVEFORM, SOUND, TRACK, ACCELERATION, TABLE)
+    kind.name: kind for kind in (KNOCKS, PRESS, WAVEFORM, SOUND, TRACK, ACCELERATION, TABLE)
 }
 """What a file can hold; the first one that a file's columns fit is what it holds."""
 

@@ -68,7 +68,7 @@ def assemble(
     """
     import xarray as xr
 
-    if holds == "bounces":
+    if holds == "knocks" and len(columns) > 1 and {c.role for c in columns} == {"knock_time"}:
         data, coordinates, doubts = _bounces(values)
         return xr.Dataset(data, coordinates), doubts
     kind = KINDS[holds]

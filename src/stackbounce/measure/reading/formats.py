@@ -215,13 +215,15 @@ def phyphox(text: Text) -> Layout | None:
     header = text.head[0]
     cells = [heading(cell) for cell in header]
     knocks = tuple(
-        Column(k, cell) for k, cell in enumerate(cells) if _KNOCK.fullmatch(cell.name.casefold())
+        Column(k, cell, "knock_time")
+        for k, cell in enumerate(cells)
+        if _KNOCK.fullmatch(cell.name.casefold())
     )
     if len(knocks) < 2:
         return None
     why = f"its columns {header[0]!r}, {header[1]!r} are those of phyphox's (in)elastic collision"
     first = first_row(text, 1)
-    return Layout("phyphox: (in)elastic collision", why, knocks, first, holds="bounces")
+    return Layout("phyphox: (in)elastic collision", why, knocks, first, holds="knocks")
 
 
 @layout

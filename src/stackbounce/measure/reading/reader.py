@@ -55,7 +55,7 @@ def read(
     path : str or path-like
         The file; its name does not matter.
     holds : str, optional
-        What it holds: ``"waveform"``, ``"sound"``, ``"track"``, ``"knocks"``, ``"bounces"``,
+        What it holds: ``"waveform"``, ``"sound"``, ``"track"``, ``"knocks"``,
         ``"press curve"``, ``"acceleration"`` or ``"table"``.
     table : str, optional
         Which table of a zip archive, such as ``"Raw Data.csv"`` or ``"Raw Data"``, or sheet of a
@@ -227,9 +227,6 @@ def _from_table(name: str, content: bytearray, options: ReadOptions) -> "xr.Data
     columns, values = _numeric(columns, table)
     columns = without_counts(columns, values)
     holds = options.holds or layout.holds or holds_of(columns)
-    if holds == "bounces" != layout.holds:
-        whose = ": only phyphox's (in)elastic collision holds bounces"
-        raise InvalidValue(about_option("holds", whose))
     data, more = assemble(holds, columns, values, None if runs else options.run)
     return _signed(data, layout.format, layout.why, holds, doubts + more)
 

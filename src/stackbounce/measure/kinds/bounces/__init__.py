@@ -2,17 +2,14 @@
 
 from stackbounce.measure.kind import IN_AIR, Kind
 
-__all__ = ["BOUNCES", "KNOCKS"]
+__all__ = ["KNOCKS"]
 
-_SAYS = "restitution of each bounce, its fall with speed"
-_OPTIONS = ("height", "measured_to", "gravity", *IN_AIR)
 KNOCKS = Kind(
     "knocks",
-    _SAYS,
+    "restitution of each bounce, its fall with speed",
     f"{__name__}.kind",
-    options=_OPTIONS,
+    options=("height", "measured_to", "gravity", *IN_AIR),
     columns=(("knock_time",),),
     dimension="knock",
     longest_step=20.0,  # flights: 20 s are from a height of 500 m
 )
-BOUNCES = Kind("bounces", _SAYS, f"{__name__}.kind", options=_OPTIONS)  # phyphox's layout tells it

@@ -77,7 +77,7 @@ def _unrecognised(data: Any) -> Message:
     more = f" and {len(columns) - _LISTED} more" if len(columns) > _LISTED else ""
     said = f"its columns do not tell a kind of measurement: {described}{more}. "
     what, hint = _hint(data, columns)
-    kinds = ", ".join(name for name in KINDS if name not in (what, "bounces", "table"))
+    kinds = ", ".join(name for name in KINDS if name not in (what, "table"))
     if hint is None:
         tell = OptionHint({"holds": None, "names": None})
         return Message(f"{said}If it is one of {kinds}: ", tell, " tell so")
