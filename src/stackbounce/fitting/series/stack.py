@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, counted
+from stackbounce.errors import FileError, InvalidValue, counted
 from stackbounce.fitting.rows import Row, rows_of
 from stackbounce.fitting.series.columns import UNITS, Column, columns_of
 from stackbounce.fitting.series.readings import Numbers, headed, numbers_in, with_unit
@@ -48,8 +48,8 @@ def read_stack(path: str | os.PathLike[str], errors: Sequence[str] = ()) -> Stac
 
     Raises
     ------
-    FileError, InvalidValue
-        As `read_table`.
+    InvalidValue
+        As `read_table`, if the columns are those of a stack.
 
     Examples
     --------
@@ -61,8 +61,11 @@ def read_stack(path: str | os.PathLike[str], errors: Sequence[str] = ()) -> Stac
     >>> found.data["row_3"]
     {'rebound_heights.0': (0.06, 0.01), 'rebound_heights.1': (1.71, 0.01)}
     """
-    name, rows = rows_of(path)
-    head, body = headed(rows)
+    try:
+        name, rows = rows_of(path)
+        head, body = headed(rows)
+    except (FileError, InvalidValue):  # `read_table` says why
+        return None
     columns = [column for column in columns_of(head) if column.role]
     named = {
         column.ball: catalogue_ball(column.ball).ball.mass for column in columns if column.ball
