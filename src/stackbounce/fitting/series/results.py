@@ -1,5 +1,7 @@
 """Tables and data sets beside the contact laws, and the page that says so."""
 
+import csv
+import io
 import json
 import os
 import re
@@ -239,15 +241,16 @@ def _law_as_dict(name: str, outcome: Outcome) -> dict[str, Any]:
 
 
 def _csv(done: SeriesFit) -> str:
-    import pandas as pd
-
     rows = [
         {"dataset": found["name"], "ball": found["ball"], **law}
         for found in done.as_dict()["series"]
         for law in found["laws"]
     ]
-    text: str = pd.DataFrame(rows).to_csv(index=False, lineterminator="\n")
-    return text
+    stream = io.StringIO()
+    writer = csv.DictWriter(stream, list(rows[0]) if rows else [], lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return stream.getvalue()
 
 
 def _page(done: SeriesFit, figures: dict[str, bytes]) -> str:
