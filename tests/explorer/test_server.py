@@ -248,6 +248,15 @@ def test_a_record_is_recognised_and_fitted(server, drop):
     assert found["series"][0]["time"][0] == pytest.approx(begin, abs=2e-4)
 
 
+def test_a_table_of_bounces_tells_of_the_contact_laws(server):
+    table = b"drop height (cm),rebound height (cm)\n150,81.2\n100,54.1\n50,27.3\n"
+    seen = server.post("/api/measure", files={"file": ("heights.csv", table)}).json()
+    best = seen["found"][0]
+    assert best["name"].startswith("heights.csv: Rigid, Dashpot")
+    assert best["value"] == pytest.approx(0.736, abs=1e-3)
+    assert any("agree" in note for note in seen["notes"])
+
+
 def test_typed_numbers_are_fitted(server, drop):
     vary, measured = ["contacts.1.stiffness"], {"rebound_ratios.1": "1.64 ± 0.02"}
     asked = {"drop": drop, "vary": vary, "measured": measured}

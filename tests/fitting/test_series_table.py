@@ -68,15 +68,8 @@ def test_speeds_and_restitutions(table, text):
     assert not series.from_heights
 
 
-IN_TURN = (
-    "drop height (cm),bounce 1,bounce 2\n100,64,41\n50,33,22\n",
-    "bounce,height (cm)\n0,100\n1,64\n2,41\n0,50\n1,33\n2,22\n",
-)
-
-
-@pytest.mark.parametrize("text", IN_TURN)
-def test_bounces_in_turn_fall_from_where_the_one_before_rose_to(table, text):
-    read = table(text)
+def test_bounces_in_turn_fall_from_where_the_one_before_rose_to(table):
+    read = table("drop height (cm),bounce 1,bounce 2\n100,64,41\n50,33,22\n")
     series = make_series(read.groups[""])
     order = np.argsort(-series.speeds)
     assert series.speeds[order] == speeds(1.0, 0.64, 0.5, 0.33)

@@ -9,6 +9,9 @@ from stackbounce.measure.reading.limits import BYTES, COLUMNS, LINE, refuse_othe
 from stackbounce.measure.reading.tables import from_xlsx
 from stackbounce.measure.reading.text import decode, split
 
+File = str | os.PathLike[str] | tuple[str, bytes]
+"""A file, or its name and its content."""
+
 Row = tuple[int, list[str]]
 """The number of a line, counted from 1, and its cells."""
 
@@ -19,14 +22,14 @@ _MOST = 1000  # rows of a table
 _GROUPED = re.compile(r"[1-9]\d{0,2}(?:,\d{3})+")
 
 
-def rows_of(path: str | os.PathLike[str]) -> tuple[str, list[Row]]:
+def rows_of(path: File) -> tuple[str, list[Row]]:
     r"""Return the name of a table and those of its rows that are not blank.
 
     Parameters
     ----------
-    path : str or path-like
-        Text with tabs, semicolons or commas between its cells, or an Excel file, of which the first
-        sheet is read.
+    path : str or path-like, or (str, bytes)
+        A file, or its name and its content: text with tabs, semicolons or commas between its cells,
+        or an Excel file, of which the first sheet is read.
 
     Raises
     ------
@@ -40,7 +43,8 @@ def rows_of(path: str | os.PathLike[str]) -> tuple[str, list[Row]]:
     >>> rows_of(path)[1]
     [(1, ['drop', 'rebound']), (3, ['63,5', '41'])]
     """
-    name, content = content_of(path, BYTES)
+    name, content = path if isinstance(path, tuple) else content_of(path, BYTES)
+    content = bytearray(content)
     try:
         if content.startswith(b"PK\x03\x04"):
             content = bytearray(next(iter(from_xlsx(content).members.values())))

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidValue, a_or_an, nearest, shown
+from stackbounce.errors import InvalidValue, StackbounceError, a_or_an, nearest, shown
 from stackbounce.explorer.answers.play import run_drop
 from stackbounce.fitting import Fit, fit
+from stackbounce.fitting.series import fit_series
+from stackbounce.fitting.series.comparison import format_p
 from stackbounce.json_values import as_json
 from stackbounce.measure.finding import Branch
 from stackbounce.measure.kinds import KINDS
@@ -75,7 +77,13 @@ def measure_record(
     StackbounceError
         If it cannot be read, or holds nothing that can be analysed.
     """
-    one = _measure(name, content, options, alone)
+    try:
+        one = _measure(name, content, options, alone)
+    except StackbounceError:
+        bounces = _laws_of(name, content)
+        if bounces is None:
+            raise
+        return bounces
     return as_json(
         {
             "stackbounce": __version__,
@@ -90,6 +98,24 @@ def measure_record(
             "branches": [_sorted(branch) for branch in one.branches],
         }
     )
+
+
+def _laws_of(name: str, content: bytes) -> str | None:
+    """Return what a table of bounces says of the contact laws, as JSON; None if it is none."""
+    try:
+        done = fit_series((name, content))
+    except StackbounceError:
+        return None
+    rows = []
+    for found in done.comparisons:
+        for law in found.outcomes:
+            chance = f"p = {format_p(law.p)}".replace("= <", "<")
+            title = f"{found.series.title}: {', '.join(law.laws)}, {chance}"
+            rows.append({"name": title, "value": law.value, "error": law.error, "unit": ""})
+    notes = [*(found.summary for found in done.comparisons), *done.notes]
+    about = {"file": name, "format": "table of numbers", "why": "", "doubt": "", "holds": "table"}
+    empty = {"series": [], "zero": None, "measured": {}, "bounce": None, "branches": []}
+    return as_json({"stackbounce": __version__, **about, "found": rows, "notes": notes} | empty)
 
 
 def fit_record(

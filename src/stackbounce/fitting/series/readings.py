@@ -50,9 +50,7 @@ def readings_of(rows: Sequence[Row]) -> "tuple[pd.DataFrame, str, list[str]]":
     numbers = numbers_in(columns, body)
     groups = [", ".join(filter(None, (_cell(cells, k) for k in words))) for _, cells in body]
     lines = [line for line, _ in body]
-    counted = next((column for column in columns if column.role == "bounce_number"), None)
-    make = _by_drop if counted is None else _by_bounce
-    found, measured = make(columns, numbers, lines, groups, notes)
+    found, measured = _by_drop(columns, numbers, lines, groups, notes)
     if not found:
         raise InvalidValue("it has no row with all that is needed: " + _listed(columns))
     readings = pd.DataFrame(found)
@@ -98,7 +96,7 @@ def _resolved(
             used.append(column)
         elif cells and not column.role:
             notes.append(f"Column {column.text!r} is not used: its name tells nothing known here.")
-    started = any(column.role in (*STARTS, "bounce_number") for column in used)
+    started = any(column.role in STARTS for column in used)
     for k, column in enumerate(used):
         generic = column.role == "height" and not started
         if generic or (column.role == "bounces" and not column.number):
@@ -240,36 +238,6 @@ def _in_turn(read: Sequence[Column], numbers: dict[int, Numbers], start: Column)
         heights = [np.log(numbers[column.index].values) for column in (start, *read[:2])]
     first, second = (np.nanmedian(heights[k + 1] - heights[k]) for k in (0, 1))
     return bool(second < _SUCCESSIVE * first)
-
-
-def _by_bounce(
-    columns: Sequence[Column],
-    numbers: dict[int, Numbers],
-    lines: Sequence[int],
-    groups: Sequence[str],
-    notes: list[str],
-) -> _Found:
-    """Return the readings of a table with a bounce in each row, those of a drop in turn."""
-    counted = next(column for column in columns if column.role == "bounce_number")
-    heights = [column for column in columns if UNITS.get(column.role) == "m"]
-    heights = [column for column in heights if column.role != "diameter"]
-    if not heights:
-        raise InvalidValue(f"no column is a height: {_listed(columns)}")
-    own = numbers[heights[0].index]
-    found: list[dict[str, Any]] = []
-    drop, last, begin = -1, math.inf, 0
-    for k, number in enumerate(numbers[counted.index].values):
-        if not math.isfinite(number) or not math.isfinite(own.values[k]):
-            notes.append(f"Row {lines[k]} has no {heights[0].text!r}: left out.")
-            continue
-        if number != last + 1.0 or groups[k] != groups[begin]:
-            drop, begin = drop + 1, k
-        else:
-            where = {"line": lines[k], "group": groups[k], "drop": drop}
-            where |= {"number": round(number - numbers[counted.index].values[begin])}
-            found.append(where | {"start_role": "drop_height"} | _both(own, begin, own, k))
-        last = number
-    return found, "rebound_height"
 
 
 def _names(columns: Sequence[Column]) -> str:

@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-import os
 import re
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -16,6 +15,7 @@ from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
 from stackbounce.files import prepare_folder, write_folder
+from stackbounce.fitting.rows import File
 from stackbounce.fitting.series.comparison import (
     REFUTED_BELOW,
     Comparison,
@@ -98,7 +98,7 @@ class SeriesFit(Shown):
 
 
 def fit_series(
-    source: str | os.PathLike[str],
+    source: File,
     *,
     laws: Collection[str] = tuple(LAWS),
     errors: Sequence[str] = (),
@@ -113,9 +113,9 @@ def fit_series(
 
     Parameters
     ----------
-    source : str or path-like
-        A table, as `read_table` reads it; or ``dataset:NAME``, a published data set, or
-        ``dataset:all``.
+    source : str or path-like, or (str, bytes)
+        A table, as `read_table` reads it, or its name and content; or ``dataset:NAME``, a published
+        data set, or ``dataset:all``.
     laws : collection of str, optional
         The names of the laws; by default all.
     errors : sequence of str, optional

@@ -1,7 +1,6 @@
 """A table of bounces, as people type it -> data sets such as `series.make_series` takes."""
 
 import math
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -9,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from stackbounce.errors import InvalidValue, counted, nearest, positive, shown
-from stackbounce.fitting.rows import rows_of
+from stackbounce.fitting.rows import File, rows_of
 from stackbounce.fitting.series.columns import UNITS, role_of
 from stackbounce.fitting.series.readings import MEASURED, STARTS, readings_of, with_unit
 from stackbounce.run.quantities import Array
@@ -43,7 +42,7 @@ class Table(NamedTuple):
 
 
 def read_table(
-    path: str | os.PathLike[str],
+    path: File,
     errors: Sequence[str] = (),
     *,
     mass: float | None = None,
@@ -53,7 +52,7 @@ def read_table(
 
     Parameters
     ----------
-    path : str or path-like
+    path : str or path-like, or (str, bytes)
         A table with a heading, as `rows_of` reads it. One column has the height of the drop or the
         impact speed; others have the height after the bounce, or after several bounces in turn, the
         speed after it, or the restitution, with or without columns of their errors. Columns of
