@@ -114,7 +114,7 @@ def _laws_of(name: str, content: bytes) -> str | None:
             rows.append({"name": title, "value": law.value, "error": law.error, "unit": ""})
     notes = [*(found.summary for found in done.comparisons), *done.notes]
     about = {"file": name, "format": "table of numbers", "why": "", "doubt": "", "holds": "table"}
-    empty = {"series": [], "zero": None, "measured": {}, "bounce": None, "branches": []}
+    empty: _Series = {"series": [], "zero": None, "measured": {}, "bounce": None, "branches": []}
     return as_json({"stackbounce": __version__, **about, "found": rows, "notes": notes} | empty)
 
 

@@ -141,7 +141,7 @@ def _errors(
         why = f"the scatter of repeated drops, with {counted(freedom, 'degree of freedom')}"
         estimate = scatter
     notes.append(
-        f"The error of {column.text!r} is {why}, {with_unit(estimate, unit)}; --error tells "
-        "another."
+        f"The error of {column.text!r} is {why}, {with_unit(estimate, unit)}, unless "
+        "another is given."
     )
     return np.where(np.isnan(errors), estimate, errors)

@@ -154,7 +154,7 @@ def _dataset(
         data[f"{start}_error"] = "row", rows.start_error.to_numpy()
     else:
         what = start.replace("_", " ")
-        notes.append(f"The {what}s are taken as exact: --error '{what}=…' tells their error.")
+        notes.append(f"The {what}s are taken as exact, unless an error of theirs is given.")
     if some.any():
         data[f"{measured}_error"] = "row", rows.error.to_numpy()
     elif values.ndim == 2:
@@ -165,7 +165,7 @@ def _dataset(
         notes.append(
             "No error is told and no reading repeated: the error of a "
             f"{measured.replace('_', ' ')} is half of the step in which it was written, "
-            f"{with_unit(half, unit)}; --error tells another."
+            f"{with_unit(half, unit)}, unless another is given."
         )
     return xr.Dataset(data)
 
