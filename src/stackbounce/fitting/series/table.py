@@ -111,10 +111,10 @@ def told_errors(errors: Sequence[str]) -> dict[str, float]:
         if name and not role:
             known = [key.replace("_", " ") for key in (*STARTS, *MEASURED)]
             hint = nearest(name, known)
-            raise InvalidValue(f"--error must name a column, got {shown(name)}; {hint}")
+            raise InvalidValue(f"an error must name its column, got {shown(name)}; {hint}")
         written = unit_written(value)
         unit = UNITS[role] if role else "" if not written else "m/s" if "/" in written else "m"
-        found[role] = positive("--error", quantity(value, unit, "--error"), unit)
+        found[role] = positive("the error", quantity(value, unit, "the error"), unit)
     return found
 
 
