@@ -160,9 +160,9 @@ def test_random_stacks(drop):
 
 def test_newtons_cradle_lowest_approaching_first():
     """Touching balls without a floor, two coming in: two go out."""
-    drop = rigid([1.0] * 5, [None, 1.0, 1.0, 1.0, 1.0], velocities=[1.0, 1.0, 0.0, 0.0, 0.0])
+    drop = rigid([1.0] * 5, [None, 1.0, 1.0, 1.0, 1.0], velocities=[0.3, 0.3, 0.0, 0.0, 0.0])
     result = sb.simulate(drop)
-    assert result.rebound_speeds.tolist() == [0.0, 0.0, 0.0, 1.0, 1.0]
+    assert result.rebound_speeds.tolist() == [0.0, 0.0, 0.0, 0.3, 0.3]
     assert_collisions(result, exact(drop))
 
 
