@@ -53,13 +53,6 @@ def rate(density):
     return mpf(density) * mpf("0.5") * area / (2 * mpf(BALL.mass))
 
 
-@pytest.mark.parametrize("height", [0.05, 0.71, 5.0, 100.0])
-def test_falls_obey_the_equation_of_motion(height):
-    time, _, speed = moved([height, 0.0], crossing(lambda y: y[0]))
-    assert AIR.impact_speed(BALL, height) == pytest.approx(-speed, rel=1e-10)
-    assert AIR.fall_time(BALL, height) == pytest.approx(time, rel=1e-10)
-
-
 @pytest.mark.parametrize("speed", [0.5, 3.53, 5.8, 40.0])
 def test_rises_and_flights_obey_the_equation_of_motion(speed):
     time, top, _ = moved([0.0, speed], crossing(lambda y: y[1]))
