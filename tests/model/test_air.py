@@ -266,9 +266,6 @@ def test_what_is_wrong_is_told():
     assert refused(AIR.rebound_heights, thrown, [1.0, 2.0]).startswith("speeds must hold one num")
     assert refused(AIR.rebound_heights, thrown, [math.nan]).startswith("speeds.0 must be a")
     assert refused(AIR.dropped, stack([BALL, sb.Ball(1.0)])).startswith("balls.1.diameter must")
-
-
-def test_what_is_out_of_range_is_refused():
     launched = refused(sb.Air(density=1e3).launch_speed, sb.Ball(1e-3, 0.1), 10.0)
     assert launched.startswith("height must be one that a ball can")
     flown = refused(AIR.flight, sb.Ball(1.0, 0.1), 1e200)
