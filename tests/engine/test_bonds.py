@@ -121,9 +121,7 @@ def test_samples_beyond_what_can_be_followed_are_refused():
 
 def test_a_ball_rests_on_a_plate():
     laws = [sb.Bond(4e3, 40.0), sb.Dashpot(900.0, damping=9.0)]
-    drop = sb.Drop(
-        [sb.Ball(1.0), sb.Ball(2.0)], laws, velocities=[0.0, -0.3], gravity=9.81
-    )  # fmt: skip
+    drop = sb.Drop([sb.Ball(1.0), sb.Ball(2.0)], laws, velocities=[0.0, -0.3], gravity=9.81)
     result = sb.simulate(drop)
     assert result.status is sb.Status.SETTLED
     still = result.sample([result.end_time + 1.0])

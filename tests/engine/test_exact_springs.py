@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
-from drops import compared, drop_of, interval_table, springs, table_of
+from drops import compared, drop_of, interval_table, table_of
 from reference import data
 
 PRECISION = 1e-11
@@ -28,24 +28,6 @@ def test_reference(row):
     scale[:, 1:3] = np.maximum(scale[:, 1:3], unit)
     assert (np.abs(found - expected) <= PRECISION * scale).all()
     assert result.end_time == found[:, 2].max()
-
-
-def test_motion_between_the_events():
-    """Equal balls and springs start on the modes of eqs 5 and 6: golden-ratio frequencies."""
-    result = sb.simulate(springs([1, 1], [1, 1]))
-    times = np.linspace(0.0, result.intervals["end"].min(), 101)
-    slow, fast = (np.sqrt(5) - 1) / 2, (np.sqrt(5) + 1) / 2
-    sample = result.sample(times)
-    lower = upper = 0.0
-    for w in (slow, fast):
-        shape = 2 - w**2  # of the upper ball where the lower one's is 1
-        weight = (1 + shape) / (1 + shape**2) / w
-        lower = lower - weight * np.sin(w * times)
-        upper = upper - weight * shape * np.sin(w * times)
-    assert sample.position.sel(ball=0).values == pytest.approx(lower, abs=1e-13)
-    assert sample.position.sel(ball=1).values == pytest.approx(upper, abs=1e-13)
-    assert sample.force.sel(contact=0).values == pytest.approx(-lower, abs=1e-13)
-    assert sample.force.sel(contact=1).values == pytest.approx(lower - upper, abs=1e-13)
 
 
 def test_gravity_one_ball():

@@ -157,9 +157,8 @@ def test_powers_of_two_change_no_bit(name, drop, power):
     one, other = simulate(drop), simulate(scaled(drop, **changed))
     if one.status is sb.Status.COLLAPSED and "gap" in changed:  # gaps shrink until they underflow
         assert other.status is sb.Status.COLLAPSED
-        assert (
-            one.rebound_speeds * found.get("speed", 1.0)
-        ).tolist() == other.rebound_speeds.tolist()
+        expected = one.rebound_speeds * found.get("speed", 1.0)
+        assert other.rebound_speeds.tolist() == expected.tolist()
     else:
         assert_identical(one, other, **found)
 

@@ -99,34 +99,32 @@ def test_the_ball_leaves_still_compressed():
     assert force[2] == 0.0
 
 
-def stacks():
-    """Return stacks whose contacts meet again before they have recovered, and others."""
-    return {
-        "small on large": ([1.0, 0.3], [(1.0, 1.0, 0.5), (2.0, 0.7, 0.3)], [0.2]),
-        "large on small": ([0.1, 1.0], [(1.0, 3.0, 3.0), (2.0, 0.7, 2.3)], [0.05]),
-        "larger on smaller": ([0.02, 1.0], [(1.0, 3.0, 10.0), (2.0, 2.0, 5.0)], [0.01]),
-        "soft on hard": ([0.5, 0.4], [(9.0, 0.5, 0.1), (0.5, 4.0, 0.8)], [0.0]),
-        "three": (
-            [0.1, 0.5, 1.0],
-            [(1.0, 3.0, 3.0), (2.0, 0.7, 2.3), (5.0, 2.0, 1.0)],
-            [0.05, 0.3],
-        ),
-        "three, slow surfaces": (
-            [0.02, 1.0, 0.5],
-            [(1.0, 3.0, 10.0), (2.0, 2.0, 5.0), (20.0, 2.0, 0.5)],
-            [0.001, 0.1],
-        ),
-    }
+STACKS = {  # of contacts that meet again before they have recovered, and others
+    "small on large": ([1.0, 0.3], [(1.0, 1.0, 0.5), (2.0, 0.7, 0.3)], [0.2]),
+    "large on small": ([0.1, 1.0], [(1.0, 3.0, 3.0), (2.0, 0.7, 2.3)], [0.05]),
+    "larger on smaller": ([0.02, 1.0], [(1.0, 3.0, 10.0), (2.0, 2.0, 5.0)], [0.01]),
+    "soft on hard": ([0.5, 0.4], [(9.0, 0.5, 0.1), (0.5, 4.0, 0.8)], [0.0]),
+    "three": (
+        [0.1, 0.5, 1.0],
+        [(1.0, 3.0, 3.0), (2.0, 0.7, 2.3), (5.0, 2.0, 1.0)],
+        [0.05, 0.3],
+    ),
+    "three, slow surfaces": (
+        [0.02, 1.0, 0.5],
+        [(1.0, 3.0, 10.0), (2.0, 2.0, 5.0), (20.0, 2.0, 0.5)],
+        [0.001, 0.1],
+    ),
+}
 
 
 def drop_of(name, gravity=0.0):
-    masses, laws, gaps = stacks()[name]
+    masses, laws, gaps = STACKS[name]
     solids = [Solid(*numbers) for numbers in laws]
     balls = [sb.Ball(mass) for mass in masses]
     return sb.Drop(balls, solids, gaps, impact_speed=1.0, gravity=gravity)
 
 
-@pytest.mark.parametrize("name", list(stacks()))
+@pytest.mark.parametrize("name", STACKS)
 def test_stacks_by_another_method(name):
     drop = drop_of(name)
     result = sb.simulate(drop)

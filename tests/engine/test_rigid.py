@@ -160,9 +160,9 @@ def test_random_stacks(drop):
 
 def test_newtons_cradle_lowest_approaching_first():
     """Touching balls without a floor, two coming in: two go out."""
-    drop = rigid([1.0] * 5, [None, 1.0, 1.0, 1.0, 1.0], velocities=[1.0, 1.0, 0.0, 0.0, 0.0])
+    drop = rigid([1.0] * 5, [None, 1.0, 1.0, 1.0, 1.0], velocities=[0.3, 0.3, 0.0, 0.0, 0.0])
     result = sb.simulate(drop)
-    assert result.rebound_speeds.tolist() == [0.0, 0.0, 0.0, 1.0, 1.0]
+    assert result.rebound_speeds.tolist() == [0.0, 0.0, 0.0, 0.3, 0.3]
     assert_collisions(result, exact(drop))
 
 
@@ -197,7 +197,6 @@ def test_tall_stack_of_many_masses_keeps_its_energy():
 
 
 # --- inelastic collapse: detected by theory, replaced by its limit; collisions counted below it
-COLLAPSE_PRECISION = 1e-11
 
 
 @pytest.mark.parametrize("gap", [0.0, 1.0])
@@ -319,7 +318,7 @@ def test_collapse_in_the_middle_of_three_balls_without_a_floor():
     assert not exact(drop, limit=200).finished
     assert result.status is sb.Status.COLLAPSED
     assert result.collisions.tolist() == [0, -1, -1]
-    assert result.rebound_speeds == pytest.approx([0.25 / 3] * 3, abs=COLLAPSE_PRECISION)
+    assert result.rebound_speeds == pytest.approx([0.25 / 3] * 3, abs=PRECISION)
 
 
 @pytest.mark.parametrize(
@@ -335,7 +334,7 @@ def test_collapse_on_the_way_up(masses, restitutions):
     result = sb.simulate(drop)
     assert result.status is sb.Status.COLLAPSED
     assert result.collisions.tolist()[1:] == [-1, -1]
-    assert np.ptp(result.rebound_speeds) <= COLLAPSE_PRECISION
+    assert np.ptp(result.rebound_speeds) <= PRECISION
 
 
 def test_a_group_that_joins_again_and_again_comes_to_an_end():
@@ -345,4 +344,4 @@ def test_a_group_that_joins_again_and_again_comes_to_an_end():
         drop = rigid([3.311, *masses], [None, first, *laws[1:]], velocities=[0.64, 0.5, 0.2, -1.0])
         result = sb.simulate(drop, event_limit=20_000)
         assert result.status is sb.Status.COLLAPSED
-        assert np.ptp(result.rebound_speeds) <= COLLAPSE_PRECISION
+        assert np.ptp(result.rebound_speeds) <= PRECISION

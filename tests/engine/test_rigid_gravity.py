@@ -35,14 +35,6 @@ def test_one_ball_bounces_to_rest(e, compiled):
     assert len(apexes) == len(result.intervals)
 
 
-def test_what_rests_stays():
-    result = sb.simulate(falling([1.0], [0.5]), until=50.0)
-    later = result.sample([result.end_time, 10.0, 1e9])
-    assert later.position.values.tolist() == [[0.0] * 3]
-    assert later.velocity.values[0, 1:].tolist() == [0.0] * 2
-    assert later.energy.values[1:].tolist() == [0.0] * 2
-
-
 def test_without_loss_a_ball_bounces_for_ever():
     result = sb.simulate(falling([1.0], [1.0]), until=1e4 + 1.0)
     assert result.status is sb.Status.TIME_REACHED

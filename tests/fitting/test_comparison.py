@@ -13,6 +13,12 @@ BALLS = [sb.Ball(0.150), sb.Ball(0.057)]
 SPRINGS = [sb.Spring(2500.0), sb.Spring(1000.0)]
 
 
+def seen_of(drop, contacts):
+    """Return the rebound ratios of a drop with other contacts as data."""
+    ratios = sb.simulate(replace(drop, contacts=contacts)).rebound_ratios
+    return {"rebound_ratios": [(ratio, 0.01) for ratio in ratios]}
+
+
 @pytest.fixture(scope="module")
 def compared():
     """Three models beside what true Hysteretic contacts would show in three drops."""
@@ -20,9 +26,8 @@ def compared():
     drops, seen = {}, {}
     for cm in (10, 40, 90):
         drop = sb.Drop(BALLS, SPRINGS, gaps=[2e-3], height=cm / 100)
-        ratios = sb.simulate(replace(drop, contacts=truth)).rebound_ratios
         drops[f"at_{cm}"] = drop
-        seen[f"at_{cm}"] = {"rebound_ratios": [(ratio, 0.01) for ratio in ratios]}
+        seen[f"at_{cm}"] = seen_of(drop, truth)
     usual = sb.standard_models(drops)
     some = ("Rigid, one restitution", "Spring", "Hysteretic")
     return sb.compare({name: usual[name] for name in some}, seen)
@@ -68,8 +73,7 @@ def test_a_drop_that_is_left_out_is_predicted(compared):
 def test_with_one_drop_each_datum_is_left_out():
     drop = sb.Drop(BALLS, [sb.Rigid(0.8), sb.Rigid(0.9)], impact_speed=3.0)
     model = sb.Model(drop, {"contacts.0.restitution": (0.1, 1.0)})
-    ratios = [(ratio, 0.01) for ratio in sb.simulate(drop).rebound_ratios]
-    compared = sb.compare({"one": model, "same": model}, {"rebound_ratios": ratios})
+    compared = sb.compare({"one": model, "same": model}, seen_of(drop, drop.contacts))
     (score,) = compared.scores
     assert (score.model, score.same_as, score.weight) == ("one", ("same",), 1.0)
     names = [row.name for row in compared.left_out["one"]]
@@ -146,15 +150,7 @@ def test_models_that_are_not_told_apart_share_a_row_and_a_weight():
 def test_the_power_of_the_speed_is_fitted():
     law = sb.RigidBySpeed(0.7, 2.0, speed_exponent=0.3)
     drops = at_speeds(BALLS, SPRINGS, (1, 2, 4))
-    data = {
-        key: {
-            "rebound_ratios": [
-                (ratio, 0.01)
-                for ratio in sb.simulate(replace(drop, contacts=[law, law])).rebound_ratios
-            ]
-        }
-        for key, drop in drops.items()
-    }
+    data = {key: seen_of(drop, [law, law]) for key, drop in drops.items()}
     model = sb.standard_models(drops)["RigidBySpeed, one restitution"]
     found = replace(model, data=data).fit(starts=16)
     assert found.chi_squared < 1e-6

@@ -118,10 +118,8 @@ def test_a_fit_is_drawn_against_the_gap_and_shows_itself():
     found = sb.fit(drops, data, {"contacts.1.stiffness": (300.0, 5000.0)})
     above, below = plots.fit(found).axes[:2]
     assert below.get_xlabel() == "gap (mm)"
-    assert [len(line.get_xdata()) for line in above.lines if line.get_linestyle() == "-"] == [
-        80,
-        80,
-    ]
+    curves = [line for line in above.lines if line.get_linestyle() == "-"]
+    assert [len(line.get_xdata()) for line in curves] == [80, 80]
     best, deviations = found.along(number_at(drops["gap_0"], "gaps.0"), np.array(gaps))
     fitted = [[row.fitted for row in found.residuals if row.drop == key] for key in drops]
     assert best["rebound_ratios"] == pytest.approx(np.array(fitted), rel=1e-9)

@@ -53,13 +53,6 @@ def rate(density):
     return mpf(density) * mpf("0.5") * area / (2 * mpf(BALL.mass))
 
 
-@pytest.mark.parametrize("height", [0.05, 0.71, 5.0, 100.0])
-def test_falls_obey_the_equation_of_motion(height):
-    time, _, speed = moved([height, 0.0], crossing(lambda y: y[0]))
-    assert AIR.impact_speed(BALL, height) == pytest.approx(-speed, rel=1e-10)
-    assert AIR.fall_time(BALL, height) == pytest.approx(time, rel=1e-10)
-
-
 @pytest.mark.parametrize("speed", [0.5, 3.53, 5.8, 40.0])
 def test_rises_and_flights_obey_the_equation_of_motion(speed):
     time, top, _ = moved([0.0, speed], crossing(lambda y: y[1]))
@@ -273,9 +266,6 @@ def test_what_is_wrong_is_told():
     assert refused(AIR.rebound_heights, thrown, [1.0, 2.0]).startswith("speeds must hold one num")
     assert refused(AIR.rebound_heights, thrown, [math.nan]).startswith("speeds.0 must be a")
     assert refused(AIR.dropped, stack([BALL, sb.Ball(1.0)])).startswith("balls.1.diameter must")
-
-
-def test_what_is_out_of_range_is_refused():
     launched = refused(sb.Air(density=1e3).launch_speed, sb.Ball(1e-3, 0.1), 10.0)
     assert launched.startswith("height must be one that a ball can")
     flown = refused(AIR.flight, sb.Ball(1.0, 0.1), 1e200)

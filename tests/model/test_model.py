@@ -45,12 +45,6 @@ def test_a_ball_needs_positive_finite_numbers(field, value):
     assert got == f"{field} must be a positive number of {words}, got {value}"
 
 
-@pytest.mark.parametrize("value", ["150 g", True, [1.0], 1j, None])
-def test_a_mass_is_a_number(value):
-    got = refusal(errors.InvalidType, Ball, mass=value)
-    assert got == f"mass must be a positive number of kilograms, got {value!r}"
-
-
 @pytest.mark.parametrize("value", [0.00141, 1e-200])
 def test_a_small_restitution_is_refused_with_the_least_that_is_not(value):
     got = refusal(errors.InvalidValue, Hysteretic, 1.0, restitution=value)
@@ -141,13 +135,6 @@ def test_ways_to_come_in():
     drop = two(impact_speed=None, velocities=[0, -2.0])
     assert drop.reference_speed == 2.0
     assert drop.start_velocities == (0.0, -2.0)
-
-
-def test_rigid_drops():
-    assert two(contacts=[Rigid(1), Rigid(0.5)]).rigid
-    assert two(contacts=[None, Rigid(0.5)]).rigid
-    assert not two().rigid
-    assert not two(contacts=[None, SPRING]).rigid
 
 
 @pytest.mark.parametrize(

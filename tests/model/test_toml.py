@@ -120,13 +120,6 @@ def test_toml_and_mappings_are_read_back_exactly(tmp_path_factory, drop):
     assert Drop.from_mapping(json.loads(json.dumps(drop.to_mapping()))) == drop
 
 
-def test_no_floor():
-    drop = Drop([Ball(1.0)], [None], impact_speed=1.0)
-    assert drop.to_mapping()["contacts"] == [{"law": "none"}]
-    assert 'law = "none"' in drop.to_toml()
-    assert Drop.from_mapping(drop.to_mapping()) == drop
-
-
 def test_null_stands_for_a_key_left_out():
     plain = Drop([Ball(1.0)], [Spring(1.0)], impact_speed=1.0).to_mapping()
     assert Drop.from_mapping(plain | {"height": None, "velocities": None}).impact_speed == 1.0
@@ -301,17 +294,3 @@ def test_a_balls_material_has_units(read):
     assert ball == Ball(0.057, young_modulus=206e9, poisson_ratio=0.3)
     got = refusal(errors.ScenarioError, read, text.replace("GPa", "kN"))
     assert got.startswith("drop.toml: balls.1.young_modulus must be a pressure (a number of Pa or")
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ('"Dashpot"\nstiffness = 1\ndamping = "7 N"', "damping must be a damping (a number of N"),
-        ('"Hertz"\nstiffness = "1 N/m"', "stiffness must be a quantity (a number of N/m**1.5 or a"),
-        ('"Hertz"\nstiffness = -1', "stiffness must be a positive number of N/m"),
-    ],
-)
-def test_each_law_refuses_other_units(read, text, expected):
-    lower = SCENARIO[: SCENARIO.rindex('"hysteretic"')]
-    got = refusal(errors.ScenarioError, read, lower + text)
-    assert got.startswith(f"drop.toml: contacts.1.{expected}")

@@ -71,8 +71,6 @@ def test_one_ball_by_its_index():
     for index in (0, -2):
         (line,) = plots.lines(ds, index=index).axes[0].get_lines()
         assert np.array_equal(line.get_ydata(), ds.rebound_ratio[:, 0])
-    with pytest.raises(sb.StackbounceError, match="index must name a ball from 0 to 1, got 2"):
-        plots.lines(ds, index=2)
 
 
 def test_balls_have_their_names():

@@ -1,6 +1,5 @@
 """How far errors of a drop's numbers grow, against runs of drops whose numbers are off."""
 
-import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -82,10 +81,8 @@ def test_chaos_is_told():
 def test_speeds_at_the_ends_of_the_range(speed):
     balls = [sb.Ball(0.6), sb.Ball(0.06)]
     result = sb.simulate(sb.Drop(balls, [sb.Rigid(1.0)] * 2, impact_speed=speed))
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        assert (result.conditioning >= 0.0).all()
-        assert result.known_until >= 0.0
+    assert (result.conditioning >= 0.0).all()
+    assert result.known_until >= 0.0
 
 
 def test_a_run_without_speeds_knows_none():

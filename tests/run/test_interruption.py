@@ -45,9 +45,8 @@ def _imported():
 
 @pytest.mark.parametrize("name", WORK)
 def test_an_interruption_is_answered_at_once(name, monkeypatch, request):
-    usual = signal.signal(
-        signal.SIGINT, signal.default_int_handler
-    )  # a job in the background has none
+    # a job in the background has none
+    usual = signal.signal(signal.SIGINT, signal.default_int_handler)
     request.addfinalizer(lambda: signal.signal(signal.SIGINT, usual))
     monkeypatch.setattr(sys, "unraisablehook", interrupt_again)  # as in the program
     sent = []

@@ -12,14 +12,10 @@ import pytest
 import stackbounce as sb
 
 
-def stack(masses, contacts, gaps=None, **given):
-    """Return a drop at speed 1."""
+def run(masses, contacts, gaps=None, gravity=0.0, until=None):
     balls = [sb.Ball(mass) for mass in masses]
-    return sb.Drop(balls, contacts, gaps, **({"impact_speed": 1.0} | given))
-
-
-def run(masses, contacts, gaps=None, **given):
-    return sb.simulate(stack(masses, contacts, gaps, **given))
+    drop = sb.Drop(balls, contacts, gaps, impact_speed=1.0, gravity=gravity)
+    return sb.simulate(drop, until=until)
 
 
 def printed(*values, digits):
@@ -70,7 +66,7 @@ def test_delayed_rebound():
     ratio, zeta, gravity = 0.02, 0.1, 0.005
     reduced = ratio / (1.0 + ratio)
     contacts = [sb.Dashpot(1.0, 2.0 * zeta), sb.Dashpot(1.0, 2.0 * zeta * math.sqrt(reduced))]
-    result = sb.simulate(stack([1.0, ratio], contacts, gravity=gravity), until=1000.0)
+    result = run([1.0, ratio], contacts, gravity=gravity, until=1000.0)
     upper = result.apexes[result.apexes["ball"] == 1]
     drop_height = 1.0 / (2.0 * gravity)
     assert (upper["height"][:2] / drop_height).tolist() == printed(0.571, 2.166, digits=3)

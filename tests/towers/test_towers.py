@@ -138,15 +138,6 @@ def test_stacks_are_as_simulated_and_in_order():
         assert ds.place.values[order, gap].tolist() == [1, 2, 3, 4, 5, 6]
 
 
-def test_the_best_stack_is_a_scenario():
-    ds = sb.highest(["B1", "B2", "B3"], 3, gaps=[0.002])
-    drop = sb.Drop.from_mapping(tomllib.loads(ds.attrs["best"]))
-    assert [ball.name for ball in drop.balls] == ds.balls.values[0].tolist()
-    result = sb.simulate(drop)
-    assert result.rebound_ratios == pytest.approx(ds.rebound_ratio.values[0, 0], abs=1e-12)
-    assert result.drop.gaps == (0.002, 0.002)
-
-
 def test_how_many_stacks_there_are():
     assert sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0]).sizes["stack"] == 6
     assert sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0], repeat=True).sizes["stack"] == 9
