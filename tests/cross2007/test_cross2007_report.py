@@ -9,12 +9,12 @@ from html.parser import HTMLParser
 
 import pytest
 
-from adversary.processes import content
 from refusals import refusal
 from stackbounce import __version__, cross2007
 from stackbounce.cross2007 import report
 from stackbounce.cross2007.pages import typeset
 from stackbounce.errors import FileError
+from stopped_sweep import content
 
 pytestmark = pytest.mark.slow  # the whole report is written twice
 
