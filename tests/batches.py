@@ -23,7 +23,6 @@ def numbers_of(drawn, rows=slice(None)):
 
 
 def swept(engine, drops, options):
-    """Return the outcomes of drops."""
     out = _room(drops)
     room = memory(engine, drops.mass.shape[1], compiled=True)
     room.run_batch(engine.run_batch, drops, options, out)

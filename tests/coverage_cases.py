@@ -3,8 +3,6 @@
 import os
 from collections.abc import Collection
 
-__all__ = ["chosen"]
-
 
 def chosen(cases: Collection[str], *few: str) -> list[str]:
     """Return the names of some cases, or of all where all are asked for."""

@@ -75,12 +75,7 @@ def one_ball(law, speed=1.0, mass=1.0):
     return sb.simulate(sb.Drop([sb.Ball(mass)], [law], impact_speed=speed))
 
 
-def springs(
-    masses: Sequence[float],
-    stiffnesses: Sequence[float | None],
-    gaps: Sequence[float] | None = None,
-    velocities: Sequence[float] | None = None,
-) -> sb.Drop:
+def springs(masses, stiffnesses, gaps=None, velocities=None):
     """Return a drop on springs, at speed 1 unless velocities are given; None: no floor."""
     return sb.Drop(
         balls=[sb.Ball(mass) for mass in masses],
@@ -90,14 +85,7 @@ def springs(
     )
 
 
-def rigid(
-    masses: Sequence[float],
-    restitutions: Sequence[float | None] | float = 1.0,
-    gaps: Sequence[float] | None = None,
-    velocities: Sequence[float] | None = None,
-    gravity: float = 0.0,
-    **start: float,
-) -> sb.Drop:
+def rigid(masses, restitutions=1.0, gaps=None, velocities=None, gravity=0.0, **start):
     """Return a drop of rigid balls, at speed 1 unless something else is given; None: no floor."""
     if isinstance(restitutions, float):
         restitutions = [restitutions] * len(masses)
@@ -111,12 +99,10 @@ def rigid(
 
 
 def masses_of(drop: sb.Drop) -> np.ndarray:
-    """Return the masses."""
     return np.array([ball.mass for ball in drop.balls])
 
 
 def of_contact(result: sb.Result, index: int) -> np.ndarray:
-    """Return the intervals of one contact, in order."""
     return result.intervals[result.intervals["contact"] == index]
 
 

@@ -4,8 +4,6 @@ import stackbounce as sb
 from synthetic.track import track
 from synthetic.waveform import waveform
 
-__all__ = ["floor_force", "two_tracks"]
-
 _BALLS = [
     sb.Ball(0.150, diameter=0.160, name="basketball"),
     sb.Ball(0.057, diameter=0.066, name="tennis"),

@@ -6,16 +6,12 @@ from stackbounce.measure.quantities import Array
 
 G = 9.80665
 
-__all__ = ["TRACKS", "G", "jumps", "rectified_sine", "swings"]
-
 
 def _seen(times: Array, heights: Array, noise: float = 1e-3) -> tuple[Array, Array]:
     return times, heights + np.random.default_rng(7).normal(0.0, noise, len(times))
 
 
-def rectified_sine(
-    rows: int = 1000, rate: float = 50.0, period: float = 1.0
-) -> tuple[Array, Array]:
+def rectified_sine(rows=1000, rate=50.0, period=1.0):
     """Return arcs of half a sine, which meet as flights do."""
     times = np.arange(rows) / rate
     return _seen(times, 0.3 * np.abs(np.sin(2.0 * np.pi * times / period)))
@@ -39,13 +35,11 @@ def valley() -> tuple[Array, Array]:
 
 
 def bowl() -> tuple[Array, Array]:
-    """Return a ball that rolls in a bowl, with friction."""
     times = np.arange(600) / 100.0
     return _seen(times, 0.2 * (np.cos(np.pi * times) * np.exp(-times / 10.0)) ** 2)
 
 
 def spring() -> tuple[Array, Array]:
-    """Return a mass on a spring."""
     times = np.arange(600) / 100.0
     return _seen(times, 0.1 * np.cos(2.0 * np.pi * times / 0.4) * np.exp(-times / 5.0), 2e-3)
 

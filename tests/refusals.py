@@ -2,8 +2,6 @@
 
 import pytest
 
-__all__ = ["refusal"]
-
 
 def refusal(error, make, *given, **named):
     """Return the message of an error that a call has to end with, which is one line."""

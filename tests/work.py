@@ -3,8 +3,6 @@
 import sys
 import tracemalloc
 
-__all__ = ["calls_of", "memory_of"]
-
 
 def calls_of(function, *given, **options):
     """Return the result of a call and how many functions it called in turn."""

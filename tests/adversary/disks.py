@@ -68,13 +68,7 @@ def attack(folder: Path) -> Iterator[Case]:
         subprocess.run(["umount", str(disk)], check=True)
 
 
-def _fail_and_go_on(
-    arguments: list[str],
-    disk: Path,
-    logs: Path,
-    files: dict[str, bytes],
-    random: np.random.Generator,
-) -> None:
+def _fail_and_go_on(arguments, disk, logs, files, random):
     """Run a command on a disk that is full somewhere, then with room."""
     old = {name: b"a good old file" for name in files if name.startswith("new.")}
     if random.integers(2):

@@ -22,8 +22,6 @@ import httpx
 
 from adversary.server import LONG_RUN, Server, make_drop, serving
 
-__all__ = ["KINDS", "Seen", "flood"]
-
 _FLOODER, _OTHER = "127.0.0.2", "127.0.0.1"
 _SPRING = {"law": "Spring", "stiffness": 2500.0}
 _FIT = {

@@ -19,7 +19,6 @@ MOST = 3  # kills of one sweep
 
 @contextlib.contextmanager
 def attack(folder: Path) -> Iterator[Case]:
-    """Kill a sweep a few times, and resume it."""
     whole, logs = undisturbed(folder), folder / "logs"
 
     def case(_: int, random: np.random.Generator, own: Path) -> None:

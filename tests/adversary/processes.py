@@ -71,7 +71,6 @@ class Started:
         os.kill(self.number, number)  # until `wait` its number is not given to another process
 
     def wait(self) -> Ended:
-        """Wait for the end, not for ever."""
         while time.monotonic() < self.begun + PATIENCE:
             number, status = os.waitpid(self.number, os.WNOHANG)
             if number:
@@ -107,7 +106,6 @@ class Forked(Started):
 
 
 def run(arguments: Sequence[str], folder: Path, logs: Path, kind: type[Started] = Forked) -> Ended:
-    """Run a command to its end."""
     return kind(arguments, folder, logs).wait()
 
 
@@ -160,7 +158,6 @@ class Undisturbed(NamedTuple):
 
 
 def undisturbed(folder: Path, masses: int = 30) -> Undisturbed:
-    """Return what comes of a sweep."""
     folder = folder / f"undisturbed-{masses}"
     folder.mkdir()
     for _ in range(2):  # the first time some modules are imported

@@ -10,8 +10,6 @@ from urllib.parse import urlsplit
 
 import psutil
 
-__all__ = ["LONG_RUN", "Server", "make_drop", "serving"]
-
 
 def make_drop(balls: int, contact: dict[str, Any], **more: float) -> dict[str, Any]:
     """Return so many balls with the same contacts, as a request has them."""
@@ -26,19 +24,15 @@ LONG_RUN = {"drop": make_drop(6, _POWER, gravity=1000.0), "until": 60.0, "frames
 
 @dataclasses.dataclass(frozen=True)
 class Server:
-    """A server that runs."""
-
     address: str
     process: subprocess.Popen[str]
 
     @property
     def place(self) -> tuple[str, int]:
-        """Host and port."""
         parts = urlsplit(self.address)
         return str(parts.hostname), int(parts.port or 0)
 
     def children(self) -> list[psutil.Process]:
-        """Return its processes."""
         return psutil.Process(self.process.pid).children()
 
 

@@ -34,8 +34,6 @@ _RECORD = "\n".join(
 
 
 class Command(NamedTuple):
-    """A command, and the files that it writes."""
-
     arguments: list[str]
     files: tuple[str, ...]
 
@@ -59,7 +57,6 @@ _ATTACKS = tuple(itertools.product(COMMANDS, SIGNALS))
 
 @contextlib.contextmanager
 def attack(folder: Path) -> Iterator[Case]:
-    """Send a signal."""
     logs = folder / "logs"
 
     @functools.cache
@@ -99,9 +96,7 @@ def attack(folder: Path) -> Iterator[Case]:
     yield case
 
 
-def judge(
-    command: Command, number: signal.Signals, ended: Ended, own: Path, files: dict[str, bytes]
-) -> str:
+def judge(command, number, ended, own, files):
     """Return what is wrong with the end of a command that a signal came to."""
     if _OURS.search(ended.err) and _SITE not in ended.err:
         return "traceback"

@@ -48,7 +48,6 @@ _WAYS = (_remove, _shorten, _garble)
 
 
 def chunk(store: Path, random: Random) -> None:
-    """Damage chunks."""
     for _ in range(int(random.integers(1, 4))):
         own = _ARRAYS[int(random.integers(len(_ARRAYS)))]
         if paths := _files(store / own, "[0-9]*"):  # a part of a store may have no more

@@ -31,7 +31,6 @@ Case = Callable[[int, np.random.Generator, Path], None]
 
 
 def expect(fine: bool, kind: str, said: str = "") -> None:
-    """Fail unless something is fine."""
     if not fine:
         raise Failure(kind, said.strip())
 

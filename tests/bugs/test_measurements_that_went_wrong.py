@@ -15,7 +15,7 @@ from stackbounce.cli import main
 from stackbounce.explorer import LIMITS
 from stackbounce.explorer.answers.records import measure_record
 from stackbounce.explorer.workers import Workers
-from stackbounce.measure import analyse, read
+from stackbounce.measure import analyse
 from stackbounce.measure.kinds.bounces.restitution_law import laws_of
 
 # --- masked numbers were taken as numbers: a prediction from draws gave 6 ± 26 m/s for 6.3 ± 0.05
@@ -92,17 +92,6 @@ def test_typed_numbers_are_refused_in_one_line(arguments, capfd):
     err = capfd.readouterr().err
     assert err.count("\n") == 1
     assert "unexpected" not in err
-
-
-@pytest.mark.parametrize("missing", ["1e300", "-1.23456789E-300", "inf"])
-def test_what_programs_write_for_a_missing_number_is_none(tmp_path, missing):
-    path = tmp_path / "scope.csv"
-    path.write_text(
-        "time (s),force (N)\n" + "".join(f"{k},{k * 0.5}\n" for k in range(9)) + f"9,{missing}\n"
-    )
-    force = read(path).force.values
-    assert force[:9].tolist() == [k * 0.5 for k in range(9)]
-    assert not np.isfinite(force[9:]).any()
 
 
 def test_speeds_far_from_one_metre_per_second_have_no_power_law():

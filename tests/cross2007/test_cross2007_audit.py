@@ -70,9 +70,9 @@ def done():
     return audit()
 
 
-def value(done, name):
+def row_named(done, name):
     (row,) = [row for row in done.rows if row.id == name]
-    return row.computed
+    return row
 
 
 def moved(after, before):
@@ -118,7 +118,7 @@ def test_no_disagreement_is_left_unexplained_and_reads_and_calls_are_recorded(do
     ],
 )
 def test_known_values(done, name, expected, digits):
-    assert round(value(done, name) - expected, digits) == 0
+    assert round(row_named(done, name).computed - expected, digits) == 0
 
 
 def test_the_large_ball_of_105_g_gives_the_ratios_of_table_two(done):
@@ -128,7 +128,7 @@ def test_the_large_ball_of_105_g_gives_the_ratios_of_table_two(done):
 
 
 def test_collisions_of_the_large_ball_on_the_smallest_are_eleven_not_nine(done):
-    (row,) = [row for row in done.rows if row.id == "IV.small_count"]
+    row = row_named(done, "IV.small_count")
     assert (row.number, row.computed, row.tolerance) == (9.0, 11.0, 0.0)
     assert [one.computed for one in row.attempts] == [9.0, 9.0, 9.0, 11.0, 11.0]
 
@@ -157,7 +157,7 @@ def test_three_of_four_fits_are_the_most_that_any_fall_gives():
 )
 def test_other_readings_come_no_nearer(done, name, verdicts, computed, digits):
     """1.64 comes only after a shorter fall; a force that rises at once leaves no 7 ms."""
-    (row,) = [row for row in done.rows if row.id == name]
+    row = row_named(done, name)
     assert [one.verdict for one in row.attempts] == verdicts
     last = [one.computed for one in row.attempts[-2:]]
     assert [round(one, digits) for one in last] == computed
@@ -252,9 +252,7 @@ def test_verdicts():
     assert row_of("2.64", 2.6451, 0.01).verdict == WITHIN_ERROR
     assert row_of("3", 3.0, counted=True).verdict == AGREES
     assert row_of("3", 4.0, counted=True).verdict == DIFFERS
-
-
-def test_an_error_as_large_as_the_number_lets_nothing_pass():
+    # an error as large as the number lets nothing pass
     assert row_of("1", 2.8, 1.7).verdict == DIFFERS
     assert row_of("2", 2.8, 1.7).verdict == WITHIN_ERROR
 

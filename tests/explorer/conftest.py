@@ -28,5 +28,4 @@ def server(address_of_server):
 
 @pytest.fixture
 def drop():
-    """Return a drop, as a page sends it."""
     return copy.deepcopy(DROP)

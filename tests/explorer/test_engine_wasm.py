@@ -67,8 +67,11 @@ def compare(jobs, expected, folder):
     assert same
 
 
-def compare_random_drops(batches, count, folder):
-    """Simulate and sweep random drops by both."""
+@pytest.mark.parametrize(
+    ("batches", "count"),
+    [(BATCHES, 25), pytest.param(len(draw.BALLS), 400, marks=pytest.mark.slow)],
+)
+def test_random_drops(tmp_path, batches, count):
     jobs, expected = [], []
     for batch in range(batches):
         drawn, rigid = draw.drops_of(SEED, batch, count), draw.is_rigid(batch)
@@ -86,15 +89,7 @@ def compare_random_drops(batches, count, folder):
         drops, options = numbers_of(drawn), Options(math.inf, 1e-9, LIMIT)
         jobs.append(job(SWEEP, drops, rigid, options))
         expected += map(np.ravel, swept(RIGID if rigid else FINITE, drops, options))
-    compare(jobs, expected, folder)
-
-
-@pytest.mark.parametrize(
-    ("batches", "count"),
-    [(BATCHES, 25), pytest.param(len(draw.BALLS), 400, marks=pytest.mark.slow)],
-)
-def test_random_drops(tmp_path, batches, count):
-    compare_random_drops(batches, count, tmp_path)
+    compare(jobs, expected, tmp_path)
 
 
 def two_springs(count):

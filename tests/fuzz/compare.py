@@ -1,7 +1,6 @@
 """Random drops once more: as plain Python, and by another method altogether."""
 
 from collections.abc import Mapping
-from typing import Any
 from unittest import mock
 
 import numpy as np
@@ -74,16 +73,14 @@ def otherwise(result: sb.Result, options: Mapping[str, float]) -> str:
     return SAME if alike and error < shift else DIFFERENT
 
 
-def _counts(contact: Any, end: Any, impulse: Any, drop: sb.Drop) -> list[int]:
+def _counts(contact, end, impulse, drop):
     """Return how often each contact closed, without what is only just closed at the end."""
     momentum = sum(ball.mass for ball in drop.balls) * drop.reference_speed
     counted = np.isfinite(end) | (np.array(impulse) > _BEGUN * momentum)
     return np.bincount(np.array(contact, int)[counted], minlength=len(drop.balls)).tolist()
 
 
-def _referred(
-    drop: sb.Drop, options: Mapping[str, float], ball: int = -1
-) -> tuple[np.ndarray, list[int]]:
+def _referred(drop, options, ball=-1):
     """Return the reference's velocities and counts, with another velocity of one ball if any."""
     velocities = list(drop.velocities)
     if ball >= 0:

@@ -57,7 +57,6 @@ class Drops(NamedTuple):
 
 
 def is_rigid(batch: int) -> bool:
-    """Return whether a batch is of rigid stacks."""
     return batch % RIGID_EVERY == RIGID_EVERY - 1
 
 
@@ -67,7 +66,6 @@ def balls_of(batch: int) -> int:
 
 
 def drops_of(seed: int, batch: int, count: int = BATCH) -> Drops:
-    """Return a batch of random drops."""
     random = np.random.default_rng([seed, batch])
     balls, rigid = balls_of(batch), is_rigid(batch)
     shape = (count, balls)
@@ -118,15 +116,7 @@ def drops_of(seed: int, batch: int, count: int = BATCH) -> Drops:
     return Drops(*map(np.ascontiguousarray, drops))  # one type of array, compiled once
 
 
-def _damping(
-    random: np.random.Generator,
-    law: np.ndarray,
-    extra: np.ndarray,
-    linear: np.ndarray,
-    reduced: np.ndarray,
-    length: np.ndarray,
-    speed: np.ndarray,
-) -> np.ndarray:
+def _damping(random, law, extra, linear, reduced, length, speed):
     """Return the laws' last numbers with those of damped ones, from faint to overdamped."""
     strength = _decades(random, law.shape, -6.0, 3.0)
     strength = np.where(random.random(law.shape) < 0.1, 1.0, strength)
@@ -140,22 +130,18 @@ def _damping(
     return extra
 
 
-def _decades(
-    random: np.random.Generator, shape: int | tuple[int, ...], low: float, high: float
-) -> np.ndarray:
+def _decades(random, shape, low, high):
     """Return numbers whose logarithms are uniform."""
     return 10.0 ** random.uniform(low, high, shape)
 
 
-def _spread(
-    random: np.random.Generator, shape: tuple[int, int], widths: list[float], odds: list[float]
-) -> np.ndarray:
+def _spread(random, shape, widths, odds):
     """Return rows of numbers each within its own number of decades."""
     width = random.choice(widths, (shape[0], 1), p=odds)
     return 10.0 ** (width * random.uniform(-0.5, 0.5, shape))
 
 
-def _masses(random: np.random.Generator, shape: tuple[int, int]) -> np.ndarray:
+def _masses(random, shape):
     mass = _spread(random, shape, [0.0, 1.0, 3.0, 6.0, 12.0], [0.15, 0.4, 0.3, 0.14, 0.01])
     whole = random.choice([1.0, 1.0, 2.0, 3.0, 4.0, 0.5, 0.25, 1.0 / 3.0, 100.0], shape)
     mass = np.where(random.random((shape[0], 1)) < 0.25, whole, mass)
@@ -163,7 +149,7 @@ def _masses(random: np.random.Generator, shape: tuple[int, int]) -> np.ndarray:
     return mass * unit
 
 
-def _velocities(random: np.random.Generator, shape: tuple[int, int]) -> np.ndarray:
+def _velocities(random, shape):
     """Return common, striking, or individual velocities, some of them equal or zero."""
     count, balls = shape
     velocity = np.full(shape, -1.0)
@@ -183,15 +169,13 @@ def _velocities(random: np.random.Generator, shape: tuple[int, int]) -> np.ndarr
     return velocity * unit
 
 
-def _linear_stiffnesses(random: np.random.Generator, shape: tuple[int, int]) -> np.ndarray:
+def _linear_stiffnesses(random, shape):
     """Return the stiffness of the spring that would stop each contact's balls about as well."""
     linear = _spread(random, shape, [0.0, 1.0, 3.0, 8.0], [0.2, 0.4, 0.3, 0.1])
     return linear * random.choice([1.0, 1e3, 1e6], (shape[0], 1), p=[0.7, 0.2, 0.1])
 
 
-def _laws(
-    random: np.random.Generator, shape: tuple[int, int]
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _laws(random, shape):
     """Return laws, loading exponents and, where they unload otherwise, unloading exponents."""
     law = random.integers(SPRING, HYSTERETIC + 2, shape)  # hysteresis twice as often
     one = random.integers(SPRING, HYSTERETIC + 2, (shape[0], 1))
@@ -205,7 +189,7 @@ def _laws(
     return law, exponent, np.where(law >= HYSTERETIC, unloading, 0.0)
 
 
-def _restitutions(random: np.random.Generator, shape: tuple[int, int]) -> np.ndarray:
+def _restitutions(random, shape):
     """Return restitutions, often one for a whole stack, often exactly 0 or 1."""
     own = random.random(shape)
     own = np.where(random.random(shape) < 0.1, 0.0, own)
@@ -214,7 +198,7 @@ def _restitutions(random: np.random.Generator, shape: tuple[int, int]) -> np.nda
     return np.where(random.random((shape[0], 1)) < 0.5, one, own)
 
 
-def _gaps(random: np.random.Generator, shape: tuple[int, int], length: np.ndarray) -> np.ndarray:
+def _gaps(random, shape, length):
     """Return gaps of 0, tiny, about a contact's length, or huge, in a contact's own length."""
     count, balls = shape
     factors = np.select(

@@ -85,7 +85,6 @@ def _lines(head: str, *columns: np.ndarray) -> bytes:
 
 
 def mutated(content: bytes, random: Random) -> bytes:
-    """Return a file with some changes."""
     for _ in range(int(random.integers(1, MOST + 1))):
         text = not content[:400].count(0) and random.random() < 0.9
         if text and content.count(b"\n") > 1:

@@ -7,7 +7,6 @@ from fuzz.draw import Drops
 
 
 def law_of(drops: Drops, row: int, i: int) -> sb.model.ContactLaw | None:
-    """Return the law of a contact."""
     k, p = float(drops.first[row, i]), float(drops.second[row, i])
     extra = float(drops.third[row, i])
     match int(drops.law[row, i]):

@@ -27,14 +27,12 @@ class Tally:
     violations: list[tuple[str, str]] = dataclasses.field(default_factory=list)
 
     def add(self, other: "Tally") -> None:
-        """Add another tally's counts."""
         self.drops += other.drops
         self.statuses += other.statuses
         self.compared += other.compared
         self.violations += other.violations
 
     def report(self) -> str:
-        """Return all counts as a text for people."""
         counts = collections.Counter(name for name, _ in self.violations)
         lines = [f"{self.drops} drops", ""]
         for (kind, balls, status), count in sorted(self.statuses.items()):

@@ -18,7 +18,6 @@ AT_REST, SLOPE = 0.92, 0.012  # restitution at no speed, and its fall per m/s
 
 
 def kept(speed):
-    """Return a restitution that falls with the speed."""
     return AT_REST - SLOPE * speed
 
 

@@ -252,7 +252,6 @@ def press(header="Compression (mm),Force (N)", delimiter=","):
 
 
 def main(folder):
-    """Write all of them into a folder."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, maker in MAKERS.items():
         (folder / name).write_bytes(maker())

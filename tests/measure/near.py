@@ -9,7 +9,6 @@ def near(found, true, errors=3.0):
 
 
 def nominal(numbers):
-    """Return numbers without their errors."""
     return [number.nominal_value for number in numbers]
 
 

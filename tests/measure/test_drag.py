@@ -266,7 +266,6 @@ def seen(fall=TRACK_FALL, **how):
 
 
 def pairs(ball, fall):
-    """Return what was found with what is true."""
     yield from zip(ball.restitutions, fall.restitutions, strict=False)
     yield from zip(ball.impact_speeds, fall.speeds, strict=False)
     yield from zip(ball.rebound_speeds, fall.rebounds, strict=False)

@@ -90,7 +90,6 @@ def test_errors_that_are_too_small_show_in_the_flights():
 
 
 def tempo(times, seed):
-    """Return clicks at some times."""
     random = np.random.default_rng(seed)
     values = 1e-3 * random.standard_normal(round((times[-1] + 0.5) * RATE))
     since = np.arange(round(0.05 * RATE)) / RATE

@@ -6,8 +6,6 @@ from pathlib import Path
 
 from stackbounce.cli import main
 
-__all__ = ["DOCS", "read_page", "run_all", "steps", "write_files"]
-
 DOCS = Path(__file__).parents[2] / "docs"
 FENCE = re.compile(r"^```console\n(.*?)^```", re.MULTILINE | re.DOTALL)
 TOML = re.compile(r"^```toml\n# (\S+)\n(.*?)^```", re.MULTILINE | re.DOTALL)

@@ -70,7 +70,6 @@ def press_record(
 
 
 def _force(law: Any, way: Array, inward: int, hold: int, peak: float, relaxation: float) -> Array:
-    """Return the force along one cycle."""
     unit = np.clip(way / peak, 0.0, None)
     top = law.stiffness * peak**law.exponent
     n = getattr(law, "unloading_exponent", law.exponent)

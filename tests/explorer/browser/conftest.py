@@ -93,13 +93,11 @@ def browser(request, downloads):
 
 @pytest.fixture
 def in_firefox(browser):
-    """Return whether the browser is Firefox."""
     return browser.browser_type.name == "firefox"
 
 
 @pytest.fixture(scope="session")
 def one_file(tmp_path_factory):
-    """Write the explorer as one file; return its path."""
     path = tmp_path_factory.mktemp("one file") / "explorer ä.html"
     assert main(["app", "--export", str(path)]) == 0
     return path
@@ -107,7 +105,6 @@ def one_file(tmp_path_factory):
 
 @pytest.fixture
 def address(request):
-    """Return the address of the page in one of its forms."""
     if request.param == "one file":
         return request.getfixturevalue("one_file").as_uri()
     name = {"served": "address_of_server", "folder": "folder"}[request.param]
@@ -216,7 +213,6 @@ def visits(browser, address, downloads):
 
 @pytest.fixture
 def visit(visits):
-    """Open a page as a laptop shows it."""
     return visits()
 
 

@@ -74,7 +74,6 @@ def varying(drop):
 
 
 def number_in(drop, path):
-    """Return a number of a drop."""
     number = number_at(drop, path)
     part = getattr(drop, number.part)[number.index] if number.part else drop
     return getattr(part, number.field) if number.field else part

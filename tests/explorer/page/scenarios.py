@@ -56,7 +56,6 @@ def scenario(chance):
 
 
 def ball(chance):
-    """Return a ball as somebody might give it."""
     made = {"mass": number(chance, "mass")}
     if chance.random() < 0.3:
         made["diameter"] = number(chance, "diameter")
@@ -67,7 +66,6 @@ def ball(chance):
 
 
 def law(chance, rigid):
-    """Return a contact as somebody might give it."""
     names = [name for name, one in sb.model.LAWS.items() if one.rigid == rigid]
     name = chance.choice(names)
     made = {"law": chance.choice((name, name.lower(), name.upper(), name))}

@@ -80,7 +80,6 @@ def films(shown_of):
 
 @pytest.fixture(params=DROPS)
 def film(request, films):
-    """Return what the page shows of a drop."""
     return films[request.param]["film"]
 
 

@@ -170,23 +170,6 @@ def test_two_masses_and_no_scale(read):
     np.testing.assert_array_equal(data.y.values[:, 1], [np.nan, 498.0, np.nan])
 
 
-@pytest.mark.parametrize(("content", "message"), [
-    (trk(), "without a track of a point mass"),
-    (trk(mass("ball", POINTS), scale=0.0), "without a clock or a scale"),
-    (trk(mass("ball", {1: ("one", 2)})), "whose x is no number"),
-    (trk(mass("ball", POINTS))[:-9], "cannot be read"),
-    (trk(mass("&b;", POINTS), before='<!DOCTYPE a [<!ENTITY b "c">]>'), "document type"),
-    (trk(mass("&b;", POINTS), before='<!DOCTYPE a SYSTEM "file:///etc/hosts">'), "document type"),
-    (trk(mass("ball", POINTS)) + " " * 2000, "a file of Tracker larger than"),
-    ("<Document><a/></Document>", "it is XML or HTML"),
-    ("<Document><DataSet></DataSet></Document>", "Logger Pro without numbers"),
-])  # fmt: skip
-def test_xml_that_is_refused(read, content, message, monkeypatch):
-    monkeypatch.setattr("stackbounce.measure.reading.tables._XML", 4000)
-    with pytest.raises(FileError, match=message):
-        read(content)
-
-
 def cmbl(runs):
     sets = ""
     for name, columns in runs.items():
@@ -238,6 +221,15 @@ def test_records_and_archives_of_arrays_have_names(read):
 
 
 @pytest.mark.parametrize(("content", "message"), [
+    (trk(), "without a track of a point mass"),
+    (trk(mass("ball", POINTS), scale=0.0), "without a clock or a scale"),
+    (trk(mass("ball", {1: ("one", 2)})), "whose x is no number"),
+    (trk(mass("ball", POINTS))[:-9], "cannot be read"),
+    (trk(mass("&b;", POINTS), before='<!DOCTYPE a [<!ENTITY b "c">]>'), "document type"),
+    (trk(mass("&b;", POINTS), before='<!DOCTYPE a SYSTEM "file:///etc/hosts">'), "document type"),
+    (trk(mass("ball", POINTS)) + " " * 2000, "a file of Tracker larger than"),
+    ("<Document><a/></Document>", "it is XML or HTML"),
+    ("<Document><DataSet></DataSet></Document>", "Logger Pro without numbers"),
     (npy(np.array([{"a": 1}], dtype=object)), "cannot be read .*allow_pickle"),
     (npy(np.array(["a", "b"])), "rows of plain numbers"),
     (npy(np.zeros((2, 3, 4))), "Must pass 2-d input"),
@@ -249,6 +241,7 @@ def test_records_and_archives_of_arrays_have_names(read):
     (npy(np.zeros((9, 2))).replace(b"(9, 2), }", b"(9, 2), ("), "cannot be read"),
     (npy(np.full((9, 2), np.nan)), "no column of numbers"),
 ])  # fmt: skip
-def test_arrays_that_are_refused(read, content, message):
+def test_xml_and_arrays_that_are_refused(read, content, message, monkeypatch):
+    monkeypatch.setattr("stackbounce.measure.reading.tables._XML", 4000)
     with pytest.raises(FileError, match=message):
         read(content)
