@@ -170,7 +170,7 @@ def test_what_is_wrong_is_said_with_row_and_column(table, text, message):
 def test_a_missing_file_and_a_wrong_error(tmp_path, table):
     with pytest.raises(FileError, match="cannot be read"):
         read_table(tmp_path / "no.csv")
-    with pytest.raises(InvalidValue, match="an error must name its column, got .width."):
+    with pytest.raises(InvalidValue, match="an error must name its column, got 'width'"):
         table(PAIRS[0], "width = 2 mm")
 
 
