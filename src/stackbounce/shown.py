@@ -24,8 +24,10 @@ class Shown:
     table: "pd.DataFrame"
     """What was found, a row each."""
 
-    remarks: Sequence[str] = ()
-    """What a reader should know of it, a sentence each."""
+    @property
+    def remarks(self) -> Sequence[str]:
+        """What a reader should know of it, a sentence each: its notes."""
+        return tuple(getattr(self, "notes", ()))
 
     def __repr__(self) -> str:
         """The table and the remarks, as text."""

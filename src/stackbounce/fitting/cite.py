@@ -60,11 +60,10 @@ def cite(found: Fit | Comparison | SeriesFit) -> str:
         if isinstance(found, Comparison):
             result = f"The models are compared by {found.criterion.upper()}."
         else:
-            freedom = counted(found.degrees_of_freedom, "degree of freedom")
             varied = ", ".join(
                 f"{name} = {found[name]:.1uS} {unit}".rstrip() for name, unit in found.units.items()
             )
-            result = f"Best values: {varied}; chi squared is {found.chi_squared:.3g} for {freedom}."
+            result = f"Best values: {varied}. {found.remarks[0]}"
     sources = {(law if isinstance(law, type) else type(law)) for law in laws if law is not None}
     listed = "; ".join(_source(law) for law in sorted(sources, key=lambda law: law.__name__))
     return (

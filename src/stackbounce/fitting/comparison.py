@@ -141,7 +141,7 @@ class Comparison(Shown):
         return pd.DataFrame(self.scores).set_index("model").drop(columns="same_as")
 
     @property
-    def remarks(self) -> tuple[str, ...]:  # type: ignore[override]
+    def remarks(self) -> tuple[str, ...]:
         """Which models are not told apart, and which were not fitted."""
         same = [
             f"{score.model} has the same best fit as {', '.join(score.same_as)}."

@@ -214,7 +214,7 @@ class Fit(Shown):
         return pd.DataFrame.from_dict(rows, orient="index", columns=["value", "error", "unit"])
 
     @property
-    def remarks(self) -> tuple[str, ...]:  # type: ignore[override]
+    def remarks(self) -> tuple[str, ...]:
         """Chi squared in words, and the notes."""
         return (notes.describe_goodness(self), *(f"Note: {note}." for note in self.notes))
 

@@ -5,8 +5,10 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from stackbounce.measure.quantities import Array, Number, Row, known_rows, nominal
+from stackbounce.shown import Shown
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray as xr
 
 _LARGEST_GAIN = 0.02  # of a restitution above 1, or 3 standard errors
@@ -56,7 +58,7 @@ class Listed(NamedTuple):
     unit: str = ""
 
 
-class Finding:
+class Finding(Shown):
     """The result of an analysis, a dataclass.
 
     Attributes
@@ -80,6 +82,14 @@ class Finding:
             for field in fields(self)  # type: ignore[arg-type]
             for label in getattr(field.type, "__metadata__", ())
         )
+
+    @property
+    def table(self) -> "pd.DataFrame":
+        """The quantities of `rows`, each with its error in the last digits."""
+        import pandas as pd
+
+        rows = {row.name: [_written(row.value), row.unit] for row in self.rows()}
+        return pd.DataFrame.from_dict(rows, orient="index", columns=["value", "unit"])
 
     def parts(self) -> dict[str, Any]:
         """Return ball, contact, height and impact speed, as far as known, as in a drop's TOML."""
@@ -111,6 +121,12 @@ class Finding:
     def first_touch(self) -> float | None:
         """Return when the lowest ball first touches the floor, in s on the record's clock."""
         return None
+
+
+def _written(value: Any) -> str:
+    if getattr(value, "std_dev", 0.0) > 0.0:
+        return f"{value:.2uS}"
+    return value if isinstance(value, str) else f"{nominal(value):.4g}"
 
 
 def as_ratios(values: Iterable[Any]) -> dict[str, str]:

@@ -105,7 +105,8 @@ def draw_by_number(
         The number in which the drops differ.
     """
     first = next(iter(fits.values()))
-    values = spread_over(_places(first, number))
+    drops = (first.drops[key] for key in first.objective.measured)
+    values = spread_over(np.array([value_in(drop, number) for drop in drops]))
     curves = {name: fit.along(number, values) for name, fit in fits.items()}
     for quantity, (above, *below) in zip(list_quantities(first), panels, strict=True):
         measured = [_data(fit, quantity, number) for fit in fits.values()]
@@ -125,10 +126,6 @@ def draw_by_number(
         above.set_ylabel(f"{words} ({unit})" if unit else words)
         name = _NAMES.get(number.path, "gap" if number.part == "gaps" else number.path)
         label((above, *below)[-1], "x", name, Scale(values, False, number.unit))
-
-
-def _places(fit: Any, number: Number) -> Array:
-    return np.array([value_in(fit.drops[key], number) for key in fit.objective.measured])
 
 
 def _data(fit: Any, quantity: str, number: Number) -> dict[int, Array]:

@@ -10,19 +10,17 @@
 """
 
 from stackbounce.fitting.series.comparison import Comparison, Outcome
-from stackbounce.fitting.series.results import PREFIX, SeriesFit, fit_series, write
+from stackbounce.fitting.series.results import SeriesFit, fit_series, write
 from stackbounce.fitting.series.series import Series
 from stackbounce.fitting.series.stack import StackTable, read_stack
-from stackbounce.fitting.series.table import Table, read_table
+from stackbounce.fitting.series.table import read_table
 
 __all__ = [
-    "PREFIX",
     "Comparison",
     "Outcome",
     "Series",
     "SeriesFit",
     "StackTable",
-    "Table",
     "fit_series",
     "read_stack",
     "read_table",

@@ -141,7 +141,7 @@ class Comparison(Shown):
         return pd.DataFrame(rows, names, columns)
 
     @property
-    def remarks(self) -> tuple[str, ...]:  # type: ignore[override]
+    def remarks(self) -> tuple[str, ...]:
         """What the series says of the laws."""
         return (self.summary,)
 

@@ -81,11 +81,6 @@ class SeriesFit(Shown):
         tables = {found.series.title: found.table for found in self.comparisons}
         return pd.concat(tables, names=["ball"]) if tables else pd.DataFrame()
 
-    @property
-    def remarks(self) -> tuple[str, ...]:  # type: ignore[override]
-        """The notes."""
-        return self.notes
-
     def as_dict(self) -> dict[str, Any]:
         """Return everything as plain values, for JSON."""
         return {

@@ -16,7 +16,7 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 _CONTACT_SAMPLES = 6  # of a contact whose duration is given
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Accelerometer(Finding):
     """The fall and the bounces of an accelerometer; made by `accelerometer`.
 

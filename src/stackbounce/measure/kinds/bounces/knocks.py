@@ -23,7 +23,7 @@ class Dropped:
     why: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Knocks(Finding):
     """The knocks of one ball's bounces, or other sounds.
 

@@ -9,7 +9,7 @@ from stackbounce.measure.kinds.bounces.restitution_law import RestitutionLaw
 from stackbounce.measure.quantities import Number, Row, nominal
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Bounces(Finding):
     """Restitutions from the times of bounces; made by `bounces`.
 

@@ -10,7 +10,7 @@ from stackbounce.measure.quantities import Number, measured_if_given, nominal
 from stackbounce.measure.setup import Setup
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Known(Finding):
     """A contact with the floor as typed, without a file; made by `of_numbers`.
 

@@ -17,7 +17,7 @@ from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Heights(Finding):
     """Restitutions from the heights of bounces; made by `heights`.
 

@@ -17,7 +17,7 @@ _STEEP = 1e-6  # of the mean rise: the smallest rise of the loading from point t
 _FIRM = 1e3  # weight of the condition that unloading begins where loading ends, over all points
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Press(Finding):
     """The result of the analysis of a press curve; see `press`. None stands for unknown numbers.
 

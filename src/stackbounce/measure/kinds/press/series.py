@@ -8,7 +8,7 @@ from stackbounce.measure.finding import Finding, Listed
 from stackbounce.measure.quantities import Number, measured
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Split(Finding):
     """The parts of a compression in series at one force; see `split_series`. Lengths in m.
 

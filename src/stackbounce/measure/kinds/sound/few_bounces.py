@@ -10,7 +10,7 @@ from stackbounce.measure.quantities import Number, Row
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FewBounces(Finding):
     """Flights without a neighbouring flight, which give no restitution.
 

@@ -63,7 +63,7 @@ class Track:
     notes: tuple[str, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Tracks(Finding):
     """The drop and the bounces of one ball or more; made by `track`.
 

@@ -57,7 +57,7 @@ class Contact:
     flanks: tuple[Flank | None, Flank | None] = field(repr=False)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Waveform(Finding):
     """A force record, and the contacts in it; made by `waveform`.
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from stackbounce.model.laws import ContactLaw
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SensorGap(Finding):
     """The delay and the gap of two balls from two sensors; made by `sensor_gap`.
 

@@ -28,7 +28,7 @@ _LATE = 0.6  # of the contact time alone: later a second ball may be invisible
 _SAME_IMPACT = 8.0  # contact times within which a second contact belongs to the same impact
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class FloorGap(Finding):
     """The delay and the gap of two balls from the floor's force; made by `floor_gap`.
 
