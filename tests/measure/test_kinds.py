@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from importlib import import_module
 
 import pytest
+from uncertainties import ufloat
 
 import stackbounce as sb
 from stackbounce import plots
 from stackbounce.cli import main
 from stackbounce.errors import InvalidType
 from stackbounce.explorer.answers import records
-from stackbounce.measure import analyse, one_law
+from stackbounce.measure import analyse, heights, one_law
 from stackbounce.measure.finding import Finding
 from stackbounce.measure.kind import Kind
 from stackbounce.measure.kinds import KINDS, TYPED
@@ -36,6 +37,16 @@ class Swings(Finding):
 
     def law_arguments(self):
         return {"restitution": 0.5}
+
+
+def test_a_result_shows_its_rows_with_errors_and_its_notes():
+    found = heights(ufloat(1.0, 0.01), 0.64)
+    first, second, *_, note = repr(found).splitlines()[1:]
+    assert first.split() == ["restitution", "0.8"]
+    assert second.split() == ["drop", "height", "1.000(10)", "m"]
+    assert note.startswith("A height has no error")
+    assert "<td>1.000(10)</td>" in found._repr_html_()
+    assert "<p>A height has no error" in found._repr_html_()
 
 
 HOW = {"options": ("gravity",), "columns": (("period",),), "dimension": "swing"}
