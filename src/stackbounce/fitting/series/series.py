@@ -67,7 +67,18 @@ class Series:
         return self.heights_of(self.speeds)
 
     def heights_of(self, speeds: Array) -> Array:
-        """Return the heights of falls in m that end with some speeds in m/s."""
+        """Return the heights of falls that end with some speeds.
+
+        Parameters
+        ----------
+        speeds : ndarray
+            In m/s.
+
+        Returns
+        -------
+        ndarray
+            In m.
+        """
         return _each(in_air.fall_height, self.drag, speeds)
 
     def covariance(self, scale: float = 1.0) -> Array:
