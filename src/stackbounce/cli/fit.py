@@ -76,7 +76,7 @@ def _print_end(
     for note in stack.notes if stack else ():
         output.console().print(f"Note: {note}")
     output.print_files(*pictures)
-    output.print_citation(given["cite"], found)
+    series.print_citation(given["cite"], found)
 
 
 def _check_of_drop(given: Mapping[str, Any], allowed: Sequence[str]) -> None:

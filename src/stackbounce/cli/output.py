@@ -94,14 +94,6 @@ def draw_picture(
         write_file(path, render(draw, path.suffix.lower().removeprefix(".")), overwrite)
 
 
-def print_citation(asked: bool, found: Any) -> None:
-    """Print how to cite what a fit found, if that is asked for."""
-    if asked:
-        from stackbounce.fitting.cite import cite
-
-        typer.echo(f"\n{cite(found)}")
-
-
 def console() -> "Console":
     """Return the console for tables: as wide as the terminal, at most 100 columns."""
     from rich.console import Console

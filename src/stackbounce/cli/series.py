@@ -90,7 +90,15 @@ def fit_series(
     output.print_files(plot)
     if given["out"]:
         typer.echo(f"Open {Path(given['out']) / 'index.html'}")
-    output.print_citation(given["cite"], done)
+    print_citation(given["cite"], done)
+
+
+def print_citation(asked: bool, found: Any) -> None:
+    """Print how to cite what a fit found, if that is asked for."""
+    if asked:
+        from stackbounce.fitting.cite import cite
+
+        typer.echo(f"\n{cite(found)}")
 
 
 def _held(file: str) -> str:
