@@ -146,6 +146,8 @@ def test_a_law_that_is_found_by_runs_keeps_its_other_numbers():
     assert sb.contact_time(law, 0.0567, 3.0) == pytest.approx(5e-3, rel=1e-9)
     with pytest.raises(ArithmeticError):  # however strong the relaxation is
         by_runs(sb.StandardLinearSolid).calibrated(given_ | {"relaxation_time": 1.0})
+    with pytest.raises(sb.StackbounceError, match=r"a relaxation_time of 2e\+02 contact times"):
+        sb.calibrate(sb.StandardLinearSolid, **given_, relaxation_time=1.0)
 
 
 def test_what_is_not_needed_is_passed_over():
