@@ -238,6 +238,22 @@ def test_the_command_prints_draws_and_writes_a_page(tmp_path, capsys):
     assert [law["law"] for law in series["laws"]] == ["Viscoelastic"]
 
 
+@pytest.mark.parametrize(
+    ("rows", "message"),
+    [
+        ("100,64,0\n50,33,1\n", r"row 2: the error of 'rebound \(cm\)' must be above 0"),
+        ("100,100,1\n50,50,1\n", "a restitution is 1 or more"),
+        ("100,64,1\n", "it has one value only"),
+        ("100,abc,1\n50,33,1\n75,50,1\n", r"row 2, rebound \(cm\) must be a length"),
+    ],
+)
+def test_numbers_of_which_no_law_can_be_fitted(tmp_path, rows, message):
+    path = tmp_path / "heights.csv"
+    path.write_text("drop height (cm),rebound (cm),error\n" + rows)
+    with pytest.raises(InvalidValue, match=message):
+        fit_series(path)
+
+
 def test_measure_and_fit_point_to_each_other(tmp_path, capsys):
     bounces, knocks = tmp_path / "heights.csv", tmp_path / "knocks.csv"
     bounces.write_text(PAIRS[0])

@@ -83,6 +83,21 @@ def test_where_errors_come_from(table, errors, rows, error, note):
     assert any(note in said for said in found.notes)
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "student,height (cm),tennis (cm),basketball (cm)\nAnna,60,120,2\nBen,90,184,3\n",
+        "error,height,tennis,basketball,temperature\n1,60,120,2,21\n1,90,184,3,21\n",
+    ],
+)
+def test_other_columns_are_passed_over_and_heights_have_one_unit(table, text):
+    found = read_stack(table(text), ["1 cm"])
+    assert [data["rebound_heights.0"] for data in found.data.values()] == [
+        (0.02, 0.01),
+        (0.03, 0.01),
+    ]
+
+
 def test_a_row_without_a_ball_is_told_and_a_wrong_one_refused(table):
     head = "height (cm),tennis (cm),basketball (cm)\n60,120,1\n"
     found = read_stack(table(head + "90,,\n"))

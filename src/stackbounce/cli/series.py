@@ -1,5 +1,6 @@
 """``stackbounce fit`` of a table of bounces or of a published data set."""
 
+import functools
 import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -63,6 +64,7 @@ def fit_series(
         None if given[name] is None else quantity(given[name], unit, f"--{name}")
         for name, unit in (("mass", "kg"), ("diameter", "m"))
     )
+    every = what == f"{PREFIX}all"
     try:
         done = series.fit_series(
             what,
@@ -70,7 +72,7 @@ def fit_series(
             errors=given["error"] or (),
             mass=mass,
             diameter=diameter,
-            progress=_progress if what == f"{PREFIX}all" else lambda _: None,
+            progress=functools.partial(typer.echo, err=True) if every else lambda _: None,
         )
     except (FileError, InvalidValue) as error:
         held = _held(what)
@@ -112,10 +114,6 @@ def _held(file: str) -> str:
     return "" if held == "table" else held
 
 
-def _progress(line: str) -> None:
-    typer.echo(line, err=True)
-
-
 def _print(console: "Console", done: "SeriesFit", *, compared: bool) -> None:
     """Print the laws of each ball, what follows, and what was assumed."""
     for found in done.comparisons:
@@ -125,7 +123,7 @@ def _print(console: "Console", done: "SeriesFit", *, compared: bool) -> None:
         console.print()
         if compared:
             console.print(found.summary)
-        elif found.outcomes and found.outcomes[0].p < _DOUBTFUL:
+        elif found.outcomes and found.outcomes[0].verdict != "agrees":
             law = found.outcomes[0].short_name
             console.print(f"{law} does not follow it: --compare fits every contact law.")
     for name, reason in done.left_out.items():
@@ -134,6 +132,3 @@ def _print(console: "Console", done: "SeriesFit", *, compared: bool) -> None:
         console.print(done.summary)
     for note in done.notes:
         console.print(f"Note: {note}")
-
-
-_DOUBTFUL = 0.05  # p below which --compare is proposed

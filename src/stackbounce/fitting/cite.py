@@ -7,7 +7,7 @@ from stackbounce.errors import counted
 from stackbounce.fitting.comparison import Comparison
 from stackbounce.fitting.result import Fit
 from stackbounce.fitting.series import SeriesFit
-from stackbounce.model.laws import LAWS, ContactLaw
+from stackbounce.model.laws import LAWS
 from stackbounce.version import __version__
 
 _ENTRIES = """\
@@ -64,13 +64,14 @@ def cite(found: Fit | Comparison | SeriesFit) -> str:
                 f"{name} = {found[name]:.1uS} {unit}".rstrip() for name, unit in found.units.items()
             )
             result = f"Best values: {varied}. {found.remarks[0]}"
-    sources = {(law if isinstance(law, type) else type(law)) for law in laws if law is not None}
-    listed = "; ".join(_source(law) for law in sorted(sources, key=lambda law: law.__name__))
+    sources: Any = {
+        (law if isinstance(law, type) else type(law)) for law in laws if law is not None
+    }
+    listed = "; ".join(
+        f"{law.__name__}, {law.formula} ({law.source})"
+        for law in sorted(sources, key=lambda law: law.__name__)
+    )
     return (
         f"Contact laws were fitted to {data} by weighted least squares with stackbounce "
         f"{__version__}. {result} Laws: {listed}.\n\n{_ENTRIES.format(version=__version__)}"
     )
-
-
-def _source(law: type[ContactLaw]) -> str:
-    return f"{law.__name__}, {law.formula} ({law.source})"

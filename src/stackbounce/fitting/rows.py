@@ -15,9 +15,7 @@ File = str | os.PathLike[str] | tuple[str, bytes]
 Row = tuple[int, list[str]]
 """The number of a line, counted from 1, and its cells."""
 
-MARKED = re.compile(r"\d+(?:[.,]\d+)+")
-"""A number with a decimal mark, or marks between thousands."""
-
+_MARKED = re.compile(r"\d+(?:[.,]\d+)+")  # decimal mark, or marks between thousands
 _MOST = 1000  # rows of a table
 _GROUPED = re.compile(r"[1-9]\d{0,2}(?:,\d{3})+")
 
@@ -67,7 +65,7 @@ def decimal_comma(cells: list[tuple[str, str]]) -> bool:
     >>> decimal_comma([("63,5", "row 2")]), decimal_comma([("63.5", "row 2")])
     (True, False)
     """
-    numbers = [(mark[0], where) for text, where in cells for mark in MARKED.finditer(text)]
+    numbers = [(mark[0], where) for text, where in cells for mark in _MARKED.finditer(text)]
     commas = [(text, where) for text, where in numbers if "," in text]
     point = next((text for text, _ in numbers if "." in text), "")
     for text, where in commas[:1]:

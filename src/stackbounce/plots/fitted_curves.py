@@ -11,9 +11,7 @@ from stackbounce.run.quantities import Array
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-POINTS = 80
-"""Of a curve."""
-
+_POINTS = 80  # of a curve
 _BEYOND = 0.04  # of the range of the points: a curve goes on beyond them
 _ROOM = 0.25  # of the range of points and bands, left above and below them
 _MARKERS = ("o", "s", "^", "D", "v", "P")
@@ -49,7 +47,7 @@ def spread_over(places: Array) -> Array:
     """
     beyond = _BEYOND * np.ptp(places)
     low = places.min() - beyond
-    return np.linspace(max(0.0, low), places.max() + beyond, POINTS)
+    return np.linspace(max(0.0, low), places.max() + beyond, _POINTS)
 
 
 def draw_fitted(

@@ -106,9 +106,6 @@ class Prediction:
         """All numbers with their errors, and how these were found."""
         return f"{self.table()}\n{self.how}"
 
-    def _repr_html_(self) -> str:
-        return f"<pre>{self!r}</pre>"
-
     @property
     def drop(self) -> Drop:
         """The drop with the values of the numbers."""

@@ -11,7 +11,6 @@ from stackbounce.errors import InvalidValue, StackbounceError, a_or_an, nearest,
 from stackbounce.explorer.answers.play import run_drop
 from stackbounce.fitting import Fit, fit
 from stackbounce.fitting.series import fit_series
-from stackbounce.fitting.series.comparison import format_p
 from stackbounce.json_values import as_json
 from stackbounce.measure.finding import Branch
 from stackbounce.measure.kinds import KINDS
@@ -109,8 +108,7 @@ def _laws_of(name: str, content: bytes) -> str | None:
     rows = []
     for found in done.comparisons:
         for law in found.outcomes:
-            chance = f"p = {format_p(law.p)}".replace("= <", "<")
-            title = f"{found.series.title}: {', '.join(law.laws)}, {chance}"
+            title = f"{found.series.title}: {', '.join(law.laws)} ({law.verdict})"
             rows.append({"name": title, "value": law.value, "error": law.error, "unit": ""})
     notes = [*(found.summary for found in done.comparisons), *done.notes]
     about = {"file": name, "format": "table of numbers", "why": "", "doubt": "", "holds": "table"}

@@ -9,20 +9,12 @@
 - `results.py`: `fit_series`, tables and data sets beside the laws; `write`, the page of that
 """
 
-from stackbounce.fitting.series.comparison import Comparison, Outcome
-from stackbounce.fitting.series.results import SeriesFit, fit_series, write
-from stackbounce.fitting.series.series import Series
-from stackbounce.fitting.series.stack import StackTable, read_stack
-from stackbounce.fitting.series.table import read_table
-
-__all__ = [
-    "Comparison",
-    "Outcome",
-    "Series",
-    "SeriesFit",
-    "StackTable",
-    "fit_series",
-    "read_stack",
-    "read_table",
-    "write",
-]
+from stackbounce.fitting.series.comparison import Comparison as Comparison
+from stackbounce.fitting.series.comparison import Outcome as Outcome
+from stackbounce.fitting.series.results import SeriesFit as SeriesFit
+from stackbounce.fitting.series.results import fit_series as fit_series
+from stackbounce.fitting.series.results import write as write
+from stackbounce.fitting.series.series import Series as Series
+from stackbounce.fitting.series.stack import StackTable as StackTable
+from stackbounce.fitting.series.stack import read_stack as read_stack
+from stackbounce.fitting.series.table import read_table as read_table

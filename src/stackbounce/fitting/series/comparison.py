@@ -18,11 +18,9 @@ if TYPE_CHECKING:
     import pandas as pd
 
 AGREES, DOUBTFUL, REFUTED = "agrees", "doubtful", "refuted"
-REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05
-"""The p values of the verdicts."""
+REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05  # the p values of the verdicts
 
-SIGMA = 0.6827
-"""The probability of one standard deviation of a normal distribution."""
+_SIGMA = 0.6827  # the probability of one standard deviation of a normal distribution
 
 _NODES = 9  # at which a family is computed, for the fit
 _WIDER = 1.5  # logarithm by which the fit may leave the measured values
@@ -69,7 +67,7 @@ class Outcome:
     p_without_air: float | None = None
     freedom_of_error: float = math.inf
 
-    def interval(self, level: float = SIGMA) -> tuple[float, float]:
+    def interval(self, level: float = _SIGMA) -> tuple[float, float]:
         """Return the limits of the value with some probability, by Student's t.
 
         Parameters
@@ -139,11 +137,6 @@ class Comparison(Shown):
         names = pd.Index([", ".join(law.laws) for law in self.outcomes], name="law")
         columns = ["restitution", "from", "to", "χ²", "degrees", "p", "verdict"]
         return pd.DataFrame(rows, names, columns)
-
-    @property
-    def remarks(self) -> tuple[str, ...]:
-        """What the series says of the laws."""
-        return (self.summary,)
 
     @property
     def tells_apart(self) -> bool:

@@ -21,11 +21,8 @@ from stackbounce.units import handy, quantity
 if TYPE_CHECKING:
     import pandas as pd
 
-STARTS = ("drop_height", "impact_speed")
-"""Roles of what was before a bounce."""
-
-MEASURED = ("rebound_height", "rebound_speed", "restitution")
-"""Roles of what was measured after a bounce."""
+STARTS = ("drop_height", "impact_speed")  # roles of what was before a bounce
+MEASURED = ("rebound_height", "rebound_speed", "restitution")  # of what was measured after it
 
 _RIGHT = "'drop height (cm)' and 'rebound height (cm)', or 'v (m/s)' and 'e'"
 _NUMBER = re.compile(r"[-+]?[\d.,]*\d\s*([^\W\d_]{1,3}|%|±.*|\+/-.*|\(.*)?")
@@ -65,11 +62,14 @@ def headed(rows: Sequence[Row]) -> tuple[list[str], Sequence[Row]]:
     if not first:
         what = "no row with two numbers" if first is None else "no heading above its numbers"
         raise InvalidValue(f"it has {what}: columns must have names, such as {_RIGHT}")
-    head = rows[first - 1][1]
-    if first > 1 and all(is_unit(cell) for cell in head if cell):
-        pairs = zip_longest(rows[first - 2][1], head, fillvalue="")
-        head = [f"{name} ({unit.strip('()[] ')})" if unit else name for name, unit in pairs]
-    return head, rows[first:]
+    named = (k for k in range(first) if sum(bool(c.role) for c in columns_of(rows[k][1])) > 1)
+    at = next(named, first - 1)
+    head, units = rows[at][1], rows[at + 1][1]
+    if not all(is_unit(cell) for cell in units if cell):
+        return head, rows[at + 1 :]
+    pairs = zip_longest(head, units, fillvalue="")
+    head = [f"{name} ({unit.strip('()[] ')})" if unit else name for name, unit in pairs]
+    return head, rows[at + 2 :]
 
 
 def _cell(cells: Sequence[str], index: int) -> str:
@@ -121,12 +121,17 @@ class Numbers(NamedTuple):
 
 def numbers_in(columns: Sequence[Column], body: Sequence[Row]) -> dict[int, Numbers]:
     """Return the numbers of each column by its index, with the errors that other columns tell."""
+    known = {column.index for column in columns if column.role != "error"}
+    columns = [column for column in columns if {column.index, column.number} & known]
     numbers = {column.index: _numbers(column, columns, body) for column in columns}
     for column in columns:
         if column.role == "error" and column.number in numbers:
             told = numbers[column.number]
             errors = np.where(np.isnan(told.errors), numbers[column.index].values, told.errors)
             numbers[column.number] = told._replace(errors=errors)
+    for column in columns:
+        for k in np.flatnonzero(numbers[column.index].errors <= 0.0).tolist():
+            raise InvalidValue(f"row {body[k][0]}: the error of {column.text!r} must be above 0")
     return numbers
 
 
@@ -143,7 +148,7 @@ def _numbers(column: Column, columns: Sequence[Column], body: Sequence[Row]) -> 
         cells = [cell.replace(",", ".") for cell in cells]
     written = column.unit or (of.unit if of is not column else "")
     if not written and unit == "m":
-        written = _usual(columns, cells)
+        written = _usual(columns, body)
     values, errors = np.full((2, len(cells)), math.nan)
     for k, (cell, (_, where)) in enumerate(zip(cells, texts, strict=True)):
         if cell:
@@ -169,12 +174,13 @@ def _step(values: Array, digit: float) -> float:
     return digit
 
 
-def _usual(columns: Sequence[Column], cells: Sequence[str]) -> str:
-    """Return the unit of heights without one: that of other heights, or by their size."""
-    others = [c.unit for c in columns if c.unit and UNITS.get(c.role) == "m"]
-    if others:
+def _usual(columns: Sequence[Column], body: Sequence[Row]) -> str:
+    """Return the unit of heights without one: that of other heights, or by the size of all."""
+    lengths = [c for c in columns if UNITS.get(c.role) == "m"]
+    if others := [c.unit for c in lengths if c.unit]:
         return others[0]
-    sizes = [float(found[0]) for cell in cells if (found := re.match(r"[\d.]+", cell))]
+    cells = (_cell(row, c.index) for c in lengths for _, row in body)
+    sizes = [float(found[0]) for cell in cells if (found := re.match(r"\d+", cell))]
     largest = max(sizes, default=0.0)
     return next(unit for least, unit in _SIZES if largest >= least)
 

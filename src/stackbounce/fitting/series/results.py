@@ -143,7 +143,11 @@ def fit_series(
     name = str(source)
     if not name.startswith(PREFIX):
         table = read_table(source, errors, mass=mass, diameter=diameter)
-        return _compared(table.groups, laws, progress, table.notes)
+        done = _compared(table.groups, laws, progress, table.notes)
+        if not done.comparisons:
+            why = "; ".join(" ".join(own).strip() for own in done.left_out.items())
+            raise InvalidValue(f"{table.name}: {why}")
+        return done
     if errors or mass or diameter:
         raise InvalidValue("a data set has errors, mass and diameter of its own")
     name = name.removeprefix(PREFIX)

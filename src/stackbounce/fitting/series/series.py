@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from stackbounce.errors import InvalidValue
 from stackbounce.model import drag as in_air
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.run.quantities import Array
@@ -148,6 +149,8 @@ def make_series(data: "xr.Dataset", *, air: bool = True) -> Series:
         shift = _points(more * drag, data).values - found.values
         found = found._replace(assumed=found.assumed + np.outer(shift, shift))
     about = {key: data.attrs[key] for key in ("name", "title", "ball")}
+    if found.values.max() >= 1.0:
+        raise InvalidValue("a restitution is 1 or more, which no law with a loss gives")
     heights = not {"drop_height", "apex_height"}.isdisjoint(data)
     return Series(**about, **found._asdict(), drag=drag, from_heights=heights)
 

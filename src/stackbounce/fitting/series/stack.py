@@ -66,7 +66,8 @@ def read_stack(path: str | os.PathLike[str], errors: Sequence[str] = ()) -> Stac
         head, body = headed(rows)
     except (FileError, InvalidValue):  # `read_table` says why
         return None
-    columns = [column for column in columns_of(head) if column.role]
+    used = (*_FALLS, "gap", "error", "rebound_height", "rebound_ratio")
+    columns = [column for column in columns_of(head) if column.role in used]
     named = {
         column.ball: catalogue_ball(column.ball).ball.mass for column in columns if column.ball
     }
