@@ -11,15 +11,15 @@ from pathlib import Path
 
 import pytest
 from lesson import lesson_markdown
-
-import stackbounce as sb
-from stackbounce.explorer.lessons.lesson import (
+from page_build.lessons.lesson import (
     LANGUAGES,
     NAMES,
     explorer_fragment,
     read_lesson,
     split_links,
 )
+
+import stackbounce as sb
 from stackbounce.model.catalogue import catalogue_ball, stack
 
 PAGES = Path(__file__).parents[2] / "docs" / "lessons"

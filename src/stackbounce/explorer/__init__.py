@@ -9,18 +9,13 @@ framing     which sites may show the page in a frame
 limits      limits of a request, of a client, and of all together
 workers     worker processes, with limits of time and memory for each job
 schema      the schema of requests, in pydantic
-examples    what to drop with the balls that a class owns, and what to see
 paper_pages the paper's pages, computed at the first request
 answers/    the functions that compute answers in the worker processes
-lessons/    the lessons, for the page and the documentation
-page/       what the page is made of besides static/: data, formulas, the one file
 static/     the page: HTML, CSS, plain ES modules, and uPlot
+made        the files of the page that were made when the package was built
 =========== ================================================================
 """
 
 from stackbounce.explorer.limits import LIMITS, Limits
-from stackbounce.extras import need
 
 __all__ = ["LIMITS", "Limits"]
-
-need("web", "stackbounce app")

@@ -12,8 +12,8 @@ import tomllib
 from importlib.resources import files
 from typing import Any, NamedTuple
 
+from page_build.examples import list_examples
 from stackbounce.cross2007.cases import explorer_address, list_cases
-from stackbounce.explorer.examples import list_examples
 from stackbounce.model import Drop
 from stackbounce.model.catalogue import stack
 from stackbounce.units import quantity

@@ -1,4 +1,4 @@
-"""What the page knows of the package, as JSON: `model.json`.
+"""What the page knows of the package: `model.json`, and the code of laws, `laws.js`.
 
 Balls, contact laws, examples, the paper's lines, lessons and units, with the numbers that each
 check lets through, found by asking it. The page reads units as `stackbounce.units.quantity` does,
@@ -16,13 +16,12 @@ from collections.abc import Callable
 from importlib.resources import files
 from typing import Any
 
+from page_build.examples import list_examples
+from page_build.lessons.lesson import list_lessons
 from stackbounce.cross2007.cases import list_cases, list_lines
 from stackbounce.cross2007.drops import bisect
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.explorer.answers import play
-from stackbounce.explorer.examples import list_examples
-from stackbounce.explorer.lessons.lesson import list_lessons
-from stackbounce.explorer.limits import LIMITS
+from stackbounce.explorer.limits import LIMITS, RTOL
 from stackbounce.json_values import as_json
 from stackbounce.model import LAWS, STANDARD_GRAVITY, STEEPEST, ContactLaw, Hysteretic
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stack
@@ -162,13 +161,29 @@ def model_json() -> str:
             "map_rtol": MAP_RTOL,
             "outcomes": WORDS["outcomes"],
             "ratios": WORDS["ratios"],
-            "rtol": play.RTOL,
+            "rtol": RTOL,
             "stacks": _list_stacks(),
             "steepest": STEEPEST,
             "units": list_units(),
             "usual": _USUAL,
         }
     )
+
+
+def laws_js() -> str:
+    """Return what the page computes of some laws in their own way, see `ContactLaw.page_code`.
+
+    Examples
+    --------
+    >>> laws_js().splitlines()[0]
+    'export const LAW_CODE = {'
+    """
+    codes = (
+        f"  {name}: {{ {', '.join(f'{what}: {code}' for what, code in kind.page_code.items())} }},"
+        for name, kind in LAWS.items()
+        if kind.page_code
+    )
+    return "\n".join(["export const LAW_CODE = {", *codes, "};", ""])
 
 
 def _list_lines() -> list[dict[str, Any]]:
