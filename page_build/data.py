@@ -24,7 +24,7 @@ from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.explorer.limits import LIMITS, RTOL
 from stackbounce.json_values import as_json
 from stackbounce.model import LAWS, STANDARD_GRAVITY, STEEPEST, ContactLaw, Hysteretic
-from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stack
+from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stacked
 from stackbounce.run.result import Cause, Status
 from stackbounce.units import examples
 from stackbounce.version import __version__
@@ -203,7 +203,7 @@ def _list_contacts() -> dict[str, Any]:
     """Return each ball's contact with the floor, and its source."""
     found = {}
     for entry in (*BALLS, *CLASS_BALLS):
-        alone = stack([str(entry.ball.name)])
+        alone = stacked([str(entry.ball.name)])
         found[str(entry.ball.name)] = alone.contacts[0].to_mapping(), alone.contact_sources[0]
     return found
 
@@ -213,7 +213,7 @@ def _list_stacks() -> dict[str, Any]:
     found = {}
     names = [str(entry.ball.name) for entry in (*BALLS, *CLASS_BALLS)]
     for lower, upper in itertools.product(names, repeat=2):
-        two, alone = stack([lower, upper]), stack([lower])
+        two, alone = stacked([lower, upper]), stacked([lower])
         floor, between = (
             (law.to_mapping(), source)
             for law, source in zip(two.contacts, two.contact_sources, strict=True)

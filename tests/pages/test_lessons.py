@@ -18,9 +18,7 @@ from page_build.lessons.lesson import (
     read_lesson,
     split_links,
 )
-
-import stackbounce as sb
-from stackbounce.model.catalogue import catalogue_ball, stack
+from stackbounce.model.catalogue import catalogue_ball, stacked
 
 PAGES = Path(__file__).parents[2] / "docs" / "lessons"
 BASKETBALL, TENNIS = "big basketball", "tennis ball"
@@ -35,7 +33,7 @@ def text(name):
 
 
 def drop_of(names, gap=0.0):
-    chosen = stack(names)
+    chosen = stacked(names)
     return sb.Drop(chosen.balls, chosen.contacts, [gap] * (len(names) - 1), height=1.0)
 
 

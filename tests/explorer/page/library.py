@@ -39,7 +39,7 @@ def converted(contact, to, mass, impact_speed, restitution, contact_time):
 
 def stacked(balls, height):
     """Return balls of the catalogue on each other, and the sources of their numbers."""
-    chosen = sb.model.catalogue.stack(balls)
+    chosen = sb.model.catalogue.stacked(balls)
     drop = sb.Drop(chosen.balls, chosen.contacts, chosen.gaps, height=height)
     sources = {"contact_sources": chosen.contact_sources, "gap_sources": chosen.gap_sources}
     return {"drop": drop.to_mapping()} | sources
