@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
 
-_NAMES = {"height": "drop height", "impact_speed": "impact speed"}
 _RATIOS = (3.0, 1.3)  # the heights of the two panels of a quantity
 
 
@@ -120,7 +119,7 @@ def draw_by_number(
         words = quantity.replace("_", " ").removesuffix("s")
         unit, _ = show_in_handy_unit(above.yaxis, above.get_yticks(), QUANTITIES[quantity].unit)
         above.set_ylabel(f"{words} ({unit})" if unit else words)
-        name = _NAMES.get(number.path, "gap" if number.part == "gaps" else number.path)
+        name = {"": number.words, "gaps": "gap"}.get(number.part, number.path)
         label((above, *below)[-1], "x", name, Scale(values, False, number.unit))
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.plots.maps import draw_counts, draw_levels, hatch
-from stackbounce.plots.scales import is_flat, label, read_scale, show_in_handy_unit
+from stackbounce.plots.scales import is_flat, label, path_of, read_scale, show_in_handy_unit
 from stackbounce.plots.style import COLORS, WIDTH, color_of, drawn_by, panels
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ def lines(
             axes.plot(scale.places, row, label=name, **_look(show, k, chosen, row))
         if part:
             draw_legend(axes, len(rows))
-        label(axes, "x", str(dim), scale)
+        label(axes, "x", path_of(data, dim), scale)
         _label_values(axes, show, own, np.array(rows))
         axes.set_title(unfinished, loc="left", fontsize=10, pad=26 if part else None)
     return figure
@@ -139,8 +139,8 @@ def heatmap(
     with panels((6.4, 4.8), axes, style={"axes.grid": False}) as (figure, (axes,)):
         axes.grid(visible=False)
         x, y = read_scale(data, across), read_scale(data, up)
-        label(axes, "x", str(across), x)
-        label(axes, "y", str(up), y)
+        label(axes, "x", path_of(data, across), x)
+        label(axes, "y", path_of(data, up), y)
         values = own.values.astype(float)
         if np.isnan(values).any():
             hatch(axes)
