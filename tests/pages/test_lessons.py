@@ -18,6 +18,7 @@ from page_build.lessons.lesson import (
     read_lesson,
     split_links,
 )
+
 import stackbounce as sb
 from stackbounce.model.catalogue import catalogue_ball, stacked
 
