@@ -109,20 +109,15 @@ class Posterior:
         """Return the draws (chain, draw) of each parameter in SI units, and `lp`, as ArviZ reads.
 
         The path ``gaps.0`` becomes the name ``gaps_0``.
-
         ``arviz.convert_to_inference_data(posterior.to_dataset())`` has diagnostics and pictures.
         """
         import xarray as xr
 
         dims = ("chain", "draw")
-        columns = {
-            identifier(name): (
-                dims,
-                self.chain[:, :, k].T,
-                {"units": self.units[name], "path": name},
-            )
-            for k, name in enumerate(self.names)
-        }
+        columns = {}
+        for k, name in enumerate(self.names):
+            attributes = {"units": self.units[name], "path": name}
+            columns[identifier(name)] = dims, self.chain[:, :, k].T, attributes
         return xr.Dataset({**columns, "lp": (dims, self.log_probability.T)})
 
     def quantiles(self, name: str, at: Any = (0.159, 0.5, 0.841)) -> Array:
