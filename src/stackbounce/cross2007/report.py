@@ -91,7 +91,7 @@ class Audit(Shown):
     def __repr__(self) -> str:
         """The counts, and what differs with the beginning of the reason."""
         rows = self._differing.to_string(float_format="{:.4g}".format, max_colwidth=_WIDE)
-        return f"{self._counted}\n{rows}\nAll rows with all reasons: table"
+        return f"{self.counted}\n{rows}\nAll rows with all reasons: table"
 
     def _repr_html_(self) -> str:
         """The counts, and what differs with the reason, for a notebook."""
@@ -99,10 +99,11 @@ class Audit(Shown):
 
         with pd.option_context("display.max_colwidth", None):
             rows = self._differing.to_html(float_format="{:.4g}".format)
-        return f"<p>{self._counted}</p>{rows}"
+        return f"<p>{self.counted}</p>{rows}"
 
     @property
-    def _counted(self) -> str:
+    def counted(self) -> str:
+        """The counts in a sentence."""
         counts = ", ".join(f"{verdict} {count}" for verdict, count in self.counts.items())
         return f"{len(self.rows)} numbers of the paper: {counts}"
 
