@@ -477,13 +477,13 @@ def test_sweep_writes_a_store_and_a_picture(printed, told, tmp_path):
     over = ["--over", "balls.0.mass=50g:500g:4:log", "--over", "gaps.0=0mm,2mm"]
     files = ["--out", "map.zarr", "--plot", "map.png"]
     out = printed("sweep", "basketball", "tennis", *over, *files)
-    assert "8 drops, over\n  balls.0.mass: 4, 0.05 to 0.5 kg\n  gaps.0: 2, 0 to 0.002 m\n" in out
+    assert "8 drops, over\n  balls_0_mass: 4, 0.05 to 0.5 kg\n  gaps_0: 2, 0 to 0.002 m\n" in out
     assert "  energy_retained: 1\n" in out
     assert "8 FINISHED" in out
     assert (tmp_path / "map.png").stat().st_size > 5000
     found = told("sweep", "basketball", "tennis", *over, "--out", "map.zarr")
     assert found["status"] == {"FINISHED": 8}
-    assert found["over"] == {"balls.0.mass": 4, "gaps.0": 2}
+    assert found["over"] == {"balls_0_mass": 4, "gaps_0": 2}
     low, high = found["ranges"]["rebound_ratio"]["ball 1"]
     assert 1.0 < low < high < 3.0
 
