@@ -55,11 +55,8 @@ def test_axes_curves_and_guesses(drawn, name, count):
 
 
 def test_the_data_are_the_curves_and_what_the_text_tells(drawn):
-    data = drawn["4a"].data
-    assert (
-        drawn["4a"].picture.axes[0].lines[1].get_ydata().tolist()
-        == data.rebound_ratio[1].values.tolist()
-    )
+    data, (ax,) = drawn["4a"].data, drawn["4a"].picture.axes
+    assert np.array_equal(ax.lines[1].get_ydata(), data.rebound_ratio[1])
     at = data.rebound_ratio.sel(mass_ratio=1.0, method="nearest").values
     assert at == pytest.approx(data.known_rebound_ratio.values[[2, 1]], abs=0.01)
     assert drawn["8-hollow"].data.force.dims == ("drop", "contact", "time")
@@ -72,14 +69,10 @@ def test_the_data_are_the_curves_and_what_the_text_tells(drawn):
 def test_figures_and_tables_have_the_names_of_the_paper(drawn):
     for name in ("13", "Fig. 13", "figure 13", 13):
         assert repr(figure(name)) == repr(drawn["13"])
-    assert repr(drawn["13"]).startswith(
-        "Figure 13: Middle ball B2 on large ball B1: mass-spring model"
-    )
+    assert repr(drawn["13"]).startswith("Figure 13: Middle ball B2 on large ball B1: mass-spring ")
     assert "data:image/svg+xml;base64," in drawn["13"]._repr_html_()
     assert repr(table("Table II")).startswith("Table II: Rebound ratios of the pairs")
-    with pytest.raises(
-        sb.StackbounceError, match=r"no figure '4'; did you mean 4b\? Known: 2a, 2b"
-    ):
+    with pytest.raises(sb.StackbounceError, match=r"no figure '4'; .* Known: 2a, 2b, 4a, 4b, 5"):
         figure("4")
     with pytest.raises(sb.StackbounceError, match="no table 3; known: I, II"):
         table(3)
