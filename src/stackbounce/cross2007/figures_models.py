@@ -45,16 +45,18 @@ def after_collision(bench: Bench, ratios: Array, restitution: float, count: int)
 def rebound_by_mass(bench: Bench, ratios: Array, stiffness_ratio: float) -> Array:
     """Return both rebound ratios of a drop on springs for mass ratios m1/m2, (2, R)."""
     drops = [spring_pair((ratio, 1.0), (stiffness_ratio, 1.0)) for ratio in ratios.tolist()]
-    pairs = np.array([bench.simulate(drop).rebound_ratios for drop in drops]).T
-    places = {"mass_ratio": ratios, "stiffness_ratio": [stiffness_ratio]}
-    return _recorded(bench, "rebound_ratio", pairs, **places)
+    return _rebounds(bench, drops, mass_ratio=ratios, stiffness_ratio=[stiffness_ratio])
 
 
 def rebound_by_stiffness(bench: Bench, mass_ratio: float, ratios: Array) -> Array:
     """Return both rebound ratios of a drop on springs for stiffness ratios k1/k2, (2, R)."""
     drops = [spring_pair((mass_ratio, 1.0), (ratio, 1.0)) for ratio in ratios.tolist()]
+    return _rebounds(bench, drops, stiffness_ratio=ratios, mass_ratio=[mass_ratio])
+
+
+def _rebounds(bench: Bench, drops: list[Drop], **places: Any) -> Array:
+    """Return both rebound ratios of each drop, (2, R), and record them."""
     pairs = np.array([bench.simulate(drop).rebound_ratios for drop in drops]).T
-    places = {"stiffness_ratio": ratios, "mass_ratio": [mass_ratio]}
     return _recorded(bench, "rebound_ratio", pairs, **places)
 
 

@@ -137,6 +137,12 @@ def audit(data: Data = PAPER, progress: Callable[[str], None] = lambda _: None) 
     Returns
     -------
     Audit
+        It shows the counts and what differs; `table` is a pandas DataFrame of all rows.
+
+    Raises
+    ------
+    MissingExtra
+        If the extra `measure` is not installed.
 
     Examples
     --------
@@ -201,7 +207,26 @@ def figure(name: str | int, data: Data = PAPER) -> Picture:
 
 
 def table(name: str | int, data: Data = PAPER) -> Table:
-    """Return a table of the paper, recomputed; see `figure` for the arguments and the errors.
+    """Return a table of the paper, recomputed, with the errors carried through.
+
+    Parameters
+    ----------
+    name : str or int
+        ``"I"`` or ``"II"``, also ``"Table II"``.
+    data : mapping of str to Input, optional
+        The input numbers, by default those of the paper.
+
+    Returns
+    -------
+    Table
+        It shows itself in a notebook; `table` is a pandas DataFrame of texts.
+
+    Raises
+    ------
+    InvalidValue
+        If there is no table of that name.
+    MissingExtra
+        If the extra `measure` is not installed.
 
     Examples
     --------
