@@ -1,14 +1,18 @@
 """A ball: its mass and, where needed, its diameter, elastic constants and name."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
 from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown
-from stackbounce.units import Unit
+from stackbounce.shown import Shown, Table, call_of
+from stackbounce.units import Unit, handy_text
+
+_UNITS = {"mass": "kg", "diameter": "m", "young_modulus": "Pa", "poisson_ratio": ""}
 
 
 @dataclass(frozen=True)
-class Ball:
+class Ball(Shown):
     """One ball of a stack.
 
     Parameters
@@ -45,6 +49,8 @@ class Ball:
     young_modulus: Annotated[float, Unit("Pa")] | None = None
     poisson_ratio: Annotated[float, Unit()] | None = None
 
+    __repr__ = call_of
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "mass", positive("mass", self.mass, "kilograms"))
         for name, unit in (("diameter", "metres"), ("young_modulus", "pascals")):
@@ -54,6 +60,12 @@ class Ball:
             _check_name(self.name)
         if self.poisson_ratio is not None:
             object.__setattr__(self, "poisson_ratio", _poisson_ratio(self.poisson_ratio))
+
+    def _tables(self) -> Sequence[Table]:
+        numbers = {name: getattr(self, name) for name in _UNITS}
+        known = {name: value for name, value in numbers.items() if value is not None}
+        rows = [(name.replace("_", " "), handy_text(x, _UNITS[name])) for name, x in known.items()]
+        return (Table(self.name or "Ball", ("", ""), rows),)
 
 
 def _poisson_ratio(value: object) -> float:

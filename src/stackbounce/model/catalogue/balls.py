@@ -12,7 +12,7 @@ the contact time π c.
 
 import csv
 import itertools
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from importlib.resources import files
 from operator import itemgetter
@@ -20,14 +20,15 @@ from typing import Annotated, Any
 
 from stackbounce.model.ball import Ball
 from stackbounce.model.laws import ContactLaw, Hysteretic, Spring
+from stackbounce.shown import Shown, Table
 from stackbounce.units import Unit
 
 MEASURED, RULE, ESTIMATE = KINDS = ("measured", "rule", "estimate")
 """What a figure is: measured, set by the rules of a game, or estimated."""
 
 
-@dataclass(frozen=True)
-class CatalogueBall:
+@dataclass(frozen=True, repr=False)
+class CatalogueBall(Shown):
     """A ball of the catalogue with its numbers, and their sources.
 
     Parameters
@@ -65,6 +66,14 @@ class CatalogueBall:
     sources: tuple[tuple[str, str], ...]
     kinds: tuple[tuple[str, str], ...] = ()
     lossy: bool = False
+
+    def _tables(self) -> Sequence[Table]:
+        return (*self.ball._tables(), *self.contact._tables())
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """The source of each number, and whether it was measured."""
+        return tuple(f"{name} ({self.kind_of(name)}): {source}" for name, source in self.sources)
 
     @property
     def contact(self) -> ContactLaw:
