@@ -21,10 +21,13 @@ from typing import Annotated, Any
 from stackbounce.model.ball import Ball
 from stackbounce.model.laws import ContactLaw, Hysteretic, Spring
 from stackbounce.shown import Shown, Table
-from stackbounce.units import Unit
+from stackbounce.units import Unit, handy_text
 
 MEASURED, RULE, ESTIMATE = KINDS = ("measured", "rule", "estimate")
 """What a figure is: measured, set by the rules of a game, or estimated."""
+
+_UNITS = {"mass": "kg", "diameter": "m", "restitution": "", "contact_time": "s"}
+_UNITS |= dict.fromkeys(("stiffness", "static_stiffness"), "N/m")
 
 
 @dataclass(frozen=True, repr=False)
@@ -68,12 +71,11 @@ class CatalogueBall(Shown):
     lossy: bool = False
 
     def _tables(self) -> Sequence[Table]:
-        return (*self.ball._tables(), *self.contact._tables())
-
-    @property
-    def remarks(self) -> tuple[str, ...]:
-        """The source of each number, and whether it was measured."""
-        return tuple(f"{name} ({self.kind_of(name)}): {source}" for name, source in self.sources)
+        numbers, rows = self.to_mapping(), []
+        for name, source in self.sources:
+            value = handy_text(numbers[name], _UNITS[name])
+            rows.append((name.replace("_", " "), value, self.kind_of(name), source))
+        return (Table(str(self.ball.name), ("", "value", "kind", "source"), rows),)
 
     @property
     def contact(self) -> ContactLaw:
