@@ -128,7 +128,6 @@ def test_a_command_names_the_extra_it_needs(arguments, extra, what, tmp_path):
     [
         ("import stackbounce as sb; sb.read('sound.wav')", "measure"),
         pytest.param("from stackbounce.plots import bounce", "plots", marks=pytest.mark.slow),
-        pytest.param("import stackbounce.explorer.serve", "web", marks=pytest.mark.slow),
     ],
 )
 def test_a_function_names_the_extra_it_needs(code, extra):
