@@ -121,14 +121,8 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
     >>> quantity(0.058, "m")
     0.058
     """
-    if hasattr(value, "m_as"):
-        try:
-            number = value.m_as(unit)
-        except Exception:  # each registry has classes of its own
-            raise UnitError(_message(name, str(value), unit)) from None
-        value = str(value) if hasattr(number, "std_dev") else number
-    if hasattr(value, "std_dev"):  # a ufloat, which reads like the text "0.15+/-0.01"
-        value = str(value)
+    number = magnitude(value, unit, name)
+    value = str(value) if hasattr(number, "std_dev") else number
     if not isinstance(value, str):
         try:
             return finite(name, value, unit)
@@ -149,17 +143,40 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
 def in_unit(value: object, unit: str, name: str) -> Any:
     """Return a value as it is, but a float in `unit` for one that may have a unit of its own.
 
-    What has none is validated where it is used. See `quantity` for what is raised.
+    So is each member of a list, and an array of pint becomes one of numpy. What has no unit is
+    validated where it is used. See `quantity` for what is raised.
 
     Examples
     --------
-    >>> in_unit("58 mm", "m", "diameter"), in_unit(None, "m", "diameter")
-    (0.058, None)
+    >>> in_unit("58 mm", "m", "diameter"), in_unit(["2 mm", 0], "m", "gaps")
+    (0.058, [0.002, 0])
     """
     if type(value) is float or isinstance(value, Real):
         return value
+    if isinstance(value, list | tuple):
+        return [
+            part if type(part) is float else in_unit(part, unit, f"{name}.{i}")
+            for i, part in enumerate(value)
+        ]
+    if getattr(value, "ndim", 0) and hasattr(value, "m_as"):
+        return magnitude(value, unit, name)
     own = isinstance(value, str) or hasattr(value, "m_as") or hasattr(value, "std_dev")
     return quantity(value, unit, name) if own else value
+
+
+def magnitude(value: Any, unit: str, name: str) -> Any:
+    """Return the number, or what else it has, of a quantity of pint; anything else as it is.
+
+    Examples
+    --------
+    >>> import pint
+    >>> magnitude(pint.Quantity([1.0, 2.0], "mm"), "m", "gaps").tolist()
+    [0.001, 0.002]
+    """
+    try:
+        return value.m_as(unit) if hasattr(value, "m_as") else value
+    except Exception:  # each registry has classes of its own
+        raise UnitError(_message(name, str(value), unit)) from None
 
 
 def unit_written(text: str) -> str | None:

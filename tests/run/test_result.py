@@ -83,8 +83,6 @@ class Unreadable:
     [
         [0.5, True],
         np.array([True]),
-        "1",
-        [1.0, "2"],
         b"1",
         [1j],
         None,

@@ -101,10 +101,8 @@ class Drop:
                 f"gaps must hold one number per neighbouring pair of balls ({len(balls) - 1}), "
                 f"got {len(gaps)}"
             )
-        gaps = tuple(
-            non_negative(name := f"gaps.{i}", in_unit(gap, "m", name), "metres")
-            for i, gap in enumerate(gaps)
-        )
+        gaps = in_unit(gaps, "m", "gaps")
+        gaps = tuple(non_negative(f"gaps.{i}", gap, "metres") for i, gap in enumerate(gaps))
         for i, gap in enumerate(gaps):
             if gap > 0.0 and contacts[i + 1].pulls:
                 bond = type(contacts[i + 1]).__name__
@@ -138,10 +136,8 @@ class Drop:
             raise InvalidValue(
                 f"velocities must hold one number per ball ({count}), got {len(velocities)}"
             )
-        velocities = tuple(
-            finite(name := f"velocities.{i}", in_unit(v, "m/s", name), "m/s")
-            for i, v in enumerate(velocities)
-        )
+        velocities = in_unit(velocities, "m/s", "velocities")
+        velocities = tuple(finite(f"velocities.{i}", v, "m/s") for i, v in enumerate(velocities))
         if not any(velocities):
             raise InvalidValue("velocities must not all be 0, got 0 for every ball")
         return {"velocities": velocities}

@@ -15,6 +15,7 @@ from stackbounce.engine.ratios import energy_kept
 from stackbounce.errors import InvalidType, InvalidValue, finite, shown, unmasked
 from stackbounce.model import Drop
 from stackbounce.run.conditioning import amplification, known_until
+from stackbounce.units import in_unit
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
@@ -444,6 +445,7 @@ class Result:
 def _numbers(times: object) -> NDArray[np.float64]:
     """Return times as an array of floats; raise if one is not a real number."""
     unmasked("times", times)
+    times = in_unit(times, "s", "times")
     try:
         # Without an array's type, numpy would make one of [1.0, True] and of [1.0, "2"].
         table = np.asarray(times, dtype=None if hasattr(times, "dtype") else object)

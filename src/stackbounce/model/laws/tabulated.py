@@ -199,10 +199,8 @@ def _points(
 ) -> tuple[float, ...]:
     """Return the points of a curve from 0 on; raise if they do not rise."""
     given = listed(name, values, MOST_POINTS)  # of more, `press(...).table()` makes a law
-    points = tuple(
-        finite(f"{name}.{i}", in_unit(value, unit, f"{name}.{i}"), unit)
-        for i, value in enumerate(given)
-    )
+    given = in_unit(given, unit, name)
+    points = tuple(finite(f"{name}.{i}", value, unit) for i, value in enumerate(given))
     if len(points) < 2:
         raise InvalidValue(f"{name} must have from 2 to {MOST_POINTS} points, got {len(points)}")
     if like is not None and len(points) != len(like):
