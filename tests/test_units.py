@@ -106,7 +106,7 @@ TWO = sb.Drop([sb.Ball(1.0), sb.Ball(0.5), sb.Ball(0.01)], [sb.Rigid(1.0)] * 3, 
 @pytest.mark.parametrize(
     ("got", "right"),
     [
-        (lambda: sb.Ball("150 g", 16 * U.cm, None, "2 MPa", "49 %"), (0.15, 0.16, None, 2e6, 0.49)),
+        (lambda: sb.Ball("57 g", 6.6 * U.cm, "t", "2 MPa"), sb.Ball(0.057, 0.066, "t", 2e6)),
         (lambda: sb.Drop(BALLS, SPRINGS, ["2 mm"], height=63 * U.cm), DROP),
         (lambda: sb.Drop(BALLS, SPRINGS, [2] * U.mm, None, "63 cm", gravity="0 m/s^2"), DROP),
         (lambda: sb.Drop(BALLS, SPRINGS, velocities=["-1 m/s", 0]).velocities, (-1.0, 0.0)),
@@ -114,23 +114,19 @@ TWO = sb.Drop([sb.Ball(1.0), sb.Ball(0.5), sb.Ball(0.01)], [sb.Rigid(1.0)] * 3, 
         (lambda: sb.PowerLaw(2 * U("kN/m^1.2"), "1.2"), sb.PowerLaw(2e3, 1.2)),
         (lambda: sb.Hysteretic("2 kN/m", restitution="75 %"), sb.Hysteretic(2e3, restitution=0.75)),
         (lambda: sb.Tabulated(["0 mm", "1 mm"], [0, 20] * U.N), sb.Tabulated([0, 1e-3], [0, 20])),
-        (lambda: sb.Rigid("80 %"), sb.Rigid(0.8)),
-        (lambda: sb.calibrate(sb.Spring, mass="57 g", contact_time=5 * U.ms).stiffness, 22502.854),
-        (lambda: sb.contact_time(sb.Spring(22500.0), [57, 57] * U.g), 3.535746e-3),
-        (lambda: sb.restitution(sb.Dashpot(100.0, "2 N s/m"), "1 kg", "1 m/s"), 0.744079),
+        (lambda: sb.calibrate(sb.Spring, mass="57 g", contact_time=5 * U.ms).stiffness, 22502.698),
+        (lambda: sb.contact_time(sb.Spring(22500.0), [57, 57] * U.g), 3.5357459e-3),
+        (lambda: sb.restitution(sb.Dashpot(100.0, "2 N s/m"), "1 kg", "1 m/s"), 0.74407940),
         (lambda: sb.simulate(DROP, until="1 ms").end_time, 1e-3),
         (lambda: list(sb.simulate(DROP).sample([1, 2] * U.ms).time), [1e-3, 2e-3]),
         (lambda: list(sb.highest(["B1", "B2"], 2, gaps=["1 mm"]).gap), [1e-3]),
         (lambda: sb.highest(TWO, masses=("20 g", "0.9 kg")).within, (0.02, 0.9)),
-        (lambda: sb.Air("1.2 kg/m^3").rise(sb.Ball(0.057, 0.066), "5 m/s", 9.81 * G), 1.2458),
+        (lambda: sb.Air("1.2 kg/m^3").rise(sb.Ball(0.057, 0.066), "5 m/s", 9.81 * G), 1.24583945),
         (lambda: sb.predict(DROP, {"height": 63 * U.cm * ufloat(1, 0.1)}).drop.height, 0.63),
     ],
 )  # fmt: skip
 def test_a_number_may_have_a_unit(got, right):
-    found = got()
-    if isinstance(found, sb.Ball):
-        found = found.mass, found.diameter, found.name, found.young_modulus, found.poisson_ratio
-    assert found == (pytest.approx(right, rel=1e-2) if isinstance(right, float) else right)
+    assert got() == (pytest.approx(right, rel=1e-6) if isinstance(right, float) else right)
 
 
 @pytest.mark.parametrize(
@@ -150,7 +146,4 @@ def test_a_wrong_unit_says_what_would_be_right():
     assert refusal(errors.UnitError, sb.Ball, 16 * U.cm) == right + "'16 centimeter'"
     got = refusal(errors.UnitError, sb.sweep, DROP, {"balls.0.mass": [1, 2] * U.m})
     assert got == f"balls.0.{right}'[1 2] meter'"
-    got = refusal(errors.UnitError, sb.Ball, ufloat(0.15, 0.01))
-    assert got.startswith("mass must be a mass without an error here (predict takes one), such")
-    got = refusal(errors.InvalidValue, sb.PowerLaw, "2 kN/m", "0.5")
-    assert got == "exponent must be a number from 1 to 1e+06, got 0.5"
+    assert "(predict takes one)" in refusal(errors.UnitError, sb.Ball, ufloat(0.15, 0.01))

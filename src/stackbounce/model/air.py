@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from stackbounce.errors import InvalidType, InvalidValue, finite, non_negative, positive, shown
@@ -234,7 +234,7 @@ class Air:
                     f"gaps.{i} must be 0, or so large that ball {i + 1} does not meet ball {i} in "
                     f"the fall (more than {drop.gaps[i] - gap:.3g} m), got {drop.gaps[i]!r}"
                 )
-        return replace(drop, gaps=gaps, height=None, velocities=[-v for v in speeds])
+        return drop.replace(gaps=gaps, velocities=[-v for v in speeds])
 
     def rebound_heights(self, drop: Drop, speeds: Iterable[float]) -> list[float]:
         """Return the heights in m to which the balls of a drop rise in air.

@@ -2,15 +2,16 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from stackbounce.errors import (
     InvalidType,
     InvalidValue,
     finite,
     listed,
+    no_attribute,
     non_negative,
     positive,
     shown,
@@ -141,6 +142,38 @@ class Drop:
         if not any(velocities):
             raise InvalidValue("velocities must not all be 0, got 0 for every ball")
         return {"velocities": velocities}
+
+    if not TYPE_CHECKING:  # checkers know which attributes there are
+
+        def __getattr__(self, name: str) -> Any:
+            raise no_attribute(Drop, name)
+
+    def replace(self, **changes: Any) -> "Drop":
+        """Return the drop with other values of some fields.
+
+        Parameters
+        ----------
+        **changes
+            As of `Drop`. Another impact speed, height or velocities take the place of the one of
+            the three that was given.
+
+        Raises
+        ------
+        TypeError
+            If a drop has no such field.
+        InvalidValue, InvalidType
+            As of `Drop`.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> drop = sb.stack("basketball", "tennis", height="63 cm").replace(impact_speed="2 m/s")
+        >>> drop.height, drop.impact_speed
+        (None, 2.0)
+        """
+        if changes.keys() & set(_INCIDENCE):
+            changes = dict.fromkeys(_INCIDENCE) | changes
+        return replace(self, **changes)
 
     @property
     def reference_speed(self) -> float:

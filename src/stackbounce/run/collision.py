@@ -3,7 +3,6 @@
 import math
 import sys
 from collections.abc import Mapping, Sequence, Set
-from dataclasses import replace
 from typing import Any, TypeAlias
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
@@ -212,12 +211,10 @@ def separate(drop: Drop) -> Drop:
     """
     if not isinstance(drop, Drop):
         raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
-    rigid = replace(drop, contacts=_collisions(drop))
-    if drop.gravity == 0.0:
-        return rigid
-    if drop.height is None:
-        return replace(rigid, gravity=0.0)
-    return replace(rigid, gravity=0.0, height=None, impact_speed=drop.reference_speed)
+    rigid = drop.replace(contacts=_collisions(drop))
+    if drop.gravity == 0.0 or drop.height is None:
+        return rigid.replace(gravity=0.0)
+    return rigid.replace(gravity=0.0, impact_speed=drop.reference_speed)
 
 
 def _collisions(drop: Drop) -> list[Rigid | None]:

@@ -228,9 +228,8 @@ def _named(number: Number, value: Any) -> "xr.DataArray":
     if isinstance(value, tuple) and [isinstance(part, str) for part in value] == [True, False]:
         own, value = value
     unmasked(number.path, value)
-    if isinstance(value, str):
+    if isinstance(value, str) and {*value} & {*":,"}:
         value = _spaced(number, value)
-        value = value if len(value) > 1 else value[0]
     value = in_unit(value, number.unit, number.path)
     if isinstance(value, xr.DataArray):
         data = in_unit(value.data, number.unit, number.path)

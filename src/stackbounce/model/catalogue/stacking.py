@@ -11,7 +11,6 @@ from stackbounce.model.catalogue.balls import BALLS, CLASS_BALLS, PAIRS, Catalog
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw, Spring
 from stackbounce.model.laws.series import between
-from stackbounce.units import in_unit
 
 DEFAULT_HEIGHT = 1.0
 """In m: the height of a fall of which nothing is said."""
@@ -132,7 +131,7 @@ def stack(
         raise InvalidValue("gap and gaps: only one of the two can be given, got both")
     chosen = stacked(balls)
     if gap is not None:
-        gaps = [in_unit(gap, "m", "gap")] * (len(balls) - 1)
+        gaps = [gap] * (len(balls) - 1)
     numbers: dict[str, Any] = {
         "gaps": chosen.gaps if gaps is None else gaps,
         "height": DEFAULT_HEIGHT if height is impact_speed is velocities is None else height,
