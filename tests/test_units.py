@@ -122,6 +122,8 @@ TWO = sb.Drop([sb.Ball(1.0), sb.Ball(0.5), sb.Ball(0.01)], [sb.Rigid(1.0)] * 3, 
         (lambda: list(sb.highest(["B1", "B2"], 2, gaps=["1 mm"]).gap), [1e-3]),
         (lambda: sb.highest(TWO, masses=("20 g", "0.9 kg")).within, (0.02, 0.9)),
         (lambda: sb.Air("1.2 kg/m^3").rise(sb.Ball(0.057, 0.066), "5 m/s", 9.81 * G), 1.24583945),
+        (lambda: sb.measure.dynamic_stiffness("57 ± 1 g", 5 * U.ms).n, 22502.698),
+        (lambda: sb.measure.heights("1 m", [0.25] * U.m).mean.n, 0.5),
         (lambda: sb.predict(DROP, {"height": 63 * U.cm * ufloat(1, 0.1)}).drop.height, 0.63),
     ],
 )  # fmt: skip

@@ -267,13 +267,12 @@ def no_attribute(owner: Any, name: str) -> AttributeError:
 
 
 @functools.cache
-def _tried(owner: str) -> dict[str, str]:
+def _tried(owner: str) -> Any:
     import tomllib
     from importlib.resources import files
 
     text = (files(__package__) / "attributes.toml").read_text("utf-8")
-    found: dict[str, str] = tomllib.loads(text)[owner]
-    return found
+    return tomllib.loads(text)[owner]
 
 
 def shown(value: object) -> str:

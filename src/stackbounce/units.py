@@ -3,7 +3,7 @@
 import functools
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from numbers import Real
 from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin
@@ -33,6 +33,8 @@ _KINDS = {
     "kg/m**3": ("a density", "1.2 kg/m^3"),
 }
 
+WORDS = {"kilograms": "kg", "metres": "m", "seconds": "s", "newtons": "N", "pascals": "Pa"}
+"""The unit of each of the words of messages."""
 _HANDY = {  # unit: (from this value on, its name, how many of it the unit has), largest first
     "m": ((0.1, "m", 1.0), (1e-4, "mm", 1e3), (0.0, "µm", 1e6)),
     "s": ((1.0, "s", 1.0), (1e-3, "ms", 1e3), (0.0, "µs", 1e6)),
@@ -164,6 +166,30 @@ def in_unit(value: object, unit: str, name: str) -> Any:
     return quantity(value, unit, name) if own else value
 
 
+def checked(check: Callable[..., float], name: str, value: object, of: str = "") -> float:
+    """Return a number, which may have a unit, as a float in SI units if it passes a check.
+
+    Parameters
+    ----------
+    check : callable
+        One of those in `stackbounce.errors`, such as `positive`.
+    name : str
+        The name of the value; messages begin with it.
+    value : float, str or quantity
+        As of `quantity`.
+    of : str, optional
+        The unit in words, as in messages; empty for a pure number.
+
+    Examples
+    --------
+    >>> from stackbounce.errors import positive
+    >>> checked(positive, "mass", "57 g", "kilograms")
+    0.057
+    """
+    number = value if type(value) is float else in_unit(value, WORDS.get(of, of), name)
+    return check(name, number, of) if of else check(name, number)
+
+
 def magnitude(value: Any, unit: str, name: str) -> Any:
     """Return the number, or what else it has, of a quantity of pint; anything else as it is.
 
@@ -267,7 +293,7 @@ def _factor(written: str, unit: str, message: str) -> float:
 
 
 def _message(name: str, value: object, unit: str) -> str:
-    kind, example = _KINDS.get(unit, ("a quantity", f"20 {unit}"))
+    kind, example = _KINDS.get(unit.replace("^", "**"), ("a quantity", f"20 {unit}"))
     number = f"a number of {unit}" if unit else "a number"
     right = f'{kind} ({number} or a string such as "{example}")'
     if isinstance(value, str) and _WITH_ERROR.search(value):

@@ -130,11 +130,13 @@ def _with(scenario: Scenario, changes: dict[str, Any]) -> Scenario:
     for key, option in (("height", "--height"), ("impact_speed", "--speed")):
         if key in changes:
             sources["speed_source"] = option
+            others = dict.fromkeys(("height", "impact_speed", "velocities"))
+            changes = others | changes
     errors = {
         path: text
         for path, text in scenario.errors.items()
         if path.partition(".")[0] not in changes
     }
     return dataclasses.replace(
-        scenario, drop=scenario.drop.replace(**changes), errors=errors, **sources
+        scenario, drop=dataclasses.replace(scenario.drop, **changes), errors=errors, **sources
     )

@@ -9,7 +9,7 @@ from stackbounce.errors import InvalidType, InvalidValue, finite, non_negative, 
 from stackbounce.model import drag
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import STANDARD_GRAVITY, Drop
-from stackbounce.units import in_unit
+from stackbounce.units import checked
 
 _SPHERE = 0.5
 
@@ -79,8 +79,8 @@ class Air:
     drag_coefficient: float | Mapping[str, float] = _SPHERE
 
     def __post_init__(self) -> None:
-        density = in_unit(self.density, "kg/m**3", "density")
-        object.__setattr__(self, "density", non_negative("density", density, "kg/m**3"))
+        density = checked(non_negative, "density", self.density, "kg/m**3")
+        object.__setattr__(self, "density", density)
         given = self.drag_coefficient
         if isinstance(given, Mapping):
             for name in given:
@@ -88,13 +88,13 @@ class Air:
                     raise InvalidType(
                         f"drag_coefficient must have names of balls as keys, got {shown(name)}"
                     )
-            checked: object = {
+            coefficients: object = {
                 name: non_negative(f"drag_coefficient.{name}", value)
                 for name, value in given.items()
             }
         else:
-            checked = non_negative("drag_coefficient", given)
-        object.__setattr__(self, "drag_coefficient", checked)
+            coefficients = checked(non_negative, "drag_coefficient", given)
+        object.__setattr__(self, "drag_coefficient", coefficients)
 
     def terminal_speed(self, ball: Ball, gravity: float = STANDARD_GRAVITY) -> float:
         """Return the speed in m/s at which the drag equals the weight; infinite without drag.
@@ -115,7 +115,7 @@ class Air:
         >>> round(Air().impact_speed(Ball(mass=0.057, diameter=0.066), 0.71), 3)
         3.708
         """
-        h = positive("height", in_unit(height, "m", "height"), "metres")
+        h = checked(positive, "height", height, "metres")
         return drag.fallen_speed(self._rate(ball), h, _pull(gravity))
 
     def fall_time(self, ball: Ball, height: float, gravity: float = STANDARD_GRAVITY) -> float:
@@ -126,7 +126,7 @@ class Air:
         >>> round(Air().fall_time(Ball(mass=0.057, diameter=0.066), 0.71), 4)
         0.3813
         """
-        h = positive("height", in_unit(height, "m", "height"), "metres")
+        h = checked(positive, "height", height, "metres")
         return drag.fall_time(self._rate(ball), h, _pull(gravity))
 
     def rise(self, ball: Ball, speed: float, gravity: float = STANDARD_GRAVITY) -> float:
@@ -137,7 +137,7 @@ class Air:
         >>> round(Air(density=0.0).rise(Ball(0.057, 0.066), 4.0, gravity=10.0), 9)
         0.8
         """
-        v = non_negative("speed", in_unit(speed, "m/s", "speed"), "m/s")
+        v = checked(non_negative, "speed", speed, "m/s")
         return drag.risen(self._rate(ball), v, _pull(gravity))
 
     def launch_speed(self, ball: Ball, height: float, gravity: float = STANDARD_GRAVITY) -> float:
@@ -150,7 +150,7 @@ class Air:
         >>> round(Air().launch_speed(Ball(mass=0.057, diameter=0.066), 1.72), 2)
         5.9
         """
-        h = positive("height", in_unit(height, "m", "height"), "metres")
+        h = checked(positive, "height", height, "metres")
         try:
             return drag.launch_speed(self._rate(ball), h, _pull(gravity))
         except OverflowError:
@@ -168,7 +168,7 @@ class Air:
         >>> round(flight.height, 3), round(flight.landing_speed, 3)
         (0.804, 3.942)
         """
-        v, g = positive("speed", in_unit(speed, "m/s", "speed"), "m/s"), _pull(gravity)
+        v, g = checked(positive, "speed", speed, "m/s"), _pull(gravity)
         k = self._rate(ball)
         height, landing = drag.risen(k, v, g), drag.landing_speed(k, v, g)
         flight = Flight(height, drag.rise_time(k, v, g), drag.fall_time(k, height, g), landing)
@@ -267,8 +267,7 @@ class Air:
         """
         if not isinstance(drop, Drop):
             raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
-        speeds = in_unit(list(speeds), "m/s", "speeds")
-        given = [finite(f"speeds.{i}", speed, "m/s") for i, speed in enumerate(speeds)]
+        given = [checked(finite, f"speeds.{i}", speed, "m/s") for i, speed in enumerate(speeds)]
         if len(given) != len(drop.balls):
             raise InvalidValue(
                 f"speeds must hold one number per ball ({len(drop.balls)}), got {len(given)}"
@@ -304,7 +303,7 @@ class Air:
 
 
 def _pull(gravity: object) -> float:
-    return positive("gravity", in_unit(gravity, "m/s**2", "gravity"), "m/s**2")
+    return checked(positive, "gravity", gravity, "m/s**2")
 
 
 def _falling_together(

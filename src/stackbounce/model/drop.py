@@ -18,7 +18,7 @@ from stackbounce.errors import (
 )
 from stackbounce.model.ball import Ball
 from stackbounce.model.laws import LAWS, ContactLaw
-from stackbounce.units import Unit, in_unit
+from stackbounce.units import Unit, checked, in_unit
 
 STANDARD_GRAVITY = 9.80665
 """Standard gravity in m/s**2, for the fall from `height` if `gravity` is 0."""
@@ -109,8 +109,7 @@ class Drop:
                 bond = type(contacts[i + 1]).__name__
                 raise InvalidValue(f"gaps.{i} must be 0 at a {bond}, got {gap!r}")
         values: dict[str, Any] = {"balls": balls, "contacts": contacts, "gaps": gaps}
-        gravity = in_unit(self.gravity, "m/s**2", "gravity")
-        values["gravity"] = non_negative("gravity", gravity, "m/s**2")
+        values["gravity"] = checked(non_negative, "gravity", self.gravity, "m/s**2")
         for name, value in (values | self._incidence(len(balls))).items():
             object.__setattr__(self, name, value)
         if not 0.0 < self.reference_speed < math.inf:  # only a height's is computed
@@ -127,11 +126,9 @@ class Drop:
                 f"got {' and '.join(given) or 'none'}"
             )
         if self.impact_speed is not None:
-            speed = in_unit(self.impact_speed, "m/s", "impact_speed")
-            return {"impact_speed": positive("impact_speed", speed, "m/s")}
+            return {"impact_speed": checked(positive, "impact_speed", self.impact_speed, "m/s")}
         if self.height is not None:
-            height = in_unit(self.height, "m", "height")
-            return {"height": positive("height", height, "metres")}
+            return {"height": checked(positive, "height", self.height, "metres")}
         velocities = listed("velocities", self.velocities, _MOST_ITEMS)
         if len(velocities) != count:
             raise InvalidValue(

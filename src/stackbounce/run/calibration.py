@@ -6,15 +6,15 @@ from stackbounce.errors import InvalidType, InvalidValue, between, fraction, pos
 from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw
 from stackbounce.model.laws.registry import UNLISTED
 from stackbounce.run.collision import Mass, reduced
-from stackbounce.units import in_unit
+from stackbounce.units import checked, in_unit
 
 _UNITS = {
-    "contact_time": ("s", "seconds"),
-    "impact_speed": ("m/s", "m/s"),
-    "relaxation_time": ("s", "seconds"),
-    "buckling_time": ("s", "seconds"),
-    "frequency": ("Hz", "Hz"),
-    "decay_time": ("s", "seconds"),
+    "contact_time": "seconds",
+    "impact_speed": "m/s",
+    "relaxation_time": "seconds",
+    "buckling_time": "seconds",
+    "frequency": "Hz",
+    "decay_time": "seconds",
 }
 _KNOWN_BESIDES = {"relaxation_time", "buckling_time", "buckling_share"}
 
@@ -156,14 +156,13 @@ def _checked(kind: type[ContactLaw], name: str, value: object) -> float:
     """Return an argument, validated."""
     if name == "mass":
         return reduced(value)
-    unit, words = _UNITS.get(name, ("", ""))
-    value = in_unit(value, unit, name)
+    if name in _UNITS:
+        return checked(positive, name, value, _UNITS[name])
+    value = in_unit(value, "", name)
     if name == "restitution":
         return fraction(name, value, zero=kind.rigid)
     if name == "exponent":
         return between(name, value, 1.0, STEEPEST)
-    if name != "buckling_share":
-        return positive(name, value, words)
     share = fraction(name, value, zero=False)
     if share == 1.0:
         raise InvalidValue("buckling_share must be below 1: the force rises on, got 1")

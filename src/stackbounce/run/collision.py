@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw, Rigid
-from stackbounce.units import in_unit
+from stackbounce.units import checked, in_unit
 
 Mass: TypeAlias = float | Sequence[float]
 """In kg: the mass of a ball on a floor, or the reduced mass or both masses of a pair."""
@@ -156,8 +156,7 @@ def _measured(what: str, law: object, mass: object, impact_speed: object) -> flo
             "depends on it, got None"
         )
     m = 1.0 if mass is None else reduced(mass)
-    speed = in_unit(impact_speed, "m/s", "impact_speed")
-    v = 1.0 if speed is None else positive("impact_speed", speed, "m/s")
+    v = 1.0 if impact_speed is None else checked(positive, "impact_speed", impact_speed, "m/s")
     try:
         value = compute(m, v)
     except ArithmeticError:

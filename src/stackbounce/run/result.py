@@ -47,10 +47,8 @@ EVENT = np.dtype(
     ]
 )
 APEX = np.dtype([("ball", "i8"), ("time", "f8"), ("height", "f8")])
-_PER = (
-    ("rebound_speed", "rebound_ratio", "rebound_height"),  # ball
-    ("collisions", "first_touch", "last_release"),  # contact
-)
+_PER_BALL = ("rebound_speed", "rebound_ratio", "rebound_height")
+_PER_CONTACT = ("collisions", "first_touch", "last_release")
 ROUND_OFF = 1e-15
 """Relative error that a step without a tolerance adds to a speed."""
 
@@ -372,9 +370,8 @@ class Result:
         """
         import xarray as xr
 
-        per_ball, per_contact = _PER
-        columns: dict[Any, Any] = {("ball", name): getattr(self, f"{name}s") for name in per_ball}
-        columns |= {("contact", name): getattr(self, name) for name in per_contact}
+        columns: dict[Any, Any] = {("ball", name): getattr(self, f"{name}s") for name in _PER_BALL}
+        columns |= {("contact", name): getattr(self, name) for name in _PER_CONTACT}
         columns |= {("", "energy_retained"): self.energy_retained, ("", "status"): self.status}
         parts = {"interval": self.intervals, "event": self.events, "apex": self.apexes}
         for dim, rows in parts.items():
@@ -536,7 +533,8 @@ def heights_of(velocities: Any, gravity: Any) -> NDArray[np.float64]:
     array([ 0.2  , -0.204])
     """
     pull = np.where(np.greater(gravity, 0.0), gravity, STANDARD_GRAVITY)
-    return np.asarray(velocities * np.abs(velocities) / (2.0 * pull))
+    with np.errstate(all="ignore"):
+        return np.asarray(velocities * np.abs(velocities) / (2.0 * pull))
 
 
 def _numbers(times: object) -> NDArray[np.float64]:

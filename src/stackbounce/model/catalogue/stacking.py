@@ -3,7 +3,6 @@
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from stackbounce.errors import InvalidValue, UnknownName, nearest, shown
 from stackbounce.model.ball import Ball
@@ -132,14 +131,10 @@ def stack(
     chosen = stacked(balls)
     if gap is not None:
         gaps = [gap] * (len(balls) - 1)
-    numbers: dict[str, Any] = {
-        "gaps": chosen.gaps if gaps is None else gaps,
-        "height": DEFAULT_HEIGHT if height is impact_speed is velocities is None else height,
-        "impact_speed": impact_speed,
-        "velocities": velocities,
-        "gravity": gravity,
-    }
-    return Drop(chosen.balls, chosen.contacts, **numbers)
+    drop = Drop(chosen.balls, chosen.contacts, chosen.gaps, height=DEFAULT_HEIGHT)
+    fall = {"height": height, "impact_speed": impact_speed, "velocities": velocities}
+    numbers = fall | {"gaps": gaps, "gravity": gravity}
+    return drop.replace(**{name: value for name, value in numbers.items() if value is not None})
 
 
 def stacked(names: Sequence[str]) -> Stack:
