@@ -5,6 +5,7 @@
 # program handles Ctrl+C.
 _ROOMS = {
     "errors": "StackbounceError",
+    "explorer.notebook": "explore",
     "fitting": "Fit Model Range compare fit standard_models",
     "fitting.series": "fit_series",
     "measure": "read",

@@ -1,4 +1,5 @@
 from stackbounce.errors import StackbounceError as StackbounceError
+from stackbounce.explorer.notebook import explore as explore
 from stackbounce.fitting import Fit as Fit
 from stackbounce.fitting import Model as Model
 from stackbounce.fitting import Range as Range

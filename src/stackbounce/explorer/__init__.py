@@ -7,6 +7,7 @@ app         the server's addresses: request, answer function, schema
 guard       admission of requests, and the headers of every answer
 framing     which sites may show the page in a frame
 limits      limits of a request, of a client, and of all together
+notebook    the page in a cell of a notebook, without a server
 workers     worker processes, with limits of time and memory for each job
 schema      the schema of requests, in pydantic
 examples    what to drop with the balls that a class owns, and what to see
@@ -19,8 +20,5 @@ static/     the page: HTML, CSS, plain ES modules, and uPlot
 """
 
 from stackbounce.explorer.limits import LIMITS, Limits
-from stackbounce.extras import need
 
 __all__ = ["LIMITS", "Limits"]
-
-need("web", "stackbounce app")

@@ -13,6 +13,9 @@ from typing import Any
 from stackbounce.errors import FileError, InvalidValue, whole
 from stackbounce.explorer.addresses import Place, list_places, url
 from stackbounce.explorer.limits import Limits
+from stackbounce.extras import need
+
+need("web", "stackbounce app")
 
 HOST = "127.0.0.1"
 """The default address: it can be reached from this machine only."""

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from stackbounce.errors import (
     InvalidType,
@@ -18,6 +18,9 @@ from stackbounce.errors import (
 from stackbounce.model.ball import Ball
 from stackbounce.model.laws import LAWS, ContactLaw
 from stackbounce.units import Unit
+
+if TYPE_CHECKING:
+    from stackbounce.explorer.notebook import ExplorerFrame
 
 STANDARD_GRAVITY = 9.80665
 """Standard gravity in m/s**2, for the fall from `height` if `gravity` is 0."""
@@ -257,6 +260,33 @@ class Drop:
         from stackbounce.model.toml import write_toml
 
         return write_toml(self.to_mapping())
+
+    def explore(self, *, height: int = 640) -> "ExplorerFrame":
+        """Return the explorer with this drop for the last line of a notebook's cell.
+
+        Parameters
+        ----------
+        height : int, optional
+            The height of the frame in px.
+
+        Returns
+        -------
+        ExplorerFrame
+
+        Raises
+        ------
+        InvalidValue
+            If the explorer cannot show the drop, see `stackbounce.explore`.
+
+        Examples
+        --------
+        >>> from stackbounce.model.laws import Spring
+        >>> Drop([Ball(0.057)], [Spring(22500)], height=1.0).explore()
+        <the explorer with 1 ball: a notebook shows it as the last line of a cell>
+        """
+        import stackbounce  # by its public name: the model knows nothing of the explorer
+
+        return stackbounce.explore(self, height=height)
 
 
 def _check_balls(balls: tuple[object, ...]) -> None:
