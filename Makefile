@@ -21,6 +21,7 @@ OF_LOWEST := bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist wo
   --ignore=tests/explorer/browser --ignore=tests/explorer/test_openapi.py --ignore=tests/test_impacts.py --ignore=tests/engine
 # 3: kernels cannot be compiled on this machine, plain Python runs.
 COMPILE := { PYTHONPATH=src $(BIN)/python -m kernel_build || test $$? -eq 3; }
+PAGE := { PYTHONPATH=src $(BIN)/python -m page_build || test $$? -eq 3; }
 # Two stamps: `make paper` needs the package with all its extras; the other targets add the developers' tools.
 RUNTIME := $(VENV)/runtime.stamp
 DEV := $(VENV)/dev.stamp
@@ -86,8 +87,9 @@ attack: $(DEV) kernels  ## all attacks of tests/adversary in great number, a row
 frozen: $(DEV) kernels  ## compare the bits of random drops and of all laws with those kept in tests/frozen
 	@cd tests && PYTHONPATH=.. ../$(BIN)/python -m frozen
 
-kernels: $(RUNTIME)  ## compile the engine's kernels anew if its sources changed: a minute or two
+kernels: $(RUNTIME)  ## compile the engine's kernels anew if its sources changed, a minute or two, and make the page anew
 	@$(COMPILE)
+	@$(PAGE)
 
 lint: $(DEV)  ## ruff's rules and formatting
 	@$(BIN)/ruff check

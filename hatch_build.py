@@ -1,7 +1,9 @@
-"""Compile the kernels while hatchling builds the package: a wheel holds them, see `kernel_build`.
+"""Compile the kernels and make the page while hatchling builds the package.
+
+A wheel holds them, see `kernel_build` and `page_build`.
 
 The environment variable STACKBOUNCE_PLATFORM, such as ``macos-aarch64``, asks for the wheel of
-another platform. Where nothing can be compiled, the wheel has plain Python only.
+another platform. Where nothing can be compiled, the wheel has plain Python only, and no page.
 """
 
 import json
@@ -14,12 +16,13 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 NATIVE = "stackbounce/engine/native"
+PAGE = "stackbounce/explorer/made"
 MANIFEST = "manifest.json"
 BUILT = "build/kernels"  # what is only for wheels
 # Not PYTHONPATH: beside an editable installation, pip's build takes its folder out of that path.
 START = (
     "import sys; sys.path[:0] = sys.argv[1:3]; del sys.argv[1:3]; "
-    "from kernel_build.__main__ import main; sys.exit(main())"
+    "from {}.__main__ import main; sys.exit(main())"
 )
 
 
@@ -31,34 +34,44 @@ class KernelHook(BuildHookInterface[Any]):
         root = Path(self.root)
         sys.path[:0] = [str(root / "src"), str(root)]
         from kernel_build.__main__ import IMPOSSIBLE
-        from kernel_build.targets import TARGETS, WASM
+        from kernel_build.targets import TARGETS
 
         from stackbounce.engine.native import platform_name
 
         other = "" if version == "editable" else os.environ.get("STACKBOUNCE_PLATFORM", "")
         name = other or platform_name()
         folder = root / BUILT / name if other else root / "src" / NATIVE
-        start = [sys.executable, "-c", START, str(root / "src"), str(root)]
-        done = subprocess.run(
-            [*start, "--platform", name, "--folder", str(folder)], cwd=root, check=False
-        )
-        if done.returncode == IMPOSSIBLE and not other:
+        page = root / BUILT / f"{name}-page" if other else root / "src" / PAGE
+        status = self._run("kernel_build", "--platform", name, "--folder", str(folder))
+        if status == IMPOSSIBLE and not other:
             return  # it has said why
-        if done.returncode:
+        if status:
             self.app.abort(f"the kernels could not be compiled for {name}")
+        if self._run("page_build", "--engine", str(folder), "--folder", str(page)):
+            self.app.abort("the page could not be made")
         if version != "editable":
             build_data["pure_python"] = False
             build_data["tag"] = f"py3-none-{TARGETS[name].wheel}"
-            build_data["force_include"] |= self._files(folder, [name, WASM])
+            build_data["force_include"] |= self._library(folder, name) | {
+                str(file): f"{PAGE}/{file.name}"
+                for file in sorted(page.iterdir())
+                if file.suffix != ".sha256"  # of the sources
+            }
 
-    def _files(self, folder: Path, names: list[str]) -> dict[str, str]:
-        """Return the libraries and a manifest of them, each with its place in the wheel."""
+    def _run(self, builder: str, *given: str) -> int:
+        """Run one of the builders; return its exit status."""
+        start = [sys.executable, "-c", START.format(builder), f"{self.root}/src", self.root]
+        return subprocess.run([*start, *given], cwd=self.root, check=False).returncode
+
+    def _library(self, folder: Path, name: str) -> dict[str, str]:
+        """Return a platform's library and a manifest of it, each with its place in the wheel."""
         manifest = json.loads((folder / MANIFEST).read_text("utf-8"))
-        manifest["libraries"] = {name: manifest["libraries"][name] for name in names}
-        ours = Path(self.root) / BUILT / f"{names[0]}.json"
+        library = manifest["libraries"][name]
+        manifest["libraries"] = {name: library}
+        ours = Path(self.root) / BUILT / f"{name}.json"
         ours.parent.mkdir(parents=True, exist_ok=True)
         ours.write_text(json.dumps(manifest, indent=2) + "\n", "utf-8")
-        files = [entry["file"] for entry in manifest["libraries"].values()] + [manifest["layout"]]
-        return {str(folder / file): f"{NATIVE}/{file}" for file in files} | {
-            str(ours): f"{NATIVE}/{MANIFEST}"
+        return {
+            str(folder / library["file"]): f"{NATIVE}/{library['file']}",
+            str(ours): f"{NATIVE}/{MANIFEST}",
         }

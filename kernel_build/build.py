@@ -13,7 +13,7 @@ from typing import Any
 from kernel_build.targets import TARGETS, Target
 from stackbounce.engine.native import MANIFEST, digest_of_manifest, digest_of_sources
 
-__all__ = ["build", "is_up_to_date"]
+__all__ = ["build", "is_up_to_date", "write"]
 
 _HALF = ("run_drop", "run_batch")  # entries that take as long to compile as all others
 _SLOWER = "v4"  # the level at which these are slower than one below, which then serves
@@ -52,9 +52,9 @@ def build(names: list[str], folder: Path) -> None:
     manifest["digest"] = digest_of_manifest(manifest)
     folder.mkdir(parents=True, exist_ok=True)
     for name, content in zip(names, made, strict=True):
-        _write(folder / TARGETS[name].file, content)
-    _write(folder / FILE, (json.dumps(layout(), indent=1) + "\n").encode())
-    _write(folder / MANIFEST, (json.dumps(manifest, indent=2) + "\n").encode())
+        write(folder / TARGETS[name].file, content)
+    write(folder / FILE, (json.dumps(layout(), indent=1) + "\n").encode())
+    write(folder / MANIFEST, (json.dumps(manifest, indent=2) + "\n").encode())
 
 
 def compile_entries(entries: list[str], names: list[str]) -> list[list[bytes]]:
@@ -113,7 +113,7 @@ def _kinds(entry: Callable[..., Any]) -> list[str]:
     return [scalars.get(kind, "record") for kind in arguments(entry)]
 
 
-def _write(path: Path, content: bytes) -> None:
+def write(path: Path, content: bytes) -> None:
     """Write a file that is there as a whole or not at all."""
     with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as new:
         new.write(content)

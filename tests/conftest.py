@@ -1,10 +1,16 @@
 """Settings shared by all tests."""
 
 import collections
+import os
+import subprocess
+import sys
+from pathlib import Path
 
 import matplotlib as mpl
 import pytest
 from hypothesis import settings
+
+ROOT = Path(__file__).parents[1]
 
 mpl.use("Agg")
 
@@ -14,6 +20,13 @@ settings.register_profile("steady", derandomize=True, deadline=None)
 settings.register_profile("quick", settings.get_profile("steady"), max_examples=15)
 settings.register_profile("explore", deadline=None, max_examples=2000)
 settings.load_profile("steady")
+
+
+def pytest_configure(config):
+    """Make the page of the present sources, once for all processes."""
+    if not hasattr(config, "workerinput"):
+        own = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
+        subprocess.run([sys.executable, "-m", "page_build"], cwd=ROOT, env=own, check=False)
 
 
 @pytest.hookimpl(tryfirst=True)

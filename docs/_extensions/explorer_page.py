@@ -1,7 +1,7 @@
 """Sphinx extension: the explorer as one file among the pages, and links to what it shows.
 
 ``{explorer}`words <WHAT>` `` links to the explorer's drop WHAT, as
-`stackbounce.explorer.lessons.lesson` reads it.
+`page_build.lessons.lesson` reads it.
 """
 
 from pathlib import Path
@@ -11,7 +11,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import ReferenceRole
 
-from stackbounce.explorer.lessons.lesson import explorer_fragment
+from page_build.lessons.lesson import explorer_fragment
 
 NAME = "explorer.html"
 
@@ -24,7 +24,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
 
 
 def _write(app: Sphinx, exception: Exception | None) -> None:
-    from stackbounce.explorer.page.folder import one_file
+    from stackbounce.explorer.made import one_file
 
     if exception is None and app.builder.format == "html":
         (Path(app.outdir) / NAME).write_text(one_file(), "utf-8")

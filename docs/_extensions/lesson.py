@@ -1,4 +1,4 @@
-"""Sphinx extension: the lessons of `stackbounce.explorer.lessons`, which the explorer shows, too.
+"""Sphinx extension: the lessons of `page_build.lessons`, which the explorer shows, too.
 
 On a page, a block ``{lesson} NAME`` stands for a whole lesson, and a block ``{lessons}`` for the
 table of all. They are replaced before Sphinx reads the page, as a lesson has sections.
@@ -10,7 +10,7 @@ from typing import Any
 
 from sphinx.application import Sphinx
 
-from stackbounce.explorer.lessons.lesson import NAMES, read_lesson, split_links
+from page_build.lessons.lesson import NAMES, read_lesson, split_links
 
 _LINE = "______________________"
 _WIDTH, _HEIGHT, _STEP = 160, 90, 10

@@ -7,12 +7,10 @@ from shown import show as hand_over
 import stackbounce as sb
 from stackbounce import plots
 from stackbounce.cross2007.style import BLACK, FLOOR, UPPER
-from stackbounce.model.catalogue import stack
 
-FITTED = stack(["basketball", "tennis"])
-BASKETBALL = sb.Drop(FITTED.balls, FITTED.contacts, height=1.0)
+BASKETBALL = sb.stack("basketball", "tennis", height=1.0)
 LAWS = [sb.Hysteretic(56e3, restitution=0.78), sb.Spring(16e3)]
-LIGHT_BELOW = sb.Drop(stack(["B2", "B1"]).balls, LAWS, height=0.2)
+LIGHT_BELOW = sb.Drop(sb.stack("B2", "B1").balls, LAWS, height=0.2)
 THREE = [sb.Ball(1.0), sb.Ball(0.1), sb.Ball(0.01)]
 MASSES = [  # what is drawn, its color, and the drop
     ("rigid", BLACK, sb.Drop(THREE, [sb.Rigid(1.0)] * 3, impact_speed=1.0)),

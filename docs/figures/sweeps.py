@@ -5,16 +5,14 @@ from shown import show as hand_over
 
 import stackbounce as sb
 from stackbounce import plots
-from stackbounce.model.catalogue import stack
 
 ONE = sb.Ball(1.0)
 SPRINGS = sb.Drop([ONE, ONE], [sb.Spring(1.0), sb.Spring(1.0)], impact_speed=1.0)
 SEPARATE = sb.Drop([ONE, ONE], [sb.Rigid(0.8), sb.Rigid(0.8)], impact_speed=1.0)
 COLLAPSING = sb.Drop([ONE, ONE], [sb.Rigid(0.9), sb.Rigid(0.5)], impact_speed=1.0)
 LAWS = [sb.Hysteretic(56e3, restitution=0.78), sb.Spring(16e3)]
-LOSSY = sb.Drop(stack(["B1", "B2"]).balls, LAWS, gaps=[0.001], height=0.2)
-FITTED = stack(["basketball", "tennis"])
-BASKETBALL = sb.Drop(FITTED.balls, FITTED.contacts, FITTED.gaps, height=1.0)
+LOSSY = sb.Drop(sb.stack("B1", "B2").balls, LAWS, gaps=[0.001], height=0.2)
+BASKETBALL = sb.stack("basketball", "tennis", height=1.0)
 MAP = {
     "balls.0.mass": np.geomspace(0.01, 10.0, 200),
     "contacts.0.stiffness": np.geomspace(0.1, 100.0, 200),

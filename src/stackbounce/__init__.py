@@ -11,6 +11,7 @@ _ROOMS = {
     "measure": "read",
     "model": "Air Ball Bond Dashpot Drop Hertz HollowBall HuntCrossley Hysteretic PowerLaw Rigid "
     "RigidBySpeed RigidLossBySpeed Spring StandardLinearSolid Tabulated Viscoelastic series",
+    "model.catalogue": "balls stack",
     "prediction": "Prediction predict",
     "run.bounces": "bounces_in_air",
     "run.calibration": "calibrate",

@@ -26,6 +26,8 @@ from stackbounce.model import StandardLinearSolid as StandardLinearSolid
 from stackbounce.model import Tabulated as Tabulated
 from stackbounce.model import Viscoelastic as Viscoelastic
 from stackbounce.model import series as series
+from stackbounce.model.catalogue import balls as balls
+from stackbounce.model.catalogue import stack as stack
 from stackbounce.prediction import Prediction as Prediction
 from stackbounce.prediction import predict as predict
 from stackbounce.run.bounces import bounces_in_air as bounces_in_air

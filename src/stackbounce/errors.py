@@ -34,6 +34,12 @@ class ScenarioError(InvalidValue):
     """A scenario (TOML file or mapping) that is not valid."""
 
 
+class UnknownName(InvalidValue, KeyError):
+    """A name that is not among those that there are, such as that of a ball."""
+
+    __str__ = Exception.__str__  # that of a KeyError has quotes
+
+
 class FileError(StackbounceError, OSError):
     """A file or folder that cannot be read or written."""
 
@@ -50,6 +56,8 @@ def listed(name: str, values: Any, most: int) -> tuple[Any, ...]:
     >>> listed("gaps", [0.0, 1e-3], 10)
     (0.0, 0.001)
     """
+    if type(values) is list and len(values) <= most:  # as nearly always
+        return tuple(values)
     if isinstance(values, str | bytes | Mapping | Set) or not isinstance(values, Iterable):
         raise InvalidType(f"{name} must be a list, got {shown(values)}")
     try:

@@ -5,6 +5,7 @@ import math
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from numbers import Real
 from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin
 
 from stackbounce.errors import InvalidType, UnitError, finite, shown
@@ -90,9 +91,9 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
 
     Parameters
     ----------
-    value : float or str
+    value : float, str or quantity
         A number or a string of a number, in `unit`, or a string of a number and a unit, such as
-        ``"58 mm"`` or ``"9.81 m/s^2"``.
+        ``"58 mm"`` or ``"9.81 m/s^2"``; or a quantity of pint, of any registry.
     unit : str
         The SI unit of the result, such as ``"m"``; empty for a pure number.
     name : str, optional
@@ -110,7 +111,8 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
     InvalidValue
         If it is NaN or infinite.
     UnitError
-        If the string cannot be parsed, or its unit is unknown or of another dimension.
+        If the string cannot be parsed, its unit is unknown or of another dimension, or the number
+        has an error.
 
     Examples
     --------
@@ -119,6 +121,14 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
     >>> quantity(0.058, "m")
     0.058
     """
+    if hasattr(value, "m_as"):
+        try:
+            number = value.m_as(unit)
+        except Exception:  # each registry has classes of its own
+            raise UnitError(_message(name, str(value), unit)) from None
+        value = str(value) if hasattr(number, "std_dev") else number
+    if hasattr(value, "std_dev"):  # a ufloat, which reads like the text "0.15+/-0.01"
+        value = str(value)
     if not isinstance(value, str):
         try:
             return finite(name, value, unit)
@@ -134,6 +144,22 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
 
     factor = _factor(written, unit, _message(name, value, unit))
     return finite(name, float(Decimal(number) * Decimal(repr(factor))), unit)
+
+
+def in_unit(value: object, unit: str, name: str) -> Any:
+    """Return a value as it is, but a float in `unit` for one that may have a unit of its own.
+
+    What has none is validated where it is used. See `quantity` for what is raised.
+
+    Examples
+    --------
+    >>> in_unit("58 mm", "m", "diameter"), in_unit(None, "m", "diameter")
+    (0.058, None)
+    """
+    if type(value) is float or isinstance(value, Real):
+        return value
+    own = isinstance(value, str) or hasattr(value, "m_as") or hasattr(value, "std_dev")
+    return quantity(value, unit, name) if own else value
 
 
 def unit_written(text: str) -> str | None:
@@ -228,7 +254,7 @@ def _message(name: str, value: object, unit: str) -> str:
     number = f"a number of {unit}" if unit else "a number"
     right = f'{kind} ({number} or a string such as "{example}")'
     if isinstance(value, str) and _WITH_ERROR.search(value):
-        right = f'{kind} without an error here, such as "{example}"'
+        right = f'{kind} without an error here (predict takes one), such as "{example}"'
     return f"{name} must be {right}, got {shown(value)}"
 
 

@@ -19,7 +19,7 @@ from adversary.table import Case, begin, expect
 
 FOREIGN = b"somebody's own notes"
 _RESULTS = "collisions energy_retained first_touch last_release rebound_ratio status".split()
-_ARRAYS = (*_RESULTS, *_RESULTS, "balls.0.mass", "gaps.0")
+_ARRAYS = (*_RESULTS, *_RESULTS, "balls_0_mass", "gaps_0")
 Random = np.random.Generator
 Harm = Callable[[Path, Random], None]
 

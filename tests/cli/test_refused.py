@@ -58,7 +58,7 @@ def test_the_draws_of_a_fit_are_drops_of_a_sweep(printed):
     assert "Draws: draws.csv; now: stackbounce sweep … --draws draws.csv\n" in out
     out = printed("sweep", "fitted.toml", "--draws", "draws.csv", "--out", "bounce.zarr")
     with xr.open_zarr("bounce.zarr") as data:
-        upper, lower = data["contacts.1.stiffness"].values, data["contacts.0.stiffness"].values
+        upper, lower = data.contacts_1_stiffness.values, data.contacts_0_stiffness.values
         assert lower == pytest.approx(1500.0 + 0.5 * upper)
         assert float(data.rebound_ratio.sel(ball=1).std()) == pytest.approx(0.02, rel=0.3)
     assert np.loadtxt("draws.csv", delimiter=",", skiprows=1).shape == (data.sizes["draw"], 2)
@@ -72,6 +72,6 @@ def test_a_sweep_of_draws_has_one_drop_for_each_row(printed, told):
     assert "    gaps.0: 0.0015 to 0.002 m\n" in out
     with xr.open_zarr("draws.zarr") as data:
         assert data.rebound_ratio.dims == ("draw", "height", "ball")
-        assert data["balls.0.mass"].values.tolist() == [0.0248, 0.03]
-        assert data["gaps.0"].dims == ("draw",)
+        assert data.balls_0_mass.values.tolist() == [0.0248, 0.03]
+        assert data.gaps_0.dims == ("draw",)
     assert told(*given, "--over", "height=1,2,3")["over"] == {"draw": 2, "height": 3}

@@ -5,12 +5,12 @@ from importlib.resources import files
 
 import numpy as np
 import pytest
+from page_build.examples import list_examples
 
 import stackbounce as sb
 from example_records import floor_force, two_tracks
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.explorer import LIMITS
-from stackbounce.explorer.examples import list_examples
 from stackbounce.model.catalogue import CLASS_BALLS
 
 EXAMPLES = list(list_examples())

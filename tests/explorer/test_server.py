@@ -9,13 +9,13 @@ from urllib.parse import unquote
 
 import numpy as np
 import pytest
+from page_build.data import list_choices
 from scipy.io import wavfile
 
 import stackbounce as sb
 from explorer.conftest import DROP
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.explorer import LIMITS
-from stackbounce.explorer.page.data import list_choices
 
 
 def post(server, path, **asked):

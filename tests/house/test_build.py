@@ -1,7 +1,8 @@
-"""How the kernels are compiled when the package is built, and put into its wheel."""
+"""How kernels are compiled and the page is made when the package is built, and their wheel."""
 
 import hashlib
 import json
+import shutil
 import sys
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
@@ -14,8 +15,10 @@ from kernel_build import __main__ as command
 from kernel_build import build as builder
 from kernel_build import machine_code
 from kernel_build.targets import TARGETS, WASM
+from page_build import build as page_builder
 
 from stackbounce.engine import native
+from stackbounce.explorer import made
 
 ROOT = Path(__file__).parents[2]
 NAMES = ["linux-x86_64", WASM]
@@ -33,7 +36,7 @@ def test_the_tools_have_the_versions_of_the_constraints():
     needs = [one.split(";")[0].strip() for one in project["build-system"]["requires"]]
     pinned = (ROOT / "constraints.txt").read_text("utf-8").splitlines()
     names = [one.partition("==")[0] for one in needs]
-    assert names == ["hatchling", "llvmlite", "numba", "numpy", "ziglang"]
+    assert names == ["hatchling", "llvmlite", "numba", "numpy", "Pint", "scipy", "ziglang"]
     assert set(needs) - {"hatchling"} <= set(pinned)
 
 
@@ -102,7 +105,9 @@ def hook_with(monkeypatch, status, platform=""):
     def run(command, **_):
         commands.append(command)
         folder = Path(command[-1])
-        if status == 0 and not folder.exists():
+        if status == 0 and not folder.exists() and "--engine" in command:
+            page_builder.build(Path(native.FOLDER), folder)
+        elif status == 0 and not folder.exists():
             builder.build([platform, WASM], folder)
         return SimpleNamespace(returncode=status)
 
@@ -126,19 +131,38 @@ def put(hook, version="standard"):
     return data, {place: Path(file) for file, place in data["force_include"].items()}
 
 
-def test_a_wheel_of_this_machine_has_its_library_and_that_of_browsers(monkeypatch):
+def test_a_wheel_of_this_machine_has_its_library_and_the_page(monkeypatch):
     hook, commands = hook_with(monkeypatch, 0)
     data, files = put(hook)
     target = TARGETS[native.platform_name()]
     assert (data["pure_python"], data["tag"]) == (False, f"py3-none-{target.wheel}")
     prefix = "stackbounce/engine/native/"
     manifest = json.loads(files.pop(f"{prefix}manifest.json").read_text())
-    assert set(files) == {f"{prefix}{name}" for name in (target.file, "engine.wasm", "layout.json")}
     assert manifest["sources"] == native.digest_of_sources()
-    for entry in manifest["libraries"].values():
-        content = files[prefix + entry["file"]].read_bytes()
-        assert hashlib.sha256(content).hexdigest() == entry["sha256"]
-    assert len(commands) == 1
+    (entry,) = manifest["libraries"].values()
+    content = files.pop(prefix + target.file).read_bytes()
+    assert hashlib.sha256(content).hexdigest() == entry["sha256"]
+    prefix = "stackbounce/explorer/made/"
+    page = {place.removeprefix(prefix): path.read_bytes() for place, path in files.items()}
+    assert page == page_builder.list_files(Path(native.FOLDER))
+    assert page["explorer.html"].decode() == made.one_file()
+    assert {name.rpartition("/")[2] for name in made.folder_files()} | set(made.KINDS) == (
+        set(page) - {"explorer.html"}
+    )
+    assert len(commands) == 2
+
+
+def test_a_page_is_up_to_date_until_something_changes(monkeypatch, tmp_path):
+    engine, other, page = Path(native.FOLDER), tmp_path / "other", tmp_path / "page"
+    page_builder.build(engine, page)
+    assert page_builder.is_up_to_date(engine, page)
+    shutil.copytree(engine, other)
+    (other / "engine.wasm").write_bytes(b"")
+    assert not page_builder.is_up_to_date(other, page)
+    assert page_builder.has_engine(other)
+    monkeypatch.setattr(native, "digest_of_sources", lambda: "another")
+    assert not page_builder.has_engine(other)
+    assert not page_builder.has_engine(page)
 
 
 @pytest.mark.usefixtures("quick")
@@ -149,7 +173,10 @@ def test_a_wheel_of_another_platform_leaves_the_sources_alone(monkeypatch, tmp_p
     assert data["tag"] == "py3-none-macosx_11_0_arm64"
     assert "stackbounce/engine/native/macos-aarch64.dylib" in files
     assert all(tmp_path in file.parents for file in files.values())
-    assert commands[0][-3:] == ["macos-aarch64", "--folder", str(tmp_path / "macos-aarch64")]
+    kernels, page = tmp_path / "macos-aarch64", tmp_path / "macos-aarch64-page"
+    assert commands[0][-3:] == ["macos-aarch64", "--folder", str(kernels)]
+    assert commands[1][-4:] == ["--engine", str(kernels), "--folder", str(page)]
+    assert files["stackbounce/explorer/made/model.json"] == page / "model.json"
 
 
 def test_an_installation_of_the_sources_takes_their_folder(monkeypatch):

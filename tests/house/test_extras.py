@@ -81,6 +81,12 @@ def test_a_plain_install_runs(arguments):
     assert (run.returncode, run.stderr) == (0, "")
 
 
+def test_a_plain_install_writes_the_explorer(tmp_path):
+    run = plain(COMMAND, "app", "--export", "explorer.html", folder=tmp_path)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert (tmp_path / "explorer.html").read_text("utf-8").startswith("<!doctype html>")
+
+
 @pytest.mark.slow
 def test_a_plain_install_sweeps():
     run = plain(

@@ -6,7 +6,7 @@ import re
 import pytest
 
 import stackbounce as sb
-from stackbounce.model.catalogue import BALLS, CLASS_BALLS, KINDS, catalogue_ball, stack
+from stackbounce.model.catalogue import BALLS, CLASS_BALLS, KINDS, catalogue_ball, stacked
 from stackbounce.model.laws.series import between
 
 FIGURES = {"mass", "diameter", "restitution", "contact_time", "stiffness"}
@@ -81,7 +81,7 @@ def test_the_tennis_ball_is_within_the_games_rules():
 @pytest.mark.parametrize("upper", ["tennis ball", "marble"])
 def test_a_pair_loses_what_both_lose_by_their_shares_of_the_work(lower, upper):
     a, b = catalogue_ball(lower), catalogue_ball(upper)
-    law = stack([lower, upper]).contacts[1]
+    law = stacked([lower, upper]).contacts[1]
     share = b.stiffness / (a.stiffness + b.stiffness)  # of the work, that the lower ball takes
     kept = (a.restitution if a.lossy else 1.0) ** 2, b.restitution**2
     assert law.stiffness == pytest.approx(1.0 / (1.0 / a.stiffness + 1.0 / b.stiffness), rel=1e-12)
@@ -90,14 +90,14 @@ def test_a_pair_loses_what_both_lose_by_their_shares_of_the_work(lower, upper):
 
 
 def test_a_pair_is_the_same_either_way_round():
-    one, other = stack(["football", "golf ball"]), stack(["golf ball", "football"])
+    one, other = stacked(["football", "golf ball"]), stacked(["golf ball", "football"])
     assert one.contacts[1].stiffness == pytest.approx(other.contacts[1].stiffness, rel=1e-14)
     assert one.contacts[1].restitution == pytest.approx(other.contacts[1].restitution, rel=1e-14)
     assert one.contact_sources[1] == "football and golf ball in series"
 
 
 def test_the_papers_balls_keep_their_springs_beside_a_classs():
-    chosen = stack(["basketball", "tennis", "superball"])
+    chosen = stacked(["basketball", "tennis", "superball"])
     assert chosen.contacts[:2] == (sb.Spring(2500.0), sb.Spring(1000.0))
     assert chosen.contacts[2].restitution < 1.0
 

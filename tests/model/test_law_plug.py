@@ -6,10 +6,10 @@ from typing import Annotated, ClassVar
 
 import numpy as np
 import pytest
+from page_build.data import list_choices
 
 import stackbounce as sb
 from stackbounce.cli import main, simulation_tables
-from stackbounce.explorer.page.data import list_choices
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.model import LAWS
 from stackbounce.model.laws import law_named

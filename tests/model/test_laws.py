@@ -62,7 +62,8 @@ def test_a_law_is_a_frozen_value(law):
 def test_stiffness_is_positive_and_finite(law, value):
     got = refusal(errors.InvalidValue, dataclasses.replace, law, stiffness=value)
     assert got.startswith("stiffness must be a positive number of N/m")
-    assert refusal(errors.InvalidType, dataclasses.replace, law, stiffness="1").endswith("got '1'")
+    got = refusal(errors.UnitError, dataclasses.replace, law, stiffness="1 kg")
+    assert got.endswith("got '1 kg'")
 
 
 NOT_FINITE = math.nan, math.inf
@@ -92,7 +93,7 @@ def test_numbers_have_ranges(law, field, wrong, right, words):
     for value in wrong:
         got = refusal(errors.InvalidValue, dataclasses.replace, law, **{field: value})
         assert got == f"{field} must be {words}, got {value}"
-    refusal(errors.InvalidType, dataclasses.replace, law, **{field: "1"})
+    refusal(errors.InvalidType, dataclasses.replace, law, **{field: [1.0]})
     assert getattr(dataclasses.replace(law, **{field: right}), field) == right
 
 

@@ -11,16 +11,16 @@ from pathlib import Path
 
 import pytest
 from lesson import lesson_markdown
-
-import stackbounce as sb
-from stackbounce.explorer.lessons.lesson import (
+from page_build.lessons.lesson import (
     LANGUAGES,
     NAMES,
     explorer_fragment,
     read_lesson,
     split_links,
 )
-from stackbounce.model.catalogue import catalogue_ball, stack
+
+import stackbounce as sb
+from stackbounce.model.catalogue import catalogue_ball, stacked
 
 PAGES = Path(__file__).parents[2] / "docs" / "lessons"
 BASKETBALL, TENNIS = "big basketball", "tennis ball"
@@ -35,7 +35,7 @@ def text(name):
 
 
 def drop_of(names, gap=0.0):
-    chosen = stack(names)
+    chosen = stacked(names)
     return sb.Drop(chosen.balls, chosen.contacts, [gap] * (len(names) - 1), height=1.0)
 
 

@@ -118,7 +118,7 @@ def test_every_picture_has_its_command():
 
 def test_lines_are_those_of_figures_4a_and_6(sweeps, bench):
     of_mass, of_stiffness = sweeps["mass"], sweeps["stiffness"]
-    masses, mass_ratio = of_mass["balls.0.mass"], bench("basketball.mass") / bench("tennis.mass")
+    masses, mass_ratio = of_mass.balls_0_mass, bench("basketball.mass") / bench("tennis.mass")
     own = rebound_by_mass(bench, masses.values[::20], bench("models.stiffness_ratio"))
     assert of_mass.rebound_ratio.values[::20] == pytest.approx(own.T, abs=1e-11)
     own = rebound_by_stiffness(bench, mass_ratio, np.geomspace(0.1, 100.0, 241)[::20])
@@ -128,8 +128,8 @@ def test_lines_are_those_of_figures_4a_and_6(sweeps, bench):
 def test_lines_are_those_of_figure_2_where_they_meet_once_or_twice(sweeps, bench):
     ds = sweeps["separate"]
     for count in (1, 2):
-        own = ds.isel({"balls.0.mass": (ds.collisions.sel(contact=1) == count).values})
-        masses, ratios = own["balls.0.mass"].values, own.rebound_ratio.values
+        own = ds.isel(balls_0_mass=(ds.collisions.sel(contact=1) == count).values)
+        masses, ratios = own.balls_0_mass.values, own.rebound_ratio.values
         after = after_collision(bench, masses[::10], bench("models.restitution"), count)
         back = -bench("models.restitution") * after[0]  # from the floor, where it went down again
         after[0] = np.where(after[0] < 0.0, back, after[0])
@@ -137,7 +137,7 @@ def test_lines_are_those_of_figure_2_where_they_meet_once_or_twice(sweeps, bench
 
 
 def test_a_gap_of_one_millimetre_is_section_v(sweeps):
-    at = sweeps["gap"].sel({"gaps.0": 0.001}, method="nearest").rebound_ratio
+    at = sweeps["gap"].sel(gaps_0=0.001, method="nearest").rebound_ratio
     assert at.values == pytest.approx([0.24, 1.83], abs=0.04)
 
 

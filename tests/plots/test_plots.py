@@ -63,7 +63,7 @@ def test_nothing_to_draw(show):
     axes = plots.heatmap(ds, show).axes[0]
     assert axes.collections[0].get_array().mask.all()
     assert axes.patch.get_hatch()
-    plots.lines(ds.isel({"contacts.1.restitution": 0}), show).draw_without_rendering()
+    plots.lines(ds.isel(contacts_1_restitution=0), show).draw_without_rendering()
 
 
 def test_one_ball_by_its_index():
@@ -79,7 +79,7 @@ def test_balls_have_their_names():
     ds = sb.sweep(drop, {"gaps.0": [0.0, 0.001], "balls.0.mass": [1.0, 2.0]})
     titles = [plots.heatmap(ds, index=k).axes[0].get_title(loc="left") for k in (0, 1)]
     assert titles == ["rebound ratio of ball 0 (basketball)", "rebound ratio of ball 1"]
-    legend = plots.lines(ds.isel({"gaps.0": 0})).axes[0].get_legend()
+    legend = plots.lines(ds.isel(gaps_0=0)).axes[0].get_legend()
     assert texts(legend.get_texts()) == ["ball 0 (basketball)", "ball 1"]
 
 
@@ -117,7 +117,7 @@ def test_differences_of_round_off_are_not_drawn():
     axes, bar = plots.heatmap(ds, "energy_retained").axes
     assert len(axes.collections) == 1  # no contours
     assert texts(bar.get_yticklabels()) == ["1"]
-    low, high = plots.lines(ds[{"balls.0.mass": 3}], "energy_retained").axes[0].get_ylim()
+    low, high = plots.lines(ds.isel(balls_0_mass=3), "energy_retained").axes[0].get_ylim()
     assert (low, high) == pytest.approx((0.5, 1.5))
 
 
@@ -173,7 +173,7 @@ def test_many_counts_are_grouped():
 @pytest.mark.parametrize("show", SHOWN)
 def test_small_maps_fill_their_axes(shape, show):
     ds = sb.sweep(DROP, OVER_BOTH)
-    few = ds[{"balls.0.mass": slice(shape[0]), "contacts.1.restitution": slice(shape[1])}]
+    few = ds.isel(balls_0_mass=slice(shape[0]), contacts_1_restitution=slice(shape[1]))
     axes = plots.heatmap(few, show).axes[0]
     assert np.isfinite(axes.collections[0].get_coordinates()).all()
     assert axes.collections[0].get_array().shape == shape
@@ -184,15 +184,53 @@ def test_small_maps_fill_their_axes(shape, show):
     ("draw", "message"),
     [
         (plots.lines, "must have one dimension, got balls.0.mass, contacts.1"),
-        (lambda ds: plots.heatmap(ds.isel({"balls.0.mass": 0})), "must have two dimensions"),
+        (lambda ds: plots.heatmap(ds.isel(balls_0_mass=0)), "must have two dimensions"),
         (lambda ds: plots.heatmap(ds, "colisions"), "did you mean collisions"),
         (lambda ds: plots.heatmap(ds, index=2), "index must name a ball from 0 to 1, got 2"),
         (lambda _: plots.heatmap(3), "data must be a Dataset from sweep, got 3"),
+        (plots.bounce, "must be a Result or a Prediction, got a Dataset: plots.lines, heatmap or"),
+        (lambda _: plots.lines(DROP), r"got a Drop: plots.bounce\(simulate\(drop\)\) draws it"),
+        (lambda _: plots.fit(sb.simulate(DROP)), "got a Result: plots.bounce draws it"),
+        (lambda ds: plots.heatmap(ds, axes=plt.subplots(2)[1]), "axes must be 1 Axes of matplot"),
+        (
+            lambda ds: plots.heatmap(ds, axes="left"),
+            "axes must be 1 Axes of matplotlib, got 'left'",
+        ),
     ],
 )
 def test_errors(draw, message):
     with pytest.raises(sb.StackbounceError, match=message):
         draw(sb.sweep(DROP, OVER_BOTH))
+    plt.close("all")
+
+
+def test_every_plot_draws_into_axes_of_the_user():
+    drop = sb.Drop([sb.Ball(0.15), sb.Ball(0.057)], [sb.Spring(2500.0)] * 2, impact_speed=3.5)
+    data = {"rebound_ratios": ["0.2 ± 0.05", "1.7 ± 0.1"]}
+    found = sb.fit(drop, data, ["contacts.0.stiffness", "contacts.1.stiffness"])
+    models = sb.compare(sb.standard_models(drop), data)
+    bounces = sb.measure.bounces([0.0, 0.8, 1.44, 1.952])
+    series = sb.fit_series("dataset:golf-marble-heights", laws=["Rigid"])
+    ds = sb.sweep(DROP, OVER_BOTH)
+    draws = [
+        (2, lambda axes: plots.bounce(sb.simulate(drop), axes=axes)),
+        (1, lambda axes: plots.lines(ds.isel({"balls.0.mass": 0}), axes=axes)),
+        (1, lambda axes: plots.heatmap(ds, axes=axes)),
+        (1, lambda axes: plots.highest(sb.highest(["B1", "B2"], 2), axes=axes)),
+        (1, lambda axes: plots.measured(None, bounces, axes=axes)),
+        (2, lambda axes: plots.restitutions(series, axes=axes)),
+        (3, lambda axes: plots.fitted(found, axes=axes)),
+        (2, lambda axes: plots.compared(models, axes=axes)),
+        (4, lambda axes: plots.corner(found.sample(6400), axes=axes)),
+    ]
+    for count, draw in draws:
+        figure, axes = plt.subplots(1 + (count == 4), -(-count // (1 + (count == 4))))
+        with pytest.raises(sb.StackbounceError, match=f"{count} Axes of matplotlib, got 7"):
+            draw(plt.subplots(7)[1])
+        assert draw(axes) is figure
+        empty = [panel for panel in np.ravel(axes) if not panel.has_data() and panel.axison]
+        assert len(empty) == (count == 4)  # above the diagonal of a corner plot
+        plt.close("all")
 
 
 def test_a_prediction_is_drawn_with_bands():

@@ -83,7 +83,7 @@ def _write(path: str, framed_by: list[str], overwrite: bool, as_json: bool) -> N
 
 def _write_file(path: Path, overwrite: bool) -> list[int]:
     """Write the explorer as one file; return its size."""
-    from stackbounce.explorer.page.folder import one_file
+    from stackbounce.explorer.made import one_file
     from stackbounce.files import check_own, check_place, write_file
 
     check_place(path)
@@ -94,7 +94,7 @@ def _write_file(path: Path, overwrite: bool) -> list[int]:
 
 def _write_folder(folder: Path, overwrite: bool) -> list[int]:
     """Write the explorer as a folder of files; return their sizes."""
-    from stackbounce.explorer.page.folder import folder_files
+    from stackbounce.explorer.made import folder_files
     from stackbounce.files import prepare_folder, write_folder
 
     files = folder_files()

@@ -8,12 +8,9 @@ from typing import Any
 
 from stackbounce.cli.drop_options import read_changes
 from stackbounce.errors import InvalidValue
-from stackbounce.model.catalogue import stack
+from stackbounce.model.catalogue import stack, stacked
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw
-
-DEFAULT_HEIGHT = 1.0
-"""The height in m from which balls of the catalogue fall without --height and --speed."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -119,10 +116,9 @@ def _joined(names: Sequence[str], laws: Sequence[ContactLaw]) -> list[ContactLaw
 
 
 def _from_catalogue(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
-    chosen = stack(names)
+    chosen = stacked(names)
     given = {key: changes[key] for key in ("height", "impact_speed") if key in changes}
-    drop = Drop(chosen.balls, chosen.contacts, chosen.gaps, **(given or {"height": DEFAULT_HEIGHT}))
-    return Scenario(drop, chosen.contact_sources, chosen.gap_sources, "default")
+    return Scenario(stack(*names, **given), chosen.contact_sources, chosen.gap_sources, "default")
 
 
 def _with(scenario: Scenario, changes: dict[str, Any]) -> Scenario:

@@ -5,9 +5,10 @@ import math
 from rich.console import Console
 
 from stackbounce.cli.bounce_tables import Bounce, label, meeting
-from stackbounce.cli.scenario import DEFAULT_HEIGHT, Scenario
+from stackbounce.cli.scenario import Scenario
 from stackbounce.cli.tables import number, percent, write_count
 from stackbounce.model import Tabulated
+from stackbounce.model.catalogue import DEFAULT_HEIGHT
 from stackbounce.model.laws import ContactLaw
 from stackbounce.prediction import Prediction
 from stackbounce.run.result import Result, Status

@@ -237,7 +237,7 @@ def _over_stiffness(b: Bench, lower: str, upper: str, drop: Drop) -> Line:
         replace(ball, name=name, diameter=b(f"{name}.diameter"))
         for ball, name in zip(drop.balls, (lower, upper), strict=True)
     ]
-    measured = (b.measured(f"{upper}_on_{lower}.{ball}") for ball in ("lower", "upper"))
+    measured = [f"{upper}_on_{lower}.{ball}" for ball in ("lower", "upper")]
     return Line(
         f"figure-6-{upper}",
         f"Figure 6: {upper} on {lower}",
@@ -245,7 +245,7 @@ def _over_stiffness(b: Bench, lower: str, upper: str, drop: Drop) -> Line:
         "measured speeds: the paper asks at which stiffness ratio the curves meet them.",
         replace(drop, balls=balls),
         STIFFNESS,
-        tuple((ratio.n, ratio.s) for ratio in measured),
+        tuple((b(key), b.data[key].spread) for key in measured),
     )
 
 

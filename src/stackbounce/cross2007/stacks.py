@@ -123,7 +123,7 @@ def gap_for_delay(bench: Bench, drop: Drop, delay: float) -> float:
     """
     speed = drop.reference_speed
     alone = bench.simulate(Drop(drop.balls[:1], drop.contacts[:1], impact_speed=speed))
-    return speed * delay + float(alone.sample([delay])["position"].isel(ball=0)[0])
+    return speed * delay + float(alone.rerun([delay]).samples.position[0])
 
 
 def small_fit(bench: Bench, heavy: float) -> Drop:

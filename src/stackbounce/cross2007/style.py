@@ -91,7 +91,7 @@ def make_axes(
     The margins are fixed, in inches, so that the frames of all figures line up; `ratios` are the
     relative heights of the axes.
     """
-    from matplotlib.figure import Figure
+    from stackbounce.plots.figure import Figure
 
     figure = Figure(figsize=(WIDTH, height))
     panels = list(figure.subplots(rows, 1, sharex=True, squeeze=False, height_ratios=ratios)[:, 0])

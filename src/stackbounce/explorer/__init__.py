@@ -10,12 +10,10 @@ limits      limits of a request, of a client, and of all together
 notebook    the page in a cell of a notebook, without a server
 workers     worker processes, with limits of time and memory for each job
 schema      the schema of requests, in pydantic
-examples    what to drop with the balls that a class owns, and what to see
 paper_pages the paper's pages, computed at the first request
 answers/    the functions that compute answers in the worker processes
-lessons/    the lessons, for the page and the documentation
-page/       what the page is made of besides static/: data, formulas, the one file
 static/     the page: HTML, CSS, plain ES modules, and uPlot
+made        the files of the page that were made when the package was built
 =========== ================================================================
 """
 

@@ -18,7 +18,7 @@ from stackbounce.explorer.addresses import Place
 from stackbounce.explorer.answers import play, records
 from stackbounce.explorer.guard import add_guard
 from stackbounce.explorer.limits import Limits
-from stackbounce.explorer.page.parts import KINDS, made_file
+from stackbounce.explorer.made import KINDS, made_file
 from stackbounce.explorer.paper_pages import Papers
 from stackbounce.explorer.workers import AGAIN_SECONDS, Busy, Workers
 from stackbounce.version import __version__

@@ -15,7 +15,7 @@ from starlette.middleware.trustedhost import TrustedHostMiddleware
 from stackbounce.explorer.addresses import Place
 from stackbounce.explorer.framing import frame_rule
 from stackbounce.explorer.limits import Limits
-from stackbounce.explorer.page.policy import PAGE
+from stackbounce.explorer.made import PAGE_POLICY
 
 HEADERS = {
     "x-content-type-options": "nosniff",
@@ -53,7 +53,7 @@ def add_guard(
     >>> from stackbounce.explorer import LIMITS
     >>> add_guard(FastAPI(), LIMITS, others=[], framed_by=[])
     """
-    policy = f"{PAGE}; {frame_rule(framed_by)}"
+    policy = f"{PAGE_POLICY}; {frame_rule(framed_by)}"
 
     @app.middleware("http")
     async def guard(

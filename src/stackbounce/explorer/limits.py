@@ -60,5 +60,8 @@ class Limits:
     worker_bytes: int = 2 * 1024**3
 
 
+RTOL = 1e-10
+"""The tolerance of nonlinear contacts, which a picture does not show."""
+
 LIMITS = Limits()
 """The limits of ``stackbounce app``."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from stackbounce.cross2007.cases import explorer_address
 from stackbounce.errors import InvalidType, InvalidValue, counted, shown, whole
 from stackbounce.explorer.limits import LIMITS
-from stackbounce.explorer.page.folder import one_file
+from stackbounce.explorer.made import one_file
 from stackbounce.model import Drop
 
 

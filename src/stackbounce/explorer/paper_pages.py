@@ -10,7 +10,7 @@ from starlette.responses import FileResponse, RedirectResponse, Response
 from starlette.staticfiles import StaticFiles
 
 from stackbounce import cross2007
-from stackbounce.explorer.page.assembly import digest
+from stackbounce.explorer.made import digest
 from stackbounce.explorer.workers import Workers
 
 _STATIC = Path(__file__).parent / "static"

@@ -9,6 +9,7 @@ import numpy as np
 from stackbounce.errors import InvalidValue, nearest, shown, whole
 from stackbounce.fitting.objective import Objective
 from stackbounce.run.options import check_room
+from stackbounce.run.paths import identifier
 from stackbounce.run.quantities import Array
 
 if TYPE_CHECKING:
@@ -107,13 +108,19 @@ class Posterior:
     def to_dataset(self) -> "xr.Dataset":
         """Return the draws (chain, draw) of each parameter in SI units, and `lp`, as ArviZ reads.
 
+        The path ``gaps.0`` becomes the name ``gaps_0``.
+
         ``arviz.convert_to_inference_data(posterior.to_dataset())`` has diagnostics and pictures.
         """
         import xarray as xr
 
         dims = ("chain", "draw")
         columns = {
-            name: (dims, self.chain[:, :, k].T, {"units": self.units[name]})
+            identifier(name): (
+                dims,
+                self.chain[:, :, k].T,
+                {"units": self.units[name], "path": name},
+            )
             for k, name in enumerate(self.names)
         }
         return xr.Dataset({**columns, "lp": (dims, self.log_probability.T)})

@@ -4,12 +4,18 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown
-from stackbounce.units import Unit
+from stackbounce.units import Unit, in_unit
+
+_POSITIVE = (
+    ("mass", "kg", "kilograms"),
+    ("diameter", "m", "metres"),
+    ("young_modulus", "Pa", "pascals"),
+)
 
 
 @dataclass(frozen=True)
 class Ball:
-    """One ball of a stack.
+    """One ball of a stack; its numbers are SI, or texts or quantities of pint with a unit.
 
     Parameters
     ----------
@@ -37,6 +43,8 @@ class Ball:
     --------
     >>> Ball(mass=0.057, name="tennis").name
     'tennis'
+    >>> Ball("57 g", diameter="6.6 cm").diameter
+    0.066
     """
 
     mass: Annotated[float, Unit("kg")]
@@ -46,14 +54,16 @@ class Ball:
     poisson_ratio: Annotated[float, Unit()] | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "mass", positive("mass", self.mass, "kilograms"))
-        for name, unit in (("diameter", "metres"), ("young_modulus", "pascals")):
-            if getattr(self, name) is not None:
-                object.__setattr__(self, name, positive(name, getattr(self, name), unit))
+        for name, unit, words in _POSITIVE:
+            value = getattr(self, name)
+            if value is not None or name == "mass":
+                checked = positive(name, in_unit(value, unit, name), words)
+                object.__setattr__(self, name, checked)
         if self.name is not None:
             _check_name(self.name)
         if self.poisson_ratio is not None:
-            object.__setattr__(self, "poisson_ratio", _poisson_ratio(self.poisson_ratio))
+            ratio = _poisson_ratio(in_unit(self.poisson_ratio, "", "poisson_ratio"))
+            object.__setattr__(self, "poisson_ratio", ratio)
 
 
 def _poisson_ratio(value: object) -> float:

@@ -17,7 +17,7 @@ from stackbounce.errors import (
 )
 from stackbounce.model.ball import Ball
 from stackbounce.model.laws import LAWS, ContactLaw
-from stackbounce.units import Unit
+from stackbounce.units import Unit, in_unit
 
 if TYPE_CHECKING:
     from stackbounce.explorer.notebook import ExplorerFrame
@@ -32,6 +32,8 @@ _INCIDENCE = ("impact_speed", "height", "velocities")
 @dataclass(frozen=True)
 class Drop:
     """A falling stack of balls at t = 0, when the lowest ball touches the floor.
+
+    Its numbers are SI, or texts or quantities of pint with a unit.
 
     Parameters
     ----------
@@ -77,6 +79,8 @@ class Drop:
     ... )
     >>> drop.gaps, drop.start_velocities
     ((0.0,), (-3.53, -3.53))
+    >>> Drop(drop.balls, drop.contacts, gaps=["2 mm"], height="63 cm").gaps
+    (0.002,)
     """
 
     balls: Sequence[Ball]
@@ -100,13 +104,17 @@ class Drop:
                 f"gaps must hold one number per neighbouring pair of balls ({len(balls) - 1}), "
                 f"got {len(gaps)}"
             )
-        gaps = tuple(non_negative(f"gaps.{i}", gap, "metres") for i, gap in enumerate(gaps))
+        gaps = tuple(
+            non_negative(name := f"gaps.{i}", in_unit(gap, "m", name), "metres")
+            for i, gap in enumerate(gaps)
+        )
         for i, gap in enumerate(gaps):
             if gap > 0.0 and contacts[i + 1].pulls:
                 bond = type(contacts[i + 1]).__name__
                 raise InvalidValue(f"gaps.{i} must be 0 at a {bond}, got {gap!r}")
         values: dict[str, Any] = {"balls": balls, "contacts": contacts, "gaps": gaps}
-        values["gravity"] = non_negative("gravity", self.gravity, "m/s**2")
+        gravity = in_unit(self.gravity, "m/s**2", "gravity")
+        values["gravity"] = non_negative("gravity", gravity, "m/s**2")
         for name, value in (values | self._incidence(len(balls))).items():
             object.__setattr__(self, name, value)
         if not 0.0 < self.reference_speed < math.inf:  # only a height's is computed
@@ -123,15 +131,20 @@ class Drop:
                 f"got {' and '.join(given) or 'none'}"
             )
         if self.impact_speed is not None:
-            return {"impact_speed": positive("impact_speed", self.impact_speed, "m/s")}
+            speed = in_unit(self.impact_speed, "m/s", "impact_speed")
+            return {"impact_speed": positive("impact_speed", speed, "m/s")}
         if self.height is not None:
-            return {"height": positive("height", self.height, "metres")}
+            height = in_unit(self.height, "m", "height")
+            return {"height": positive("height", height, "metres")}
         velocities = listed("velocities", self.velocities, _MOST_ITEMS)
         if len(velocities) != count:
             raise InvalidValue(
                 f"velocities must hold one number per ball ({count}), got {len(velocities)}"
             )
-        velocities = tuple(finite(f"velocities.{i}", v, "m/s") for i, v in enumerate(velocities))
+        velocities = tuple(
+            finite(name := f"velocities.{i}", in_unit(v, "m/s", name), "m/s")
+            for i, v in enumerate(velocities)
+        )
         if not any(velocities):
             raise InvalidValue("velocities must not all be 0, got 0 for every ball")
         return {"velocities": velocities}
@@ -297,7 +310,7 @@ def _check_balls(balls: tuple[object, ...]) -> None:
             raise InvalidType(f"balls.{i} must be a Ball, got {shown(ball)}")
 
 
-def _check_contacts(contacts: tuple[object, ...], count: int) -> None:
+def _check_contacts(contacts: tuple[Any, ...], count: int) -> None:
     if len(contacts) != count:
         raise InvalidValue(
             f"contacts must hold one law per ball, the one below it ({count}), got {len(contacts)}"
@@ -308,11 +321,10 @@ def _check_contacts(contacts: tuple[object, ...], count: int) -> None:
         if law is not None and not isinstance(law, ContactLaw):
             known = ", ".join(LAWS)
             raise InvalidType(f"contacts.{i} must be a contact law ({known}), got {shown(law)}")
-    rigid = [i for i, law in enumerate(contacts) if isinstance(law, ContactLaw) and law.rigid]
-    finite_ones = [i for i, law in enumerate(contacts) if law is not None and i not in rigid]
-    if rigid and finite_ones:
-        one, other = (type(contacts[i]).__name__ for i in (rigid[0], finite_ones[0]))
+    first = {law.rigid: i for i, law in reversed(list(enumerate(contacts))) if law is not None}
+    if len(first) == 2:
+        one, other = (type(contacts[first[rigid]]).__name__ for rigid in (True, False))
         raise InvalidValue(
             "contacts must be all rigid or have none that is, got a mixture: "
-            f"contacts.{rigid[0]} is {one} and contacts.{finite_ones[0]} is {other}"
+            f"contacts.{first[True]} is {one} and contacts.{first[False]} is {other}"
         )

@@ -5,10 +5,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue
 from stackbounce.plots.fitted_curves import Curve, Points, draw_fitted, spread_over
 from stackbounce.plots.scales import Scale, label, show_in_handy_unit
-from stackbounce.plots.style import written
+from stackbounce.plots.style import STYLE, figure_of, list_axes, written
 from stackbounce.run.paths import Number, numbers_of, value_in
 from stackbounce.run.quantities import QUANTITIES, Array
 
@@ -16,7 +15,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
 
-_NAMES = {"height": "drop height", "impact_speed": "impact speed"}
 _RATIOS = (3.0, 1.3)  # the heights of the two panels of a quantity
 
 
@@ -69,24 +67,21 @@ def panels_of(figure: "Figure | SubFigure", fit: Any) -> "list[list[Axes]]":
     return panels
 
 
-def draw_into(axes: Any, fits: Mapping[str, Any]) -> "Figure":
+def draw_into(axes: Any, fits: Mapping[str, Any], number: Number) -> "Figure":
     """Draw fits as `draw_by_number` does into one's own axes, and return their figure.
 
     Raises
     ------
     InvalidValue
-        If the drops do not differ in one number, or there are not one or two axes for each
-        measured quantity.
+        If there are not one or two axes for each measured quantity.
     """
-    first, own = next(iter(fits.values())), np.ravel(np.asarray(axes, dtype=object))
-    number, count = find_number(first), len(list_quantities(first))
-    if number is None:
-        raise InvalidValue("axes can be given where drops differ in one number, such as the height")
-    if len(own) not in (count, 2 * count):
-        raise InvalidValue(f"axes must be {count} or {2 * count}, got {len(own)}")
-    draw_by_number(own.reshape(-1, count).T.tolist(), fits, number)
-    figure: Figure = own[0].figure
-    return figure
+    import matplotlib as mpl
+
+    count = len(list_quantities(next(iter(fits.values()))))
+    own = list_axes(axes, count, 2 * count)
+    with mpl.rc_context(STYLE):
+        draw_by_number([own[k::count] for k in range(count)], fits, number)
+    return figure_of(own)
 
 
 def draw_by_number(
@@ -124,7 +119,7 @@ def draw_by_number(
         words = quantity.replace("_", " ").removesuffix("s")
         unit, _ = show_in_handy_unit(above.yaxis, above.get_yticks(), QUANTITIES[quantity].unit)
         above.set_ylabel(f"{words} ({unit})" if unit else words)
-        name = _NAMES.get(number.path, "gap" if number.part == "gaps" else number.path)
+        name = {"": number.words, "gaps": "gap"}.get(number.part, number.path)
         label((above, *below)[-1], "x", name, Scale(values, False, number.unit))
 
 

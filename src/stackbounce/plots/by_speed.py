@@ -7,7 +7,7 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue
 from stackbounce.plots.fitted_curves import Curve, Points, draw_fitted, spread_over
-from stackbounce.plots.style import two_panels
+from stackbounce.plots.style import WIDTH, check_kind, list_axes, panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,7 +38,9 @@ def restitutions(fit: Any, axes: "Axes | Sequence[Axes] | None" = None) -> "Figu
     Raises
     ------
     InvalidValue
-        If no ball has restitutions at several speeds.
+        If no ball has restitutions at several speeds, or `axes` are not one or two.
+    InvalidType
+        If `fit` is no SeriesFit.
 
     Examples
     --------
@@ -48,15 +50,12 @@ def restitutions(fit: Any, axes: "Axes | Sequence[Axes] | None" = None) -> "Figu
     >>> plots.restitutions(found).axes[1].get_xlabel()
     'height of fall (m)'
     """
+    check_kind(fit, "fit", "SeriesFit")
     if not fit.comparisons:
         raise InvalidValue("nothing is to be drawn: no ball has restitutions at several speeds")
-    if axes is not None:
-        above, *others = np.ravel(np.asarray(axes, dtype=object)).tolist()
-        _draw(above, others[0] if others else None, fit.comparisons)
-        drawn: Figure = above.figure
-        return drawn
-    with two_panels(5.2, (3, 1.25)) as (figure, above, below):
-        _draw(above, below, fit.comparisons)
+    ratios = (3, 1.25) if axes is None else (3, 1.25)[: len(list_axes(axes, 1, 2))]
+    with panels((WIDTH, 5.2), axes, ratios) as (figure, (above, *below)):
+        _draw(above, below[0] if below else None, fit.comparisons)
     return figure
 
 

@@ -1,15 +1,17 @@
 """Plots of a fit: pulls, force records, chi squared around its minimum, and its posterior."""
 
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.errors import InvalidValue
 from stackbounce.plots.by_number import draw_by_number, draw_into, find_number, panels_of
 from stackbounce.plots.by_speed import restitutions
 from stackbounce.plots.model_comparison import compared, draw_pulls
 from stackbounce.plots.scales import Scale, label
-from stackbounce.plots.style import COLORS, styled_figure
+from stackbounce.plots.style import COLORS, check_kind, figure_of, list_axes, styled_figure
 from stackbounce.units import handy, rounded
 
 if TYPE_CHECKING:
@@ -76,12 +78,17 @@ def fit(found: Any, axes: Any = None) -> "Figure":
     found : SeriesFit, Fit, Comparison or Posterior
         From `stackbounce.fit_series`, `fit`, `compare` or `Fit.sample`.
     axes : matplotlib.axes.Axes or sequence of them, optional
-        Where to draw, if it is no `Posterior`.
+        Where to draw, as that function takes them; by default in a new figure.
 
     Returns
     -------
     matplotlib.figure.Figure
         Not shown and not saved.
+
+    Raises
+    ------
+    InvalidType
+        If `found` is something else.
 
     Examples
     --------
@@ -91,11 +98,9 @@ def fit(found: Any, axes: Any = None) -> "Figure":
     >>> plots.fit(found).axes[0].get_ylabel()
     'restitution'
     """
-    draw: Any = {"SeriesFit": restitutions, "Fit": fitted, "Comparison": compared}.get(
-        type(found).__name__, corner
-    )
-    drawn: Figure = draw(found) if axes is None else draw(found, axes)
-    return drawn
+    draws = {"SeriesFit": restitutions, "Fit": fitted, "Comparison": compared, "Posterior": corner}
+    check_kind(found, "found", *draws)
+    return draws[type(found).__name__](found, axes)
 
 
 def fitted(fit: Any, axes: Any = None) -> "Figure":
@@ -106,8 +111,9 @@ def fitted(fit: Any, axes: Any = None) -> "Figure":
     fit : Fit
         From `stackbounce.fit`.
     axes : matplotlib.axes.Axes or sequence of them, optional
-        Where to draw what was measured against the one number in which the drops differ: one or
-        two for each measured quantity. By default a new figure has all.
+        Where to draw. If the drops differ in one number, what was measured against it, one or two
+        for each measured quantity; else a new figure's panels in their order. By default in a new
+        figure.
 
     Returns
     -------
@@ -118,6 +124,13 @@ def fitted(fit: Any, axes: Any = None) -> "Figure":
         records with the fitted curves. Below, for one or two parameters, the profile of chi squared
         of each. With force records it is not drawn, because each trial takes long.
 
+    Raises
+    ------
+    InvalidValue
+        If `axes` are not as many.
+    InvalidType
+        If `fit` is no Fit.
+
     Examples
     --------
     >>> import stackbounce as sb
@@ -127,26 +140,35 @@ def fitted(fit: Any, axes: Any = None) -> "Figure":
     >>> plots.fitted(found).axes[-1].get_xlabel()
     'contacts.0.stiffness (N/m)'
     """
-    if axes is not None:
-        return draw_into(axes, {"": fit})
-    residuals, records = fit.residuals, fit.records[:_MOST_RECORDS]
-    count, number = 0 if records else len(fit.names), find_number(fit)
+    check_kind(fit, "fit", "Fit")
+    residuals, records, number = fit.residuals, fit.records[:_MOST_RECORDS], find_number(fit)
+    if axes is not None and number:
+        return draw_into(axes, {"": fit}, number)
+    count = len(fit.names) if len(fit.names) in (1, 2) and not records else 0
+    draws: list[Any] = []
+    if residuals and not number:
+        pulls = {"": [residual.pull for residual in residuals]}
+        labels = [residual.label for residual in residuals]
+        draws.append(partial(draw_pulls, pulls=pulls, data=labels))
+    draws += [partial(_draw_record, record=record) for record in records]
+    draws += [partial(draw_profile, fit=fit, k=k) for k in range(count)]
     heights = [4.4 if number else 1.8] if residuals else []
-    heights += [2.4] * len(records) + [3.0] * (count in (1, 2))
+    heights += [2.4] * len(records) + [3.0] * bool(count)
     with styled_figure(_WIDE, sum(heights) + 0.3) as figure:
-        parts = figure.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0]
-        figure.suptitle(fit.remarks[0], x=0.01, ha="left", fontsize=8.5)
-        if number:
-            draw_by_number(panels_of(parts[0], fit), {"": fit}, number)
-        elif residuals:
-            pulls = {"": [residual.pull for residual in residuals]}
-            draw_pulls(parts[0].subplots(), pulls, [residual.label for residual in residuals])
-        for part, record in zip(parts[bool(residuals) :], records, strict=False):
-            _draw_record(part.subplots(), record)
-        if count in (1, 2):
-            panels = parts[-1].subplots(1, count, squeeze=False)[0]
-            for k, panel in enumerate(panels):
-                draw_profile(panel, fit, k)
+        if axes is not None:
+            given = list_axes(axes, len(draws))
+            figure, own = figure_of(given), iter(given)
+        else:
+            figure.suptitle(fit.remarks[0], x=0.01, ha="left", fontsize=8.5)
+            parts = figure.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0]
+            if number:
+                draw_by_number(panels_of(parts[0], fit), {"": fit}, number)
+                parts = parts[1:]
+            across = [1] * (len(draws) - count) + [count] * bool(count)
+            rows = zip(parts, across, strict=True)  # a colour bar comes before the next panel
+            own = (axes for row, n in rows for axes in row.subplots(1, n, squeeze=False)[0])
+        for draw, panel in zip(draws, own, strict=True):
+            draw(panel)
     return figure
 
 
@@ -170,13 +192,16 @@ def _draw_record(axes: "Axes", record: Any) -> None:
     axes.legend(frameon=False, loc="upper right", borderpad=0.0, fontsize=9)
 
 
-def corner(posterior: Any) -> "Figure":
+def corner(posterior: Any, axes: Any = None) -> "Figure":
     """Draw the posterior distribution of each parameter and of each pair.
 
     Parameters
     ----------
     posterior : Posterior
         From `Fit.sample`.
+    axes : sequence of matplotlib.axes.Axes, optional
+        Where to draw: a row for each parameter, with as many columns, all that their figure has. By
+        default in a new figure.
 
     Returns
     -------
@@ -184,6 +209,13 @@ def corner(posterior: Any) -> "Figure":
         Not shown and not saved. The title of each column gives the median and the limits of the
         central 68 % of the draws. The contours contain 39 % and 86 % of the draws, as the contours
         of one and two standard deviations of a two-dimensional Gaussian do.
+
+    Raises
+    ------
+    InvalidValue
+        If `axes` are not as many, or not all that their figure has.
+    InvalidType
+        If `posterior` is no Posterior.
 
     Notes
     -----
@@ -200,6 +232,7 @@ def corner(posterior: Any) -> "Figure":
     """
     import corner as library
 
+    check_kind(posterior, "posterior", "Posterior")
     draws, labels = [], []
     for name in posterior.names:
         own = posterior.draws(name)
@@ -209,6 +242,11 @@ def corner(posterior: Any) -> "Figure":
     count = len(labels)
     side = _SIDE * max(count, 1.6)
     with styled_figure(side, side, _OWN_STYLE) as figure:
+        if axes is not None:
+            own = list_axes(axes, count**2)
+            figure = figure_of(own)
+            if figure.axes != own:
+                raise InvalidValue("axes must be all that their figure has, as of plt.subplots")
         library.corner(
             np.stack(draws, axis=1),
             fig=figure,
@@ -222,8 +260,8 @@ def corner(posterior: Any) -> "Figure":
             label_kwargs={"fontsize": 9},
             range=[_SHOWN] * count,
         )
-        for k, own in enumerate(draws):
-            _draw_title(figure.axes[k * (count + 1)], own)
+        for k, values in enumerate(draws):
+            _draw_title(figure.axes[k * (count + 1)], values)
     return figure
 
 

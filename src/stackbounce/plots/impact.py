@@ -1,13 +1,12 @@
 """The plot of one run in its time window: positions of balls, forces or impulses of contacts."""
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType
-from stackbounce.plots.style import color_of, two_panels, written
+from stackbounce.plots.style import WIDTH, check_kind, color_of, panels, written
 from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
@@ -62,7 +61,7 @@ def sample_with_approach(result: Result, times: NDArray[np.float64]) -> "xr.Data
     return sample.assign_coords(time=("time", times, sample.time.attrs))
 
 
-def bounce(result: "Result | Prediction") -> "Figure":
+def bounce(result: "Result | Prediction", axes: Any = None) -> "Figure":
     """Draw the impact: the position of each ball and the force at each contact against time.
 
     Parameters
@@ -70,6 +69,8 @@ def bounce(result: "Result | Prediction") -> "Figure":
     result : Result or Prediction
         What to draw. A rigid stack has no finite forces: its impulses are drawn instead. The curves
         of a prediction have bands of one standard deviation.
+    axes : pair of matplotlib.axes.Axes, optional
+        Where to draw the positions and the forces; by default in a new figure.
 
     Returns
     -------
@@ -80,6 +81,8 @@ def bounce(result: "Result | Prediction") -> "Figure":
     ------
     InvalidType
         If `result` is neither.
+    InvalidValue
+        If `axes` are not two.
 
     Examples
     --------
@@ -96,10 +99,9 @@ def bounce(result: "Result | Prediction") -> "Figure":
     """
     prediction: Prediction | None = None
     if not isinstance(result, Result):
-        if not hasattr(result, "band"):
-            raise InvalidType(f"result must be a Result or Prediction, got {type(result).__name__}")
+        check_kind(result, "result", "Result", "Prediction")
         prediction, result = result, result.result
-    with two_panels(5.6, [3, 2]) as (figure, above, below):
+    with panels((WIDTH, 5.6), axes, [3, 2]) as (figure, (above, below)):
         times = np.linspace(*choose_window(result), _SAMPLES)
         sample = sample_with_approach(result, times)
         _draw_positions(above, result, times, sample.position.values)

@@ -3,13 +3,14 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from stackbounce.errors import InvalidType, shown
+from stackbounce.errors import InvalidType
+from stackbounce.plots.style import drawn_by
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def measured(data: Any, found: Any) -> "Figure":
+def measured(data: Any, found: Any, axes: Any = None) -> "Figure":
     """Draw the result of a measurement analysis together with the data.
 
     Parameters
@@ -18,6 +19,8 @@ def measured(data: Any, found: Any) -> "Figure":
         The measured data, as from `read`.
     found : object
         The result of `stackbounce.measure.analyse`, or of one of the analyses.
+    axes : matplotlib.axes.Axes or sequence of them, optional
+        Where to draw: as many as the picture has panels; by default in a new figure.
 
     Returns
     -------
@@ -27,14 +30,16 @@ def measured(data: Any, found: Any) -> "Figure":
     ------
     InvalidType
         If `found` is not the result of an analysis.
+    InvalidValue
+        If `axes` are not as many as the picture has panels.
 
     Examples
     --------
     >>> from stackbounce.measure import bounces
     >>> figure = measured(None, bounces([0.0, 0.8, 1.44, 1.952]))
     """
-    picture = getattr(found, "picture", None)
-    if not isinstance(picture, str):
-        raise InvalidType(f"found must be what an analysis returns, got {shown(found)}")
-    figure: Figure = import_module(f"stackbounce.plots.measurements.{picture}").draw(data, found)
+    if not isinstance(getattr(found, "picture", None), str):
+        raise InvalidType(f"found must be what an analysis returns, got {drawn_by(found)}")
+    module = import_module(f"stackbounce.plots.measurements.{found.picture}")
+    figure: Figure = module.draw(data, found, axes)
     return figure

@@ -12,7 +12,7 @@ from stackbounce.plots.by_number import (
     list_quantities,
     panels_of,
 )
-from stackbounce.plots.style import COLORS, styled_figure
+from stackbounce.plots.style import COLORS, check_kind, figure_of, list_axes, styled_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,7 +33,8 @@ def compared(comparison: Any, axes: Any = None) -> "Figure":
     comparison : Comparison
         What `stackbounce.compare` returned.
     axes : matplotlib.axes.Axes or sequence of them, optional
-        Where to draw what was measured and the curves alone, as `fitted` takes them.
+        Where to draw. If the drops differ in one number, what was measured and the curves alone, as
+        `fitted` takes them; else two, the criterion and the pulls. By default in a new figure.
 
     Returns
     -------
@@ -42,6 +43,13 @@ def compared(comparison: Any, axes: Any = None) -> "Figure":
         one. On the right what was measured with the curves of the best models, if the drops differ
         in one number, as `fitted` draws it; else the pulls: fitted minus measured value of each
         datum, in standard errors.
+
+    Raises
+    ------
+    InvalidValue
+        If `axes` are not as many.
+    InvalidType
+        If `comparison` is no Comparison.
 
     Examples
     --------
@@ -52,12 +60,13 @@ def compared(comparison: Any, axes: Any = None) -> "Figure":
     >>> len(compared(sb.compare(sb.standard_models(drop), data)).axes)
     3
     """
+    check_kind(comparison, "comparison", "Comparison")
     names = [score.model for score in comparison.scores]
     lines = sum(1 + len(score.same_as) for score in comparison.scores)
     best = {name: comparison[name] for name in names[:_FEW]}
-    if axes is not None:
-        return draw_into(axes, best)
     number = find_number(comparison[names[0]])
+    if axes is not None and number:
+        return draw_into(axes, best, number)
     pulls = comparison.pulls.sel(model=names)
     wide = 5.0 + 0.55 * min(pulls.sizes["datum"], _WIDEST)
     if number:
@@ -67,15 +76,17 @@ def compared(comparison: Any, axes: Any = None) -> "Figure":
             ratios: Any = {"width_ratios": (_SCORES, wide - _SCORES)}
             beside, others = np.ravel(figure.subfigures(1, 2, **ratios))
             left = beside.subplots()
-            left.invert_yaxis()
             draw_by_number(panels_of(others, comparison[names[0]]), best, number)
         else:
-            left, right = figure.subplots(1, 2, sharey=True, width_ratios=(2.2, wide - 3.0))
+            if axes is None:
+                axes = figure.subplots(1, 2, sharey=True, width_ratios=(2.2, wide - 3.0))
+            left, right = list_axes(axes, 2)
             rows = dict(zip(names, pulls.values, strict=True))
             draw_pulls(right, rows, pulls.datum.values.tolist())
         _draw_scores(left, comparison)
         left.set_yticks(np.arange(len(names)), [score.title for score in comparison.scores])
-    return figure
+        left.set_ylim(len(names) - 0.5, -0.5)
+    return figure if axes is None else figure_of([left])
 
 
 def _draw_scores(axes: "Axes", comparison: Any) -> None:

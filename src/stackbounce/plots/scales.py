@@ -64,6 +64,11 @@ def read_scale(data: "xr.Dataset", dim: Any) -> Scale:
     return Scale(values, log, data[dim].attrs.get("units", ""))
 
 
+def path_of(data: "xr.Dataset", dim: Any) -> str:
+    """Return the path of the number that varies along a dimension, or the dimension's name."""
+    return str(data[dim].attrs.get("path", dim))
+
+
 def label(axes: "Axes", which: str, name: str, scale: Scale) -> None:
     """Label an axis with name and unit, and set its ticks; the data stay in SI units."""
     axis: Axis = getattr(axes, f"{which}axis")

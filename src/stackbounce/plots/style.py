@@ -3,7 +3,11 @@
 import io
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+
+from stackbounce.errors import InvalidType, InvalidValue, a_or_an, shown
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -49,27 +53,117 @@ def styled_figure(width: float, height: float, style: Any = None) -> "Iterator[F
     False
     """
     import matplotlib as mpl
-    from matplotlib.figure import Figure
+
+    from stackbounce.plots.figure import Figure
 
     with mpl.rc_context(STYLE | (style or {})):
         yield Figure(figsize=(width, height))
 
 
 @contextmanager
-def two_panels(height: float, ratios: Sequence[float]) -> "Iterator[tuple[Figure, Axes, Axes]]":
-    """Yield a figure, as `styled_figure`, and its two panels with one horizontal axis.
+def panels(
+    size: tuple[float, float],
+    axes: Any = None,
+    ratios: Sequence[float] = (1.0,),
+    *,
+    sharex: bool = True,
+    style: Any = None,
+) -> "Iterator[tuple[Figure, list[Axes]]]":
+    """Yield a figure, as `styled_figure`, and its panels from top to bottom.
+
+    Parameters
+    ----------
+    size : (float, float)
+        Width and height of a new figure in inches.
+    axes : matplotlib.axes.Axes or sequence of them, optional
+        The panels, if they are there already.
+    ratios : sequence of float, optional
+        The heights of the panels of a new figure, over each other.
+    sharex : bool, optional
+        Whether the panels of a new figure have one horizontal axis.
+    style : dict, optional
+        As in `styled_figure`.
+
+    Raises
+    ------
+    InvalidValue
+        If `axes` are not as many as `ratios`.
 
     Examples
     --------
-    >>> with two_panels(4.4, [3, 2]) as (figure, above, below):
+    >>> with panels((7.2, 4.4), ratios=[3, 2]) as (figure, (above, below)):
     ...     _ = below.set_xlim(0.0, 2.0)
     >>> above.get_xlim() == (0.0, 2.0)
     True
     """
-    with styled_figure(WIDTH, height) as figure:
-        above, below = figure.subplots(2, 1, sharex=True, height_ratios=list(ratios))
-        yield figure, above, below
+    with styled_figure(*size, style) as figure:
+        if axes is not None:
+            own = list_axes(axes, len(ratios))
+            yield figure_of(own), own
+            return
+        look: Any = {"sharex": sharex, "squeeze": False, "height_ratios": list(ratios)}
+        yield figure, figure.subplots(len(ratios), 1, **look)[:, 0].tolist()
         figure.align_ylabels()
+
+
+def list_axes(axes: Any, *counts: int) -> "list[Axes]":
+    """Return axes of the user as a list, and raise `InvalidValue` if they are not so many.
+
+    Examples
+    --------
+    >>> list_axes([], 1, 2)
+    Traceback (most recent call last):
+    stackbounce.errors.InvalidValue: axes must be 1 or 2 Axes of matplotlib, got 0
+    """
+    from matplotlib.axes import Axes
+
+    given = np.ravel(np.asarray(axes, dtype=object)).tolist()
+    own = [panel for panel in given if isinstance(panel, Axes)]
+    if len(own) not in counts or len(own) < len(given):
+        got = shown(axes) if len(own) < len(given) else len(own)
+        most = " or ".join(map(str, counts))
+        raise InvalidValue(f"axes must be {most} Axes of matplotlib, got {got}")
+    return own
+
+
+def figure_of(axes: "Sequence[Axes]") -> "Figure":
+    """Return the figure that axes are in."""
+    return cast("Figure", axes[0].figure)  # or a part of one, if the user has parts
+
+
+_DRAWN_BY = {
+    "Comparison": "compared",
+    "Dataset": "lines, heatmap or highest",
+    "Drop": "bounce(simulate(drop))",
+    "Fit": "fitted",
+    "Posterior": "corner",
+    "Prediction": "bounce",
+    "Result": "bounce",
+    "SeriesFit": "restitutions",
+}
+
+
+def drawn_by(value: Any) -> str:
+    """Return what was given instead of a plot's own sort of thing, and which plot draws it.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drawn_by(sb.Drop([sb.Ball(1.0)], [sb.Rigid(0.8)], height=1.0))
+    'a Drop: plots.bounce(simulate(drop)) draws it'
+    >>> drawn_by(3)
+    '3'
+    """
+    kind = type(value).__name__
+    plot = "measured(data, found)" if hasattr(value, "picture") else _DRAWN_BY.get(kind)
+    return f"{a_or_an(kind)}: plots.{plot} draws it" if plot else shown(value)
+
+
+def check_kind(value: Any, name: str, *kinds: str) -> None:
+    """Raise `InvalidType`, with the plot that draws such a value, unless its class is named."""
+    if type(value).__name__ not in kinds:
+        right = " or ".join(map(a_or_an, kinds))
+        raise InvalidType(f"{name} must be {right}, got {drawn_by(value)}")
 
 
 def with_error(value: Any, plain: str = ".3g") -> str:

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.plots.maps import draw_counts, draw_levels, hatch
-from stackbounce.plots.scales import is_flat, label, read_scale, show_in_handy_unit
-from stackbounce.plots.style import COLORS, color_of, styled_figure
+from stackbounce.plots.scales import is_flat, label, path_of, read_scale, show_in_handy_unit
+from stackbounce.plots.style import COLORS, WIDTH, color_of, drawn_by, panels
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,7 +29,12 @@ _BARS = 12  # stacks that are drawn at most
 _MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 
 
-def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = None) -> "Figure":
+def lines(
+    data: "xr.Dataset",
+    show: str = "rebound_ratio",
+    index: int | None = None,
+    axes: "Axes | None" = None,
+) -> "Figure":
     """Draw a sweep of one parameter: a line for each ball or each contact.
 
     Parameters
@@ -41,6 +46,8 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
         ``last_release``.
     index : int, optional
         The only ball or contact to draw; by default all of them.
+    axes : matplotlib.axes.Axes, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
@@ -67,8 +74,7 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
     chosen = range(own.sizes[part]) if part else range(1)
     if part and index is not None:
         chosen = range(_index(own, part, index), _index(own, part, index) + 1)
-    with styled_figure(6.4, 4.0) as figure:
-        axes = figure.subplots()
+    with panels((6.4, 4.0), axes) as (figure, (axes,)):
         scale = read_scale(data, dim)
         rows = [own.isel({part: k}).values if part else own.values for k in chosen]
         if show == "collisions":
@@ -78,13 +84,18 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
             axes.plot(scale.places, row, label=name, **_look(show, k, chosen, row))
         if part:
             draw_legend(axes, len(rows))
-        label(axes, "x", str(dim), scale)
+        label(axes, "x", path_of(data, dim), scale)
         _label_values(axes, show, own, np.array(rows))
         axes.set_title(unfinished, loc="left", fontsize=10, pad=26 if part else None)
     return figure
 
 
-def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) -> "Figure":
+def heatmap(
+    data: "xr.Dataset",
+    show: str = "rebound_ratio",
+    index: int = -1,
+    axes: "Axes | None" = None,
+) -> "Figure":
     """Draw a sweep of two parameters as a map: contours, or discrete colors for counts.
 
     Parameters
@@ -95,6 +106,8 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
         As in `lines`.
     index : int, optional
         Which ball or contact; by default the uppermost.
+    axes : matplotlib.axes.Axes, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
@@ -123,11 +136,11 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
     if part:
         title += f" of {name_of(data, part, _index(own, part, index))}"
         own = own.isel({part: index})
-    with styled_figure(6.4, 4.8, {"axes.grid": False}) as figure:
-        axes = figure.subplots()
+    with panels((6.4, 4.8), axes, style={"axes.grid": False}) as (figure, (axes,)):
+        axes.grid(visible=False)
         x, y = read_scale(data, across), read_scale(data, up)
-        label(axes, "x", str(across), x)
-        label(axes, "y", str(up), y)
+        label(axes, "x", path_of(data, across), x)
+        label(axes, "y", path_of(data, up), y)
         values = own.values.astype(float)
         if np.isnan(values).any():
             hatch(axes)
@@ -204,7 +217,8 @@ def check_source(data: Any, name: str, source: str) -> None:
     import xarray as xr
 
     if not isinstance(data, xr.Dataset) or name not in data:
-        raise InvalidType(f"data must be a Dataset from {source}, got {shown(data)}")
+        got = f"one without {name}" if isinstance(data, xr.Dataset) else drawn_by(data)
+        raise InvalidType(f"data must be a Dataset from {source}, got {got}")
 
 
 def _prepared(
@@ -225,7 +239,10 @@ def _prepared(
     if len(dims) != count:
         right = "one dimension" if count == 1 else "two dimensions"
         got = ", ".join(map(str, dims)) or "none"
-        raise InvalidValue(f"data must have {right}, got {got}: choose with data.sel or data.isel")
+        plot = {1: "lines", 2: "highest" if "height_ratio" in data else "heatmap"}.get(len(dims))
+        or_draw = f", or draw it by plots.{plot}" if plot else ""
+        choose = "choose with data.sel or data.isel" + or_draw
+        raise InvalidValue(f"data must have {right}, got {got}: {choose}")
     numeric = [dim for dim in dims if dim in data.coords and data[dim].dtype.kind in "iuf"]
     data = data.sortby(numeric)
     wrong = data["status"].isin([int(Status.EVENT_LIMIT), int(Status.INVALID)])
@@ -251,13 +268,15 @@ def name_of(data: "xr.Dataset", part: str, index: int) -> str:
     return f"{part} {index}" + (f" ({own})" if own else "")
 
 
-def highest(data: "xr.Dataset") -> "Figure":
+def highest(data: "xr.Dataset", axes: "Axes | None" = None) -> "Figure":
     """Draw the rebound height of the top ball for the best stacks, for each gap.
 
     Parameters
     ----------
     data : xarray.Dataset
         From `stackbounce.highest`.
+    axes : matplotlib.axes.Axes, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
@@ -286,8 +305,7 @@ def highest(data: "xr.Dataset") -> "Figure":
         raise InvalidValue(f"data must have at most {most} gaps, got {data.sizes['gap']}")
     best = data.isel(stack=slice(_BARS))
     rows = np.arange(best.sizes["stack"])
-    with styled_figure(7.2, 1.4 + 0.32 * len(rows)) as figure:
-        axes = figure.subplots()
+    with panels((WIDTH, 1.4 + 0.32 * len(rows)), axes) as (figure, (axes,)):
         heights = best["height_ratio"].values
         axes.hlines(rows, heights.min(axis=1), heights.max(axis=1), color="#c8c8c8", linewidth=3.0)
         for k, gap in enumerate(best["gap"].values):
@@ -297,7 +315,7 @@ def highest(data: "xr.Dataset") -> "Figure":
         axes.set_ylim(len(rows) - 0.5, -0.5)
         axes.set_xlim(0.0, 1.05 * float(np.nanmax(heights, initial=0.1)))
         axes.set_xlabel("height of the top ball over that of the drop")
-        figure.legend(loc="outside upper left", ncols=IN_A_ROW, frameon=False, handlelength=1.6)
+        draw_legend(axes, data.sizes["gap"])
     return figure
 
 

@@ -15,6 +15,7 @@ from stackbounce.prediction.inputs import FEWEST, Inputs, error_of_deviation, of
 from stackbounce.prediction.sensitivity import Sensitivity, fit_slopes, linear_shares, sobol_indices
 from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options
+from stackbounce.run.paths import identifier
 from stackbounce.run.quantities import QUANTITIES, Array, Solved
 from stackbounce.run.result import Result, Status
 from stackbounce.units import rounded
@@ -201,7 +202,7 @@ class Prediction:
             attrs = {"units": unit or "1"}
             data[name] = (("draw", part), table, attrs) if part else ("draw", table[:, 0], attrs)
         numbers = {
-            number.path: ("draw", self.drawn[:, k], {"units": number.unit})
+            identifier(number.path): ("draw", self.drawn[:, k], number.attributes)
             for k, number in enumerate(self.inputs.numbers)
         }
         return xr.Dataset(data, numbers, {"stackbounce": __version__, "drop": self.drop.to_toml()})

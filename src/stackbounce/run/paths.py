@@ -20,6 +20,7 @@ from stackbounce.model.laws import contact_numbers
 from stackbounce.units import unit_of
 
 _SEVERAL = ("balls", "contacts", "gaps", "velocities")  # fields of a drop with many numbers
+_WORDS = {"height": "drop height", "impact_speed": "impact speed"}
 
 
 @dataclass(frozen=True)
@@ -41,8 +42,8 @@ class Number:
 
     Examples
     --------
-    >>> Number("balls.0.mass", "balls", 0, "mass", "kg").unit
-    'kg'
+    >>> Number("balls.0.mass", "balls", 0, "mass", "kg").attributes
+    {'units': 'kg', 'long_name': 'mass of ball 0', 'path': 'balls.0.mass'}
     """
 
     path: str
@@ -51,9 +52,35 @@ class Number:
     field: str
     unit: str
 
+    @property
+    def words(self) -> str:
+        """What it is, in words; balls and contacts are counted from 0, as in its path."""
+        if not self.part:
+            return _WORDS.get(self.field, self.field)
+        if self.part == "gaps":
+            return f"gap between balls {self.index} and {self.index + 1}"
+        whose = "contact" if self.part == "contacts" else "ball"
+        return f"{self.field.replace('_', ' ') or 'velocity'} of {whose} {self.index}"
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """The attributes of its values in a Dataset."""
+        return {"units": self.unit, "long_name": self.words, "path": self.path}
+
 
 Rows: TypeAlias = Mapping[Number, NDArray[np.float64]]
 """The numbers that vary, in SI units: arrays that broadcast with each other."""
+
+
+def identifier(path: str) -> str:
+    """Return the name that a parameter has in a Dataset, an identifier.
+
+    Examples
+    --------
+    >>> identifier("balls.0.mass")
+    'balls_0_mass'
+    """
+    return path.replace(".", "_")
 
 
 def numbers_of(drop: Drop) -> dict[str, Number]:

@@ -11,7 +11,7 @@ from stackbounce.errors import InvalidType, InvalidValue, shown, unmasked
 from stackbounce.model import Drop
 from stackbounce.run.batch import solve
 from stackbounce.run.options import Options, run_options
-from stackbounce.run.paths import Number, check, number_at
+from stackbounce.run.paths import Number, check, identifier, number_at
 from stackbounce.run.result import Status
 from stackbounce.units import count_written, factor, quantity
 from stackbounce.version import __version__
@@ -131,10 +131,10 @@ def sweep(
         The numbers that vary, by their paths: ``balls.0.mass``, ``contacts.1.stiffness``,
         ``gaps.0``, ``velocities.2``, ``impact_speed``, ``height``, ``gravity``. Each value is a
         DataArray, broadcast by the names of its dimensions; or a number or 1-D array_like, which
-        gets a dimension of its own, named by its path; or a pair of a dimension's name and a 1-D
-        array_like. Numbers that share a dimension vary together: 300 values of each are 300 drops.
-        SI units, or those of a DataArray's attribute `units`. Arrays of dask make the Dataset lazy,
-        with their chunks.
+        gets a dimension of its own, ``balls_0_mass`` for the path ``balls.0.mass``; or a pair of a
+        dimension's name and a 1-D array_like. Numbers that share a dimension vary together: 300
+        values of each are 300 drops. SI units, or those of a DataArray's attribute `units`. Arrays
+        of dask make the Dataset lazy, with their chunks.
     until, rtol, event_limit
         As in `simulate`, for every drop.
 
@@ -143,8 +143,9 @@ def sweep(
     xarray.Dataset
         With the dimensions of the values: `rebound_ratio` (..., ball); `collisions`,
         `first_touch` and `last_release` in s, (..., contact); `energy_retained`; `status`, the
-        numbers of `Status`. The values are its coordinates; its attributes tell the version, the
-        base, the laws' formulas and the options.
+        numbers of `Status`. The values are its coordinates, ``balls_0_mass`` for the path
+        ``balls.0.mass``; their attributes have the unit, the path and what the number is. The
+        Dataset's attributes tell the version, the base, the laws' formulas and the options.
 
     Raises
     ------
@@ -172,6 +173,8 @@ def sweep(
     >>> ds.rebound_ratio.values.round(4)
     array([[0.7664, 1.1886],
            [0.9864, 1.1269]])
+    >>> round(ds.rebound_ratio.sel(balls_0_mass=10.0, ball=1).item(), 4)
+    1.1269
 
     Three drops, in which two numbers vary together:
 
@@ -221,7 +224,7 @@ def _named(number: Number, value: Any) -> "xr.DataArray":
     """Return the values of a parameter as a DataArray of floats in SI units."""
     import xarray as xr
 
-    own = number.path
+    own = identifier(number.path)
     if isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], str):
         own, value = value
     unmasked(number.path, value)
@@ -247,7 +250,7 @@ def _named(number: Number, value: Any) -> "xr.DataArray":
     if given != number.unit:
         array = array * factor(given, number.unit, number.path)
     array = array.astype(float)
-    array.attrs = {"units": number.unit}
+    array.attrs = dict(number.attributes)
     return array
 
 
@@ -281,7 +284,8 @@ def _dataset(
         data[name].attrs = {"units": unit, "long_name": meaning}
     data["status"].attrs["flag_values"] = [int(status) for status in Status]
     data["status"].attrs["flag_meanings"] = " ".join(status.name for status in Status)
-    coordinates = {number.path: array for number, array in zip(numbers, arrays, strict=True)}
+    paths = [identifier(number.path) for number in numbers]
+    coordinates = dict(zip(paths, arrays, strict=True))
     index = {"ball": np.arange(size), "contact": np.arange(size)}
     return data.assign_coords(coordinates | index).assign_attrs(_provenance(drop, numbers, options))
 

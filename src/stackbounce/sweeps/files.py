@@ -20,6 +20,7 @@ from stackbounce.errors import InvalidValue, shown
 from stackbounce.extras import need
 from stackbounce.files import write_files
 from stackbounce.run.batch import Block, blocks
+from stackbounce.run.paths import identifier
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -51,14 +52,15 @@ class Form:
 
         self.sample, self.sides = sample, tuple(sides)
         self.grid = tuple({dim: len(axis) for dim, axis in axes.values()}.values())
-        known = {path: axis for path, (_, axis) in axes.items()}
+        known = {identifier(path): axis for path, (_, axis) in axes.items()}
         self.coordinates = xr.Dataset(
             coords={
                 name: (variable.dims, known.get(str(name), variable.values), variable.attrs)
                 for name, variable in sample.coords.items()
             }
         )
-        paired = " ".join(path for path, (dim, _) in axes.items() if dim != path)
+        own = ((identifier(path), dim) for path, (dim, _) in axes.items())
+        paired = " ".join(name for name, dim in own if name != dim)
         self.marked = {**sample.attrs, **({"coordinates": paired} if paired else {})}
         """The attributes in a file; `coordinates` names those that have not their dimension's name,
         as xarray does."""

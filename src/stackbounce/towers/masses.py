@@ -12,7 +12,7 @@ from stackbounce.extras import need
 from stackbounce.model import Ball, ContactLaw, Drop
 from stackbounce.model.laws import contact_numbers
 from stackbounce.run.options import run_options
-from stackbounce.run.paths import numbers_of
+from stackbounce.run.paths import identifier, numbers_of
 from stackbounce.sweeps import sweep
 
 if TYPE_CHECKING:
@@ -64,7 +64,8 @@ def solve_drops(drops: Sequence[Drop], gaps: Sequence[float] | None = None) -> "
         if gaps is not None:
             one = xr.DataArray(list(gaps), dims="gap")
             values |= {f"gaps.{i}": one for i in range(len(own[0].gaps))}
-        parts.append(sweep(own[0], values).drop_vars(values).assign_coords(stack=places))
+        swept = sweep(own[0], values).drop_vars(map(identifier, values))
+        parts.append(swept.assign_coords(stack=places))
     how: Any = {"data_vars": "all", "coords": "minimal", "compat": "override", "join": "outer"}
     return xr.concat(parts, "stack", **how).sortby("stack")
 

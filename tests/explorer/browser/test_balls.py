@@ -3,7 +3,7 @@
 import pytest
 
 import stackbounce as sb
-from stackbounce.model.catalogue import stack
+from stackbounce.model.catalogue import stacked
 
 pytestmark = pytest.mark.slow
 
@@ -31,7 +31,7 @@ def test_a_ball_of_a_class_brings_its_losses(visit, page):
     assert labels == ["Balls a class owns", "Balls of the paper"]
     choose(visit, 0, "big basketball")
     choose(visit, 1, "tennis ball")
-    chosen = stack(["big basketball", "tennis ball"])
+    chosen = stacked(["big basketball", "tennis ball"])
     expected = sb.simulate(sb.Drop(chosen.balls, chosen.contacts, [0.0], impact_speed=3.53))
     assert visit.state("result.rebound_ratios") == pytest.approx(expected.rebound_ratios, rel=1e-9)
     notes = page.locator("#controls .contact-card > .note").all_inner_texts()

@@ -4,11 +4,12 @@ import shutil
 from pathlib import Path
 
 import pytest
+from page_build import assembly
+from page_build import folder as page_folder
 
 import stackbounce as sb
 from stackbounce.cli import main
-from stackbounce.explorer.page import assembly
-from stackbounce.explorer.page.folder import folder_files
+from stackbounce.explorer.made import KINDS, folder_files, made_file
 from stackbounce.files import write_folder
 
 pytestmark = [pytest.mark.slow, pytest.mark.release]
@@ -20,14 +21,14 @@ KEPT = "() => navigator.serviceWorker.ready.then(() => caches.keys())"
 @pytest.fixture
 def folder(site):
     """Return the address of a folder with the explorer, further down on a server."""
-    write_new(site.folder)
+    write_new(site.folder, folder_files())
     return f"http://127.0.0.1:{site.server_port}/class/explorer/"
 
 
-def write_new(folder):
+def write_new(folder, files):
     place = folder / "class" / "explorer"
     (place / "made").mkdir(parents=True, exist_ok=True)
-    write_folder(place, folder_files())
+    write_folder(place, files)
 
 
 def test_it_plays_without_a_network_after_a_visit(visit, page, site):
@@ -59,7 +60,7 @@ def test_a_newer_version_takes_the_place_of_an_older_one(
     text = (newer / "index.html").read_text("utf-8")
     (newer / "index.html").write_text(text.replace("the explorer</title>", "newer</title>"))
     monkeypatch.setattr(assembly, "_STATIC", newer)
-    write_new(site.folder)
+    write_new(site.folder, page_folder.folder_files({name: made_file(name) for name in KINDS}))
     page.reload()  # the page is still the older one, and the browser looks for a newer
     assert page.title() == "stackbounce: the explorer"
     # Without a window Chromium looks for it in its second minute, but at a new address at once.
@@ -100,7 +101,7 @@ def test_the_page_of_the_server_has_no_service_worker(visit, address_of_server):
 
 
 def test_a_folder_that_is_opened_from_a_disk_says_what_it_needs(visit, tmp_path):
-    write_new(tmp_path)
+    write_new(tmp_path, folder_files())
     visit.address = (tmp_path / "class" / "explorer").as_uri()
     visit.page.goto(f"{visit.address}/index.html")
     told = visit.page.locator("#old")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from stackbounce.model.catalogue import stack
+from stackbounce.model.catalogue import stacked
 
 pytestmark = pytest.mark.slow
 FORMS = ("served",)
@@ -63,7 +63,7 @@ def test_an_upper_ball_is_lifted_off_and_put_below(visit, page):
     x, y, _ = body(page, 1)
     drag(page, (x, y), (x, y + 260))
     page.wait_for_function("() => state.drop.balls[0].name === 'tennis'")
-    assert visit.drop().contacts == stack(["tennis", "basketball"]).contacts
+    assert visit.drop().contacts == stacked(["tennis", "basketball"]).contacts
 
 
 def test_the_edge_of_a_ball_changes_its_size_alone(visit, page):

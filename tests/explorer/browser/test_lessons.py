@@ -1,8 +1,7 @@
 """The lessons beside the page: opened, followed, answered, printed, closed."""
 
 import pytest
-
-from stackbounce.explorer.lessons.lesson import NAMES, read_lesson
+from page_build.lessons.lesson import NAMES, read_lesson
 
 pytestmark = pytest.mark.slow
 

@@ -489,7 +489,7 @@ def test_contacts_belong_to_the_balls_that_make_them(visit, page, button, names)
         "(names) => String(state.drop.balls.map((one) => one.name)) === names", arg=names
     )
     visit.ready()
-    stack = catalogue.stack(names.split(","))
+    stack = catalogue.stacked(names.split(","))
     drop = sb.Drop(stack.balls, stack.contacts, stack.gaps, impact_speed=3.53)
     expected = sb.simulate(drop).rebound_ratios.tolist()
     assert visit.state("result.rebound_ratios") == pytest.approx(expected, rel=1e-12)

@@ -7,7 +7,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from stackbounce.explorer import LIMITS
-from stackbounce.explorer.page.parts import KINDS, made_file
+from stackbounce.explorer.made import KINDS, made_file
 
 
 def lay_out(folder):

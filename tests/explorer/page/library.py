@@ -1,11 +1,11 @@
 """What the library answers to the page's questions, by its public functions."""
 
 import numpy as np
+from page_build.data import MAP_RTOL, WORDS
 
 import stackbounce as sb
 from stackbounce.errors import InvalidValue
 from stackbounce.explorer.answers.play import run_drop
-from stackbounce.explorer.page.data import MAP_RTOL, WORDS
 from stackbounce.model import law_named
 from stackbounce.plots.impact import choose_window, sample_with_approach
 from stackbounce.run.paths import drop_at, number_at, numbers_of
@@ -39,7 +39,7 @@ def converted(contact, to, mass, impact_speed, restitution, contact_time):
 
 def stacked(balls, height):
     """Return balls of the catalogue on each other, and the sources of their numbers."""
-    chosen = sb.model.catalogue.stack(balls)
+    chosen = sb.model.catalogue.stacked(balls)
     drop = sb.Drop(chosen.balls, chosen.contacts, chosen.gaps, height=height)
     sources = {"contact_sources": chosen.contact_sources, "gap_sources": chosen.gap_sources}
     return {"drop": drop.to_mapping()} | sources

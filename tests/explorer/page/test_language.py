@@ -8,13 +8,13 @@ from importlib.resources import files
 from pathlib import Path
 
 import pytest
+from page_build.data import model_json
 
 from explorer.page.asking import run_node
 from refusals import refusal
 from stackbounce import StackbounceError, units
 from stackbounce.errors import between, finite, non_negative, positive
 from stackbounce.explorer.answers.records import list_options
-from stackbounce.explorer.page.data import model_json
 
 STATIC = files("stackbounce.explorer") / "static"
 CODES = tuple(sorted(path.stem for path in Path(str(STATIC)).glob("js/languages/*.json")))

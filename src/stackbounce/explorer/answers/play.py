@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, StackbounceError
-from stackbounce.explorer.limits import LIMITS
+from stackbounce.explorer.limits import LIMITS, RTOL
 from stackbounce.json_values import as_json
 from stackbounce.model import STANDARD_GRAVITY, Drop
 from stackbounce.plots.impact import choose_window, sample_with_approach
@@ -22,9 +22,6 @@ from stackbounce.run.collision import separate
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
 from stackbounce.version import __version__
-
-RTOL = 1e-10
-"""The tolerance of nonlinear contacts, which a picture does not show."""
 
 _Times = NDArray[np.float64]
 

@@ -14,7 +14,7 @@ from stackbounce.fitting.series.readings import Numbers, headed, numbers_in, wit
 from stackbounce.fitting.series.table import told_errors
 from stackbounce.fitting.tables import drop_of
 from stackbounce.model import Drop
-from stackbounce.model.catalogue import catalogue_ball, stack
+from stackbounce.model.catalogue import catalogue_ball, stacked
 from stackbounce.run.quantities import Array
 
 _FALLS = {"drop_height": "height", "height": "height", "impact_speed": "impact_speed"}
@@ -84,7 +84,7 @@ def _drops(
     columns: Sequence[Column], body: Sequence[Row], told: dict[str, float], balls: list[str]
 ) -> StackTable:
     """Return the drops of a table whose columns are known."""
-    numbers, parts = numbers_in(columns, body), stack(balls)
+    numbers, parts = numbers_in(columns, body), stacked(balls)
     base = Drop(parts.balls, parts.contacts, parts.gaps, height=1.0)
     start = next((column for column in columns if column.role in _FALLS), None)
     if start is None:

@@ -3,12 +3,18 @@
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
-from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.errors import InvalidValue, UnknownName, nearest, shown
 from stackbounce.model.ball import Ball
 from stackbounce.model.catalogue.balls import BALLS, CLASS_BALLS, PAIRS, CatalogueBall, Pair
+from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw, Spring
 from stackbounce.model.laws.series import between
+from stackbounce.units import in_unit
+
+DEFAULT_HEIGHT = 1.0
+"""In m: the height of a fall of which nothing is said."""
 
 
 @dataclass(frozen=True)
@@ -30,8 +36,8 @@ class Stack:
 
     Examples
     --------
-    >>> from stackbounce.model.catalogue import stack
-    >>> stack(["B1", "B2"]).gaps
+    >>> from stackbounce.model.catalogue import stacked
+    >>> stacked(["B1", "B2"]).gaps
     (0.001,)
     """
 
@@ -57,7 +63,7 @@ def catalogue_ball(name: str) -> CatalogueBall:
 
     Raises
     ------
-    InvalidValue
+    UnknownName
         If the catalogue has no ball of this name; the message suggests the nearest.
 
     Examples
@@ -73,7 +79,7 @@ def catalogue_ball(name: str) -> CatalogueBall:
         if asked == _plain(known):
             return entry
     names = [known.replace(" ", "-") for known in entries]
-    raise InvalidValue(
+    raise UnknownName(
         f"ball must be one of the catalogue, got {shown(name)}; {nearest(name, names)}"
     )
 
@@ -82,8 +88,63 @@ def _plain(name: str) -> str:
     return name.casefold().replace("-", " ")
 
 
-def stack(names: Sequence[str]) -> Stack:
-    """Return a stack of balls of the catalogue, with contacts and gaps.
+def stack(
+    *balls: str,
+    height: float | str | None = None,
+    impact_speed: float | str | None = None,
+    velocities: Sequence[float | str] | None = None,
+    gap: float | str | None = None,
+    gaps: Sequence[float | str] | None = None,
+    gravity: float | str = 0.0,
+) -> Drop:
+    """Return a drop of balls of the catalogue, on the contacts that it has for them.
+
+    Parameters
+    ----------
+    *balls : str
+        Their names, the lowest first, as `catalogue_ball` reads them; `stackbounce.balls` has all.
+    height, impact_speed, velocities, gravity : optional
+        As of `Drop`. By default the stack falls from 1 m, as in ``stackbounce simulate``.
+    gap : float, optional
+        In m, 0 or above: one gap between all neighbours.
+    gaps : sequence of float, optional
+        In m, 0 or above: the N - 1 gaps. By default those that the paper fitted to the pair, or 0.
+
+    Returns
+    -------
+    Drop
+        Its contacts follow the rules in the docstring of `stackbounce.model.catalogue`.
+
+    Raises
+    ------
+    InvalidValue
+        If there is no name, the catalogue lacks one, `gap` and `gaps` are both given, or as of
+        `Drop`.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.stack("basketball", "tennis", height="63 cm", gap="2 mm")
+    >>> drop.gaps, drop.height, drop.contacts[0]
+    ((0.002,), 0.63, Spring(stiffness=2500.0))
+    """
+    if gap is not None and gaps is not None:
+        raise InvalidValue("gap and gaps: only one of the two can be given, got both")
+    chosen = stacked(balls)
+    if gap is not None:
+        gaps = [in_unit(gap, "m", "gap")] * (len(balls) - 1)
+    numbers: dict[str, Any] = {
+        "gaps": chosen.gaps if gaps is None else gaps,
+        "height": DEFAULT_HEIGHT if height is impact_speed is velocities is None else height,
+        "impact_speed": impact_speed,
+        "velocities": velocities,
+        "gravity": gravity,
+    }
+    return Drop(chosen.balls, chosen.contacts, **numbers)
+
+
+def stacked(names: Sequence[str]) -> Stack:
+    """Return the balls, contacts and gaps of a stack of the catalogue, with their sources.
 
     Parameters
     ----------
@@ -102,9 +163,9 @@ def stack(names: Sequence[str]) -> Stack:
 
     Examples
     --------
-    >>> stack(["basketball", "tennis"]).contacts
+    >>> stacked(["basketball", "tennis"]).contacts
     (Spring(stiffness=2500.0), Spring(stiffness=1000.0))
-    >>> [round(law.restitution, 3) for law in stack(["big basketball", "tennis ball"]).contacts]
+    >>> [round(law.restitution, 3) for law in stacked(["big basketball", "tennis ball"]).contacts]
     [0.81, 0.767]
     """
     if not names:

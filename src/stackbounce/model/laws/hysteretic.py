@@ -97,9 +97,9 @@ class Hysteretic(ContactLaw):
     derived: str = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        k = _STIFFNESS.check("stiffness", self.stiffness)
-        p = EXPONENT.check("exponent", self.exponent)
-        e, n, derived = _losses(p, self.restitution, self.unloading_exponent)
+        k = _STIFFNESS.check("stiffness", self.in_si("stiffness"))
+        p = EXPONENT.check("exponent", self.in_si("exponent"))
+        e, n, derived = _losses(p, *map(self.in_si, _ONE_OF))
         names = ("stiffness", "exponent", "restitution", "unloading_exponent", "derived")
         for name, value in zip(names, (k, p, e, n, derived), strict=True):
             object.__setattr__(self, name, value)

@@ -4,6 +4,7 @@ import functools
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
+from numbers import Real
 from types import MappingProxyType
 from typing import (
     TYPE_CHECKING,
@@ -21,7 +22,7 @@ from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, between, positive
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import rising_root
-from stackbounce.units import Unit, unit_of
+from stackbounce.units import Unit, in_unit, unit_of
 
 STEEPEST = 1e6
 """The largest exponent of a loading or unloading curve; above it the curve is almost a step."""
@@ -149,7 +150,18 @@ class ContactLaw:
 
     def __post_init__(self) -> None:
         for name, number in self.quantities().items():
-            object.__setattr__(self, name, number.check(name, getattr(self, name)))
+            object.__setattr__(self, name, number.check(name, self.in_si(name)))
+
+    def in_si(self, name: str) -> Any:
+        """Return a parameter as it was given, but a float in SI units for one with a unit."""
+        value = getattr(self, name)
+        if type(value) is float or isinstance(value, Real):
+            return value
+        unit = self.quantities()[name].symbol
+        if "**exponent" in unit:
+            exponent = EXPONENT.check("exponent", self.in_si("exponent"))
+            unit = unit.replace("**exponent", "" if exponent == 1.0 else f"**{exponent!r}")
+        return in_unit(value, unit, name)
 
     # its numbers
 

@@ -19,7 +19,7 @@ from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, finite, listed
 from stackbounce.model.laws.law import RESTITUTION, ContactLaw, EngineNumbers, Flank, Flanks, Given
 from stackbounce.model.laws.registry import register
-from stackbounce.units import Unit
+from stackbounce.units import Unit, in_unit
 
 MOST_POINTS = 16
 """The largest number of points of a curve, with the one at 0: two pieces for each interval."""
@@ -97,15 +97,15 @@ class Tabulated(ContactLaw):
     compression: Annotated[Sequence[float], Unit("m")]
     force: Annotated[Sequence[float], Unit("N")]
     unloading: Annotated[Sequence[float], Unit("N")] | None = None
-    restitution: float | None = None
+    restitution: Annotated[float, Unit()] | None = None
 
     def __post_init__(self) -> None:
-        lengths = _points("compression", self.compression, "metres")
-        forces = _points("force", self.force, "newtons", lengths)
+        lengths = _points("compression", self.compression, "m")
+        forces = _points("force", self.force, "N", lengths)
         object.__setattr__(self, "compression", lengths)
         object.__setattr__(self, "force", forces)
         if self.unloading is not None:
-            back = _points("unloading", self.unloading, "newtons", lengths, level=True)
+            back = _points("unloading", self.unloading, "N", lengths, level=True)
             if back[-1] != forces[-1]:
                 raise InvalidValue(
                     f"unloading must end with the last force, {forces[-1]!r}, got {back[-1]!r}"
@@ -120,7 +120,8 @@ class Tabulated(ContactLaw):
         if self.restitution is not None:
             if self.unloading is not None:
                 raise InvalidValue("unloading and restitution must not both be given, got both")
-            e = RESTITUTION.check("restitution", self.restitution)
+            e = in_unit(self.restitution, "", "restitution")
+            e = RESTITUTION.check("restitution", e)
             object.__setattr__(self, "restitution", e)
 
     def to_mapping(self) -> dict[str, Any]:
@@ -198,7 +199,10 @@ def _points(
 ) -> tuple[float, ...]:
     """Return the points of a curve from 0 on; raise if they do not rise."""
     given = listed(name, values, MOST_POINTS)  # of more, `press(...).table()` makes a law
-    points = tuple(finite(f"{name}.{i}", value, unit) for i, value in enumerate(given))
+    points = tuple(
+        finite(f"{name}.{i}", in_unit(value, unit, f"{name}.{i}"), unit)
+        for i, value in enumerate(given)
+    )
     if len(points) < 2:
         raise InvalidValue(f"{name} must have from 2 to {MOST_POINTS} points, got {len(points)}")
     if like is not None and len(points) != len(like):

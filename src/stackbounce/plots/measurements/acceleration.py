@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, annotate, styled_figure
+from stackbounce.plots.style import COLORS, annotate, panels
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 _BESIDE = 0.15  # of the series' duration, shown on each side
 
 
-def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
+def draw(data: Any, found: Any, axes: Any = None) -> "Figure":  # noqa: ARG001
     """Draw the magnitude of the acceleration, its flights shaded, with their restitutions.
 
     Parameters
@@ -21,14 +21,15 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         Not used: the result contains the record.
     found : Accelerometer
         The result of the analysis.
+    axes : matplotlib.axes.Axes or sequence of them, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
     matplotlib.figure.Figure
         Not shown and not saved. Below 20 m/s² the scale is linear, above logarithmic.
     """
-    with styled_figure(7.2, 4.4) as figure:
-        axes = figure.subplots()
+    with panels((7.2, 4.4), axes) as (figure, (axes,)):
         start, end = found.spans[0][0], found.spans[-1][1]
         beside = _BESIDE * (end - start)
         seen = (found.times > start - beside) & (found.times < end + beside)

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, annotate, styled_figure
+from stackbounce.plots.style import COLORS, annotate, panels
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -13,7 +13,7 @@ _LINES = {"linear": "-", "power law": "--"}
 _FIRST_NUMBERS = 6  # further ones would be written on each other
 
 
-def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
+def draw(data: Any, found: Any, axes: Any = None) -> "Figure":  # noqa: ARG001
     """Draw the restitution of each bounce against its impact speed, with the fitted laws e(v).
 
     Parameters
@@ -22,14 +22,15 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         Not used.
     found : Bounces
         The result of the analysis.
+    axes : matplotlib.axes.Axes or sequence of them, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
     matplotlib.figure.Figure
         Not shown and not saved.
     """
-    with styled_figure(7.2, 4.4) as figure:
-        axes = figure.subplots()
+    with panels((7.2, 4.4), axes) as (figure, (axes,)):
         speeds = np.array([getattr(speed, "nominal_value", speed) for speed in found.impact_speeds])
         kept = np.array([number.nominal_value for number in found.restitutions])
         errors = np.nan_to_num([number.std_dev for number in found.restitutions])

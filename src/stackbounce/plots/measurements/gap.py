@@ -4,13 +4,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, FORCES, two_panels
+from stackbounce.plots.style import COLORS, FORCES, WIDTH, panels
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
+def draw(data: Any, found: Any, axes: Any = None) -> "Figure":  # noqa: ARG001
     """Draw both forces, below them their difference, and the time of the second ball's touch.
 
     Parameters
@@ -19,6 +19,8 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         Not used.
     found : FloorGap
         The result of the analysis.
+    axes : matplotlib.axes.Axes or sequence of them, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
@@ -34,7 +36,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     seen = (since > -0.2 * lasting.nominal_value) & (since < 1.15 * end)
     ms, force = 1e3 * since[seen], stack.force[seen]
     like = kink.gain * np.interp(since[seen], own, alone.force, left=np.nan, right=np.nan)
-    with two_panels(5.8, [3, 2]) as (figure, above, below):
+    with panels((WIDTH, 5.8), axes, [3, 2]) as (figure, (above, below)):
         above.plot(ms, force, color=COLORS[0], linewidth=1.3, label="both balls")
         above.plot(ms, like, color=COLORS[1], linewidth=1.3, label="lower ball alone, as high")
         below.plot(ms, force - like, color=COLORS[2], linewidth=1.1)

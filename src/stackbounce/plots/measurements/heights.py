@@ -4,14 +4,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, annotate, styled_figure, with_error
+from stackbounce.plots.style import COLORS, annotate, panels, with_error
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
 
-def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
+def draw(data: Any, found: Any, axes: Any = None) -> "Figure":  # noqa: ARG001
     """Draw the measured heights of the ball's lowest point, and those at the mean restitution.
 
     Parameters
@@ -20,6 +20,8 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         Not used.
     found : Heights
         The result of the analysis.
+    axes : matplotlib.axes.Axes or sequence of them, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
@@ -32,8 +34,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     >>> draw(None, heights(1.0, [0.64, 0.41], height_error=0.005)).axes[0].get_ylabel()
     'height of the lowest point (m)'
     """
-    with styled_figure(7.2, 4.2) as figure:
-        axes = figure.subplots()
+    with panels((7.2, 4.2), axes) as (figure, (axes,)):
         rows = [found.drop_height, *found.bounce_heights]
         at = np.arange(len(rows))
         values = np.array([height.nominal_value for height in rows])

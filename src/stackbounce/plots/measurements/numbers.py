@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-from stackbounce.plots.style import file_of, styled_figure, with_error
+from stackbounce.plots.style import file_of, panels, with_error
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 _MOST = 24  # rows that fit
 
 
-def draw(data: Any, found: Any) -> "Figure":
+def draw(data: Any, found: Any, axes: Any = None) -> "Figure":
     """Draw the rows of a result as a table.
 
     Parameters
@@ -19,6 +19,8 @@ def draw(data: Any, found: Any) -> "Figure":
         The measured data; the name of its file is written above the table.
     found : Finding
         The result of the analysis.
+    axes : matplotlib.axes.Axes or sequence of them, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
@@ -26,8 +28,7 @@ def draw(data: Any, found: Any) -> "Figure":
         Not shown and not saved.
     """
     cells = [[row.name, _written(row.value), row.unit] for row in found.rows()[:_MOST]]
-    with styled_figure(7.2, 1.0 + 0.28 * len(cells)) as figure:
-        axes = figure.subplots()
+    with panels((7.2, 1.0 + 0.28 * len(cells)), axes) as (figure, (axes,)):
         axes.axis("off")
         if cells:
             axes.table(cells, colLabels=["", "value", "unit"], loc="upper center", edges="open")

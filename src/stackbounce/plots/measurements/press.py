@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, file_of, two_panels
+from stackbounce.plots.style import COLORS, WIDTH, file_of, panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 _MANY = 1500  # points of a branch that are drawn, about
 
 
-def draw(data: Any, found: Any) -> "Figure":
+def draw(data: Any, found: Any, axes: Any = None) -> "Figure":
     """Draw a press curve with the fits of its branches, the hysteresis loop, and the residuals.
 
     Parameters
@@ -22,6 +22,8 @@ def draw(data: Any, found: Any) -> "Figure":
         The measured data; the name of its file is in the title.
     found : Press
         The result of the analysis.
+    axes : matplotlib.axes.Axes or sequence of them, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
@@ -42,7 +44,7 @@ def draw(data: Any, found: Any) -> "Figure":
     branches = [(found.loading, found.exponent, COLORS[0], "in")]
     if found.unloading is not None:
         branches.append((found.unloading, found.unloading_exponent, COLORS[1], "out"))
-    with two_panels(6.0, [3.4, 1]) as (figure, above, below):
+    with panels((WIDTH, 6.0), axes, [3.4, 1]) as (figure, (above, below)):
         for curve, exponent, color, way in branches:
             x, y, fit = 1e3 * curve.compression, curve.force, curve.fit
             some = slice(None, None, max(1, len(x) // _MANY))

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.plots.style import COLORS, two_panels
+from stackbounce.plots.style import COLORS, WIDTH, panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,7 +17,7 @@ _WORDS = {"echo": "echoes", "second sound of one impact": "second sounds of one 
 _BLUE, _RED = COLORS[:2]
 
 
-def draw(data: Any, found: Any) -> "Figure":
+def draw(data: Any, found: Any, axes: Any = None) -> "Figure":
     """Draw a recording with its knocks, and the flights between them.
 
     Parameters
@@ -26,13 +26,15 @@ def draw(data: Any, found: Any) -> "Figure":
         The recording, as given to `knocks`.
     found : Knocks
         The result of the analysis.
+    axes : matplotlib.axes.Axes or sequence of them, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
     matplotlib.figure.Figure
         Not shown and not saved.
     """
-    with two_panels(5.2, [3, 2]) as (figure, above, below):
+    with panels((WIDTH, 5.2), axes, [3, 2]) as (figure, (above, below)):
         times = np.array([time.nominal_value for time in found.times])
         _draw_sound(above, data, found, times)
         _draw_flights(below, found, times)

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import annotate, color_of, two_panels
+from stackbounce.plots.style import WIDTH, annotate, color_of, panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -14,7 +14,7 @@ _SAMPLES = 60  # of a parabola
 _LINES = 2  # on which restitutions are written in turn
 
 
-def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
+def draw(data: Any, found: Any, axes: Any = None) -> "Figure":  # noqa: ARG001
     """Draw each ball's points and parabolas, its bounces, and the residuals.
 
     Parameters
@@ -23,6 +23,8 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         Not used: the result contains the points.
     found : Tracks
         The result of the analysis.
+    axes : matplotlib.axes.Axes or sequence of them, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
@@ -31,7 +33,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     """
     length, time = found.units
     many, small = (1e3, "mm") if length == "m" else (1.0, length)
-    with two_panels(5.8, [3, 1]) as (figure, above, below):
+    with panels((WIDTH, 5.8), axes, [3, 1]) as (figure, (above, below)):
         for k, ball in enumerate(found.balls):
             _draw_ball(above, ball, color_of(k), found)
             left = many * ball.fit.residuals

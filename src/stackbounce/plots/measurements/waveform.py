@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-from stackbounce.plots.style import COLORS, FORCES, WIDTH, annotate, file_of, styled_figure
+from stackbounce.plots.style import COLORS, FORCES, WIDTH, annotate, file_of, panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,7 +16,7 @@ _DOTS = 160  # samples within the picture, up to which each gets a dot
 _BINS = 2400  # beyond, the record is drawn as the range of each bin
 
 
-def draw(data: Any, found: Any) -> "Figure":
+def draw(data: Any, found: Any, axes: Any = None) -> "Figure":
     """Draw a force record, its baseline, its contacts with their flanks, and its peaks.
 
     Parameters
@@ -25,6 +25,8 @@ def draw(data: Any, found: Any) -> "Figure":
         The record, as given to `waveform`; the name of its file is in the title.
     found : Waveform
         The result of the analysis.
+    axes : matplotlib.axes.Axes or sequence of them, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
@@ -47,19 +49,18 @@ def draw(data: Any, found: Any) -> "Figure":
     low, high = _extent(found, found.contacts)
     first = next((contact for contact in found.contacts if contact.time is not None), None)
     tiny = first is not None and first.time.nominal_value < _TINY * (high - low)
-    with styled_figure(WIDTH, 6.4 if tiny else 4.2) as figure:
-        panels = figure.subplots(1 + tiny, 1, squeeze=False)[:, 0]
-        _draw_panel(panels[0], found, found.contacts, (low, high), named=not tiny)
+    size, ratios = (WIDTH, 6.4 if tiny else 4.2), [1.0] * (1 + tiny)
+    with panels(size, axes, ratios, sharex=False) as (figure, own):
+        _draw_panel(own[0], found, found.contacts, (low, high), named=not tiny)
         if tiny:
-            panels[1].set_title("the first contact", loc="left", fontsize=10)
-            _draw_panel(panels[1], found, [first], _extent(found, [first]), named=True)
-        _title(panels[0], data, found)
-        names = [axes.get_legend_handles_labels() for axes in panels]
-        known = {label: mark for panel in names for mark, label in zip(*panel, strict=True)}
+            own[1].set_title("the first contact", loc="left", fontsize=10)
+            _draw_panel(own[1], found, [first], _extent(found, [first]), named=True)
+        _title(own[0], data, found)
+        names = [panel.get_legend_handles_labels() for panel in own]
+        known = {label: mark for marks in names for mark, label in zip(*marks, strict=True)}
         place: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 4}
         look: Any = {"frameon": False, "borderpad": 0.0, "handlelength": 1.4, "fontsize": 9}
-        panels[-1].legend(known.values(), known.keys(), columnspacing=1.2, **place, **look)
-        figure.align_ylabels()
+        own[-1].legend(known.values(), known.keys(), columnspacing=1.2, **place, **look)
     return figure
 
 

@@ -1,16 +1,15 @@
 """The page in three texts, HTML, styles and script, for those of its forms that no server makes."""
 
-import base64
 import functools
-import hashlib
 import json
 import re
+from collections.abc import Mapping
 from pathlib import Path
 
-from stackbounce.explorer.page.bundle import bundle
-from stackbounce.explorer.page.parts import made_file
+from page_build.bundle import bundle
+from stackbounce import explorer
 
-_STATIC = Path(__file__).parent.parent / "static"
+_STATIC = Path(explorer.__file__).parent / "static"
 _SERVED = "js/origin/served.js"
 _LANGUAGES = "made/languages.js"  # a server has a file of each instead
 _STYLE = re.compile(r'\s*<link rel="stylesheet" href="([^"]+)">')
@@ -18,29 +17,26 @@ _SCRIPT = re.compile(r'\s*<script type="module" src="([^"]+)"></script>')
 _CHARSET = '<meta charset="utf-8">'
 
 
-def assemble(origin: str) -> tuple[str, str, str]:
+def assemble(origin: str, made: Mapping[str, bytes]) -> tuple[str, str, str]:
     """Return the page's HTML without its styles and its script, the styles, and one classic script.
 
     Parameters
     ----------
     origin : str
         The module of ``js/origin/`` that takes the place of ``served``.
-
-    Raises
-    ------
-    FileError
-        If the package was built without the engine for browsers.
+    made : mapping
+        The modules of ``made/``, by their names.
 
     Examples
     --------
-    >>> assemble("one_file")[0][:15]
+    >>> assemble("one_file", {"laws.js": b"export const LAW_CODE = {};"})[0][:15]
     '<!doctype html>'
     """
     page = read_static("index.html")
     begin = _SCRIPT.search(page)
     assert begin is not None
     styles = "".join(read_static(name) for name in _STYLE.findall(page))
-    script = bundle(functools.partial(_module, origin), begin[1], "js/engine/worker.js")
+    script = bundle(functools.partial(_module, origin, made), begin[1], "js/engine/worker.js")
     return _SCRIPT.sub("", _STYLE.sub("", page)), styles, script
 
 
@@ -57,17 +53,6 @@ def with_policy(html: str, policy: str) -> str:
     return html.replace(_CHARSET, head)
 
 
-def digest(content: bytes) -> str:
-    """Return what browsers call a content: in a content security policy, and in what is fetched.
-
-    Examples
-    --------
-    >>> digest(b"")[:12]
-    'sha256-47DEQ'
-    """
-    return f"sha256-{base64.b64encode(hashlib.sha256(content).digest()).decode()}"
-
-
 def read_static(name: str) -> str:
     """Return one of the page's files in ``static/``, a text.
 
@@ -79,13 +64,13 @@ def read_static(name: str) -> str:
     return (_STATIC / name).read_text("utf-8")
 
 
-def _module(origin: str, path: str) -> str:
+def _module(origin: str, made: Mapping[str, bytes], path: str) -> str:
     """Return the text of a module."""
     folder, _, name = path.partition("/")
     if path == _LANGUAGES:
         return f"export const tables = {json.dumps(_tables(), ensure_ascii=False)};"
     if folder == "made":
-        return made_file(name).decode()
+        return made[name].decode()
     return read_static(f"js/origin/{origin}.js" if path == _SERVED else path)
 
 

@@ -7,12 +7,11 @@ visit.
 import base64
 import hashlib
 import json
+from collections.abc import Mapping
 
-from stackbounce.explorer.page.assembly import assemble, digest, read_static, with_policy
-from stackbounce.explorer.page.parts import made_file
-from stackbounce.explorer.page.policy import PAGE
+from page_build.assembly import assemble, read_static, with_policy
+from stackbounce.explorer.made import PAGE_POLICY, digest
 
-_MADE = ("engine.wasm", "layout.json", "model.json")
 _HEAD = """\
   <link rel="stylesheet" href="explorer.css">
   <link rel="manifest" href="explorer.webmanifest">
@@ -36,31 +35,26 @@ _POLICY = (
 )
 
 
-def folder_files() -> dict[str, bytes]:
+def folder_files(made: Mapping[str, bytes]) -> dict[str, bytes]:
     """Return the files of the explorer by their paths in the folder.
 
     All addresses in them are relative. The service worker, ``offline.js``, keeps the files in the
     browser, under a name that is a digest of all of them.
 
-    Raises
-    ------
-    FileError
-        If the package was built without the engine for browsers.
-
-    Examples
-    --------
-    >>> sorted(folder_files())[:3]
-    ['explorer.css', 'explorer.js', 'explorer.webmanifest']
+    Parameters
+    ----------
+    made : mapping
+        The engine, its layout, ``model.json`` and ``laws.js``, by their names.
     """
-    html, styles, script = assemble("folder")
-    page = with_policy(html, PAGE).replace("</head>", _HEAD).replace(_OLD, _OLD + _DISK)
+    html, styles, script = assemble("folder", made)
+    page = with_policy(html, PAGE_POLICY).replace("</head>", _HEAD).replace(_OLD, _OLD + _DISK)
     files = {
         "index.html": page.encode(),
         "explorer.css": styles.encode(),
         "explorer.js": script.encode(),
         "explorer.webmanifest": json.dumps(_MANIFEST, indent=1).encode(),
         "icon.svg": read_static("icon.svg").encode(),
-        **{f"made/{name}": made_file(name) for name in _MADE},
+        **{f"made/{name}": made[name] for name in ("engine.wasm", "layout.json", "model.json")},
     }
     return files | {"offline.js": _offline(files)}
 
@@ -74,38 +68,33 @@ def _offline(files: dict[str, bytes]) -> bytes:
     return f'const VERSION = "{version}";\nconst FILES = {listed};\n\n{worker}'.encode()
 
 
-def one_file() -> str:
+def one_file(made: Mapping[str, bytes]) -> str:
     """Return the HTML of the whole explorer: page, engine and data.
 
     It asks for nothing when it is opened, and its content security policy lets it ask for nothing.
     It measures and fits nothing, which needs Python.
 
-    Raises
-    ------
-    FileError
-        If the package was built without the engine for browsers.
-
-    Examples
-    --------
-    >>> one_file()[:15]
-    '<!doctype html>'
+    Parameters
+    ----------
+    made : mapping
+        The engine, its layout, ``model.json`` and ``laws.js``, by their names.
     """
-    html, styles, script = assemble("one_file")
+    html, styles, script = assemble("one_file", made)
     if "</script" in script or "<!--" in script or "</style" in styles:
         raise AssertionError("a text of the page would end its own element")
     policy = _POLICY.format(script=digest(script.encode()), style=digest(styles.encode()))
     page = with_policy(html, policy)
     page = page.replace("</head>", f"<style>{styles}</style>\n</head>")
-    engine = base64.b64encode(made_file("engine.wasm")).decode()
+    engine = base64.b64encode(made["engine.wasm"]).decode()
     parts = [
         f'<script type="text/plain" id="engine">{engine}</script>',
-        *(_data(name) for name in ("layout", "model")),
+        *(_data(name, made[f"{name}.json"]) for name in ("layout", "model")),
         f'<script id="program">{script}</script>',
     ]
     return page.replace("</body>", "\n".join([*parts, "</body>"]))
 
 
-def _data(name: str) -> str:
+def _data(name: str, content: bytes) -> str:
     """Return an element with data in JSON, in which nothing can end the element."""
-    inside = made_file(f"{name}.json").decode().replace("<", "\\u003c")
+    inside = content.decode().replace("<", "\\u003c")
     return f'<script type="application/json" id="{name}">{inside}</script>'

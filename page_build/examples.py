@@ -27,10 +27,8 @@ def list_examples() -> Iterator[Case]:
 
 def _drop(example: dict[str, Any]) -> Drop:
     """Return the drop of an example; without a floor the lowest ball flies at the others."""
-    chosen = stack(example["balls"])
-    count = len(chosen.balls)
-    gaps = [example["gap"]] * (count - 1)
+    drop = stack(*example["balls"], gap=example["gap"], height=_HEIGHT)
     if example.get("floor", True):
-        return Drop(chosen.balls, chosen.contacts, gaps, height=_HEIGHT)
-    velocities = [1.0] + [0.0] * (count - 1)
-    return Drop(chosen.balls, [None, *chosen.contacts[1:]], gaps, velocities=velocities)
+        return drop
+    velocities = [1.0] + [0.0] * len(drop.gaps)
+    return Drop(drop.balls, [None, *drop.contacts[1:]], drop.gaps, velocities=velocities)

@@ -1,4 +1,4 @@
-"""What the page knows of the package, as JSON: `model.json`.
+"""What the page knows of the package: `model.json`, and the code of laws, `laws.js`.
 
 Balls, contact laws, examples, the paper's lines, lessons and units, with the numbers that each
 check lets through, found by asking it. The page reads units as `stackbounce.units.quantity` does,
@@ -16,16 +16,15 @@ from collections.abc import Callable
 from importlib.resources import files
 from typing import Any
 
+from page_build.examples import list_examples
+from page_build.lessons.lesson import list_lessons
 from stackbounce.cross2007.cases import list_cases, list_lines
 from stackbounce.cross2007.drops import bisect
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.explorer.answers import play
-from stackbounce.explorer.examples import list_examples
-from stackbounce.explorer.lessons.lesson import list_lessons
-from stackbounce.explorer.limits import LIMITS
+from stackbounce.explorer.limits import LIMITS, RTOL
 from stackbounce.json_values import as_json
 from stackbounce.model import LAWS, STANDARD_GRAVITY, STEEPEST, ContactLaw, Hysteretic
-from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stack
+from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stacked
 from stackbounce.run.result import Cause, Status
 from stackbounce.units import examples
 from stackbounce.version import __version__
@@ -162,13 +161,29 @@ def model_json() -> str:
             "map_rtol": MAP_RTOL,
             "outcomes": WORDS["outcomes"],
             "ratios": WORDS["ratios"],
-            "rtol": play.RTOL,
+            "rtol": RTOL,
             "stacks": _list_stacks(),
             "steepest": STEEPEST,
             "units": list_units(),
             "usual": _USUAL,
         }
     )
+
+
+def laws_js() -> str:
+    """Return what the page computes of some laws in their own way, see `ContactLaw.page_code`.
+
+    Examples
+    --------
+    >>> laws_js().splitlines()[0]
+    'export const LAW_CODE = {'
+    """
+    codes = (
+        f"  {name}: {{ {', '.join(f'{what}: {code}' for what, code in kind.page_code.items())} }},"
+        for name, kind in LAWS.items()
+        if kind.page_code
+    )
+    return "\n".join(["export const LAW_CODE = {", *codes, "};", ""])
 
 
 def _list_lines() -> list[dict[str, Any]]:
@@ -188,7 +203,7 @@ def _list_contacts() -> dict[str, Any]:
     """Return each ball's contact with the floor, and its source."""
     found = {}
     for entry in (*BALLS, *CLASS_BALLS):
-        alone = stack([str(entry.ball.name)])
+        alone = stacked([str(entry.ball.name)])
         found[str(entry.ball.name)] = alone.contacts[0].to_mapping(), alone.contact_sources[0]
     return found
 
@@ -198,7 +213,7 @@ def _list_stacks() -> dict[str, Any]:
     found = {}
     names = [str(entry.ball.name) for entry in (*BALLS, *CLASS_BALLS)]
     for lower, upper in itertools.product(names, repeat=2):
-        two, alone = stack([lower, upper]), stack([lower])
+        two, alone = stacked([lower, upper]), stacked([lower])
         floor, between = (
             (law.to_mapping(), source)
             for law, source in zip(two.contacts, two.contact_sources, strict=True)

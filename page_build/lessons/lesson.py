@@ -12,11 +12,10 @@ import tomllib
 from importlib.resources import files
 from typing import Any, NamedTuple
 
+from page_build.examples import list_examples
 from stackbounce.cross2007.cases import explorer_address, list_cases
-from stackbounce.explorer.examples import list_examples
 from stackbounce.model import Drop
 from stackbounce.model.catalogue import stack
-from stackbounce.units import quantity
 
 NAMES = ("three-times", "stiffness", "gap", "own-ball")
 """Of the lessons, in their order."""
@@ -103,11 +102,8 @@ def _drop_of(names: str, settings: dict[str, str]) -> Drop:
     cases = {case.name: case.drop for case in (*list_examples(), *list_cases())}
     if names in cases:
         return cases[names]
-    chosen = stack([name.strip() for name in names.split(",")])
-    gap = quantity(settings.pop("gap", "0 m"), "m", "gap")
-    height = quantity(settings.pop("height", "1m"), "m", "height")
-    gaps = [gap] * (len(chosen.balls) - 1)
-    return Drop(chosen.balls, chosen.contacts, gaps, height=height)
+    balls, gap = (name.strip() for name in names.split(",")), settings.pop("gap", "0 m")
+    return stack(*balls, gap=gap, height=settings.pop("height", None))
 
 
 def list_lessons() -> dict[str, list[dict[str, Any]]]:
