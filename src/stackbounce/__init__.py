@@ -10,7 +10,7 @@ _ROOMS = {
     "fitting.series": "fit_series",
     "measure": "read",
     "model": "Air Ball Bond Dashpot Drop Hertz HollowBall HuntCrossley Hysteretic PowerLaw Rigid "
-    "RigidBySpeed RigidLossBySpeed Spring StandardLinearSolid Tabulated Viscoelastic series",
+    "RigidBySpeed RigidLossBySpeed Spring StandardLinearSolid Tabulated Viscoelastic laws series",
     "model.catalogue": "balls stack",
     "prediction": "Prediction predict",
     "run.bounces": "bounces_in_air",

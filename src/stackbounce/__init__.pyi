@@ -25,6 +25,7 @@ from stackbounce.model import Spring as Spring
 from stackbounce.model import StandardLinearSolid as StandardLinearSolid
 from stackbounce.model import Tabulated as Tabulated
 from stackbounce.model import Viscoelastic as Viscoelastic
+from stackbounce.model import laws as laws
 from stackbounce.model import series as series
 from stackbounce.model.catalogue import balls as balls
 from stackbounce.model.catalogue import stack as stack

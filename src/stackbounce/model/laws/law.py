@@ -36,6 +36,7 @@ EngineNumbers: TypeAlias = tuple[int, Any, Any, Any, Any]
 _MEASURED = ("mass", "impact_speed", "contact_time", "exponent")
 _LOSSLESS = 1.0 - 1e-11  # a smaller loss is not told from round-off in a simulation
 _FAR = 1e6  # times the largest one of its slider: the largest loss that a calibration tries
+_LEAST = 1e-3  # times the same: where the search begins if the slider begins at 0
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
@@ -438,7 +439,7 @@ def _found(cls: type[_Law], numbers: dict[str, float], given: Given) -> _Law:
             raise ArithmeticError
         return math.log(kept / lasting({cls.loss: loss}).restitution_at(mass, speed))
 
-    return lasting({cls.loss: rising_root(excess, least)})
+    return lasting({cls.loss: rising_root(excess, least or _LEAST * most)})
 
 
 def contact_numbers(law: ContactLaw | None, varied: Mapping[str, Any] = _NOTHING) -> EngineNumbers:
