@@ -60,7 +60,18 @@ class Quantity(Unit):
 
 
 def stiffness_in(unit: str) -> Quantity:
-    """Return the `Quantity` of a stiffness in ``unit``: N/m, or N/m**p of a power law."""
+    """Return the `Quantity` of a stiffness.
+
+    Parameters
+    ----------
+    unit : str
+        ``N/m``, or such as ``N/m**1.5`` of a power law.
+
+    Examples
+    --------
+    >>> stiffness_in("N/m**2").symbol
+    'N/m**2'
+    """
     slider = (5e3, 1e2, 1e6) if unit == "N/m" else (2e5, 1e3, 1e10)
     return Quantity(unit, lambda name, value: positive(name, value, unit), slider)
 
