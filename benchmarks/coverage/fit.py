@@ -46,7 +46,7 @@ def _compared(fit: sb.Fit, truth: Mapping[str, float], whole: bool) -> list[tupl
     """Return errors beside what is true, and as a whole intervals and the draws' 68 % too."""
     if not whole:
         return [(name, fit[name], true) for name, true in truth.items()]
-    intervals, draws = fit.intervals(), fit.sample(DRAWS, seed=1)
+    intervals, draws = fit.intervals(), fit.sample(DRAWS, rng=1)
     found: list[tuple[str, Any, float]] = []
     for name, true in truth.items():
         low, _, high = draws.quantiles(name)

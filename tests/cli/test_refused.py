@@ -69,7 +69,7 @@ def test_a_sweep_of_draws_has_one_drop_for_each_row(printed, told):
     given = ("sweep", "basketball", "tennis", "--draws", "draws.csv", "--out", "draws.zarr")
     out = printed(*given, "--over", "height=1,2,3")
     assert "draw: 2, each with its own\n" in out
-    assert "    gaps.0: 0.0015 to 0.002 m\n" in out
+    assert "    gaps_0: 0.0015 to 0.002 m\n" in out
     with xr.open_zarr("draws.zarr") as data:
         assert data.rebound_ratio.dims == ("draw", "height", "ball")
         assert data.balls_0_mass.values.tolist() == [0.0248, 0.03]

@@ -88,6 +88,15 @@ def test_about_ninety_numbers_and_each_has_a_verdict(done):
     assert len(set(names)) == len(names)
 
 
+def test_the_audit_shows_what_differs(done):
+    first, *rows = repr(done).splitlines()
+    assert first == "130 numbers of the paper: agrees 88, agrees within error 8, differs 34"
+    assert len(rows) == 34 + 3
+    assert max(map(len, rows)) < 120
+    assert done._repr_html_().count("<tr>") == 1 + 34
+    assert len(done.table) == len(done.rows)
+
+
 def test_no_disagreement_is_left_unexplained_and_reads_and_calls_are_recorded(done):
     for row in done.rows:
         assert row.explained, row.id

@@ -11,7 +11,7 @@ from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.cross2007.drops import bisect, force_above, peak_times, spring_pair
 from stackbounce.cross2007.figures_models import after_collision, sample_forces
-from stackbounce.cross2007.report import FIGURES, draw_figures
+from stackbounce.cross2007.report import FIGURES, figure, table
 from stackbounce.cross2007.stacks import (
     early_twins,
     gap_for_delay,
@@ -23,7 +23,7 @@ from stackbounce.cross2007.stacks import (
     stiffen,
     twin_pair,
 )
-from stackbounce.cross2007.style import GREY, render, use_style
+from stackbounce.cross2007.style import GREY, render
 from stackbounce.cross2007.tables import make_table_one, make_table_two
 
 CURVES = [4, 4, 2, 2, 4, 6, 6, 4, 4, 2, 2, 2, 2, 2, 5, 2]  # in each figure
@@ -31,7 +31,7 @@ CURVES = [4, 4, 2, 2, 4, 6, 6, 4, 4, 2, 2, 2, 2, 2, 5, 2]  # in each figure
 
 @pytest.fixture(scope="module")
 def drawn():
-    return {picture.name: picture for picture in draw_figures()}
+    return {name: figure(name) for name in FIGURES}
 
 
 @pytest.fixture
@@ -46,7 +46,7 @@ def curves(ax):
 @pytest.mark.parametrize(("name", "count"), list(zip(FIGURES, CURVES, strict=True)))
 def test_axes_curves_and_guesses(drawn, name, count):
     picture = drawn[name]
-    axes = picture.figure.axes
+    axes = picture.picture.axes
     assert axes[-1].get_xlabel()
     assert all(ax.get_ylabel() for ax in axes)
     assert sum(len(curves(ax)) for ax in axes) == count
@@ -54,9 +54,33 @@ def test_axes_curves_and_guesses(drawn, name, count):
     assert all((picture.guesses, picture.title, picture.caption))
 
 
+def test_the_data_are_the_curves_and_what_the_text_tells(drawn):
+    data, (ax,) = drawn["4a"].data, drawn["4a"].picture.axes
+    assert np.array_equal(ax.lines[1].get_ydata(), data.rebound_ratio[1])
+    at = data.rebound_ratio.sel(mass_ratio=1.0, method="nearest").values
+    assert at == pytest.approx(data.known_rebound_ratio.values[[2, 1]], abs=0.01)
+    assert drawn["8-hollow"].data.force.dims == ("drop", "contact", "time")
+    assert drawn["8-hollow"].data.floor.values.tolist() == ["HollowBall", "HollowBall", "Spring"]
+    assert drawn["6"].data.known_rebound_ratio.values[:2].tolist() == [0.18, 1.64]
+    assert drawn["5"].data.known_time.values.tolist() == [0.005, 0.019, 0.029]
+    assert drawn["7"].data.compression.attrs == {"units": "m"}
+
+
+def test_figures_and_tables_have_the_names_of_the_paper(drawn):
+    for name in ("13", "Fig. 13", "figure 13", 13):
+        assert repr(figure(name)) == repr(drawn["13"])
+    assert repr(drawn["13"]).startswith("Figure 13: Middle ball B2 on large ball B1: mass-spring ")
+    assert "data:image/svg+xml;base64," in drawn["13"]._repr_html_()
+    assert repr(table("Table II")).startswith("Table II: Rebound ratios of the pairs")
+    with pytest.raises(sb.StackbounceError, match=r"no figure '4'; .* Known: 2a, 2b, 4a, 4b, 5"):
+        figure("4")
+    with pytest.raises(sb.StackbounceError, match="no table 3; known: I, II"):
+        table(3)
+
+
 @pytest.mark.parametrize(("name", "delay"), [("10a", 2), ("10b", 2), ("11a", 2), ("11b", 7)])
 def test_the_measured_delay_is_marked(drawn, name, delay):
-    texts = [text.get_text() for ax in drawn[name].figure.axes for text in ax.texts]
+    texts = [text.get_text() for ax in drawn[name].picture.axes for text in ax.texts]
     assert f"measured: {delay} ms delay" in texts
 
 
@@ -72,25 +96,22 @@ def test_cases_of_the_explorer_have_the_ratios_that_their_titles_say():
 
 @pytest.mark.parametrize("name", ["6", "12"])
 def test_files_are_images(drawn, name):
-    files = render(drawn[name].figure)
+    files = render(drawn[name].picture)
     assert ET.fromstring(files["svg"]).tag == "{http://www.w3.org/2000/svg}svg"
     assert files["png"].startswith(b"\x89PNG")
 
 
 def test_the_same_figure_gives_the_same_bytes(drawn):
-    with use_style():
-        again = FIGURES["9"](Bench(PAPER))
-    assert render(again.figure) == render(drawn["9"].figure)
+    assert render(figure("9").picture) == render(drawn["9"].picture)
 
 
 def test_figure_six_is_dashed_and_solid_as_the_caption_says(drawn):
-    styles = [line.get_linestyle() for line in curves(drawn["6"].figure.axes[0])]
+    styles = [line.get_linestyle() for line in curves(drawn["6"].picture.axes[0])]
     assert styles == ["--", "-"] * 3
 
 
 def test_figures_follow_the_data(drawn):
-    with use_style():
-        lighter = FIGURES["9"](Bench(changed(PAPER, "tennis.mass", 0.99)))
+    lighter = figure("9", changed(PAPER, "tennis.mass", 0.99))
     assert lighter.features != drawn["9"].features
 
 

@@ -43,7 +43,7 @@ def test_a_linear_case_has_the_exact_mean_spread_and_correlation():
     mean = covariance @ scaled.T @ (np.array([0.60, 0.50, 0.56]) / errors)
     assert list(found.best.values()) == pytest.approx(mean, abs=1e-8)
     assert found.covariance.values == pytest.approx(covariance, rel=1e-6)
-    draws = found.sample(DRAWS, seed=3)
+    draws = found.sample(DRAWS, rng=3)
     both = np.array([draws.draws(name) for name in found.names])
     spread = np.sqrt(np.diag(covariance))
     count = both.shape[1] / max(draws.autocorrelation.values())  # independent ones
@@ -60,7 +60,7 @@ def test_a_linear_case_has_the_exact_mean_spread_and_correlation():
 @pytest.mark.slow
 def test_between_the_bounds_every_value_is_as_probable():
     fit = sb.fit(BALL, {"rebound_ratios.0": (0.9, 0.2)}, {"contacts.0.restitution": (0.5, 1.0)})
-    found = fit.sample(DRAWS, seed=1)
+    found = fit.sample(DRAWS, rng=1)
     exact = truncnorm((0.5 - 0.9) / 0.2, (1.0 - 0.9) / 0.2, loc=0.9, scale=0.2)
     assert found["contacts.0.restitution"].nominal_value == pytest.approx(exact.mean(), abs=0.006)
     assert found["contacts.0.restitution"].std_dev == pytest.approx(exact.std(), rel=0.04)
@@ -74,7 +74,7 @@ def test_between_wide_bounds_every_logarithm_is_as_probable():
     """Nothing was measured of a number: only the bounds are left."""
     vary = {"balls.0.mass": (0.01, 1.0), "contacts.0.restitution": (0.2, 0.9)}
     data = {"rebound_ratios.0": (0.6, 0.05), "energy_retained": (0.36, 0.05)}
-    found = sb.fit(BALL, data, vary).sample(DRAWS, seed=2)
+    found = sb.fit(BALL, data, vary).sample(DRAWS, rng=2)
     at = np.linspace(0.1, 0.9, 9)
     assert np.log10(found.quantiles("balls.0.mass", at)) == pytest.approx(-2.0 + 2.0 * at, abs=0.08)
 
@@ -86,14 +86,16 @@ def test_a_prior_is_all_that_is_known_beforehand(bounds):
     mass = sb.Range(*bounds, prior=(0.5, 0.1))
     vary = {"balls.0.mass": mass, "contacts.0.restitution": (0.2, 0.9)}
     fit = sb.fit(BALL, {"rebound_ratios.0": (0.6, 0.05)}, vary)
-    found = fit.sample(DRAWS, seed=2)
+    found = fit.sample(DRAWS, rng=2)
     assert fit.objective.parameters[0].logarithmic == (bounds[0] == 0.02)
     assert found["balls.0.mass"].nominal_value == pytest.approx(0.5, abs=0.006)
     assert found["balls.0.mass"].std_dev == pytest.approx(0.1, rel=0.04)
 
 
 def test_the_same_seed_gives_the_same_bits():
-    one, other, third = (linear().sample(1280, seed=seed) for seed in (5, 5, 6))
+    one, drawn = linear().sample(1280, rng=5), linear().sample(1280, rng=np.random.default_rng(5))
+    other, third = linear().sample(1280, rng=5), linear().sample(1280, rng=drawn.seed)
+    assert third.chain.tobytes() == drawn.chain.tobytes()
     assert one.chain.tobytes() == other.chain.tobytes()
     assert one.log_probability.tobytes() == other.log_probability.tobytes()
     assert one.chain.tobytes() != third.chain.tobytes()
@@ -103,7 +105,7 @@ def test_draws_stay_between_the_bounds_and_progress_is_told():
     told = []
     found = sb.fit(
         BALL, {"rebound_ratios.0": (0.99, 0.1)}, {"contacts.0.restitution": (0.5, 1.0)}
-    ).sample(3200, seed=1, progress=lambda done, of: told.append((done, of)))
+    ).sample(3200, rng=1, progress=lambda done, of: told.append((done, of)))
     draws = found.draws("contacts.0.restitution")
     assert draws.min() >= 0.5
     assert draws.max() <= 1.0
@@ -119,8 +121,8 @@ def test_draws_stay_between_the_bounds_and_progress_is_told():
     [
         ({"draws": 639}, InvalidValue, r"^draws must be .*640.*, got 639"),
         ({"draws": 1e4}, InvalidType, r"^draws must be a whole number"),
-        ({"draws": 640, "seed": -1}, InvalidValue, r"^seed must be"),
-        ({"draws": 640, "seed": 2**32}, InvalidValue, r"^seed must be"),
+        ({"draws": 640, "rng": -1}, InvalidValue, r"^the seed must be"),
+        ({"draws": 640, "rng": 2**32}, InvalidValue, r"^the seed must be"),
     ],
 )
 def test_what_cannot_be_drawn(options, kind, message):

@@ -20,7 +20,7 @@ def test_a_fitted_quantity_has_the_error_of_its_datum():
     assert normal["durations.0"].std_dev == pytest.approx(1e-4, rel=1e-3)
     error = pytest.approx(found["contacts.0.stiffness"].std_dev, rel=1e-6)
     assert normal.errors["contacts.0.stiffness"].std_dev == error
-    drawn = found.predict(posterior=found.sample(6400, seed=1))
+    drawn = found.predict(posterior=found.sample(6400, rng=1))
     assert drawn.how == "errors by 4800 draws: draws were given"
     assert drawn["durations.0"].std_dev == pytest.approx(1e-4, rel=0.1)
 

@@ -18,8 +18,8 @@ def test_a_problem_is_fitted_as_its_parts_are():
     problem = FitProblem(DROP, DATA, [STIFFNESS])
     same = sb.fit(DROP, DATA, [STIFFNESS])
     assert problem.fit().as_dict() == same.as_dict()
-    same = sb.fit(DROP, DATA, [STIFFNESS], starts=16, seed=3)
-    assert problem.fit(starts=16, seed=3).best == same.best
+    same = sb.fit(DROP, DATA, [STIFFNESS], starts=16, rng=3)
+    assert problem.fit(starts=16, rng=3).best == same.best
     assert problem.fit(rtol=1e-6).objective.rtol == 1e-6
 
 

@@ -32,7 +32,7 @@ def test_all_crossings_of_one_ratio_are_told():
     assert len(crossings) == 3
     for seed in range(3):
         data, vary = {"rebound_ratios.1": (1.12, 0.002)}, {STIFFNESS: (2800.0, 9500.0)}
-        found = sb.fit(stack(), data, vary, seed=seed)
+        found = sb.fit(stack(), data, vary, rng=seed)
         minima = sorted(found.objective.values(one.x[None])[STIFFNESS][0] for one in found.minima)
         assert minima == pytest.approx(crossings, rel=1e-3)
         assert sum("another minimum is as good" in note for note in found.notes) == 2
@@ -41,7 +41,7 @@ def test_all_crossings_of_one_ratio_are_told():
 def test_of_equal_minima_the_nearest_to_the_drop_comes_first():
     data, vary = {"rebound_ratios.1": (1.12, 0.002)}, {STIFFNESS: (2800.0, 9500.0)}
     for own, seed in [(3000.0, 0), (3000.0, 1), (9000.0, 0), (9000.0, 1)]:
-        found = sb.fit(stack(upper=own), data, vary, seed=seed)
+        found = sb.fit(stack(upper=own), data, vary, rng=seed)
         ends = [found.objective.values(end.x[None])[STIFFNESS][0] for end in found.minima]
         distances = [abs(np.log(end / own)) for end in ends]
         assert distances[0] == min(distances)
@@ -56,7 +56,7 @@ def test_where_contacts_come_and_go_the_best_of_a_grid_is_found(upper):
     least = least_on_a_grid(stack(), data, grid).min()
     measured = {"rebound_ratios": list(data.values())}
     for seed in range(2):
-        found = sb.fit(stack(), measured, {STIFFNESS: (300.0, 1e5)}, seed=seed)
+        found = sb.fit(stack(), measured, {STIFFNESS: (300.0, 1e5)}, rng=seed)
         assert found.chi_squared <= least + 1e-3
 
 
@@ -71,7 +71,7 @@ def test_two_numbers_are_found_from_any_seed():
         "last_release.1": (upper["end"][-1], 2e-5),
     }
     for seed in range(4):
-        found = sb.fit(stack(), data, {STIFFNESS: (300.0, 1e5), "gaps.0": (0.0, 0.01)}, seed=seed)
+        found = sb.fit(stack(), data, {STIFFNESS: (300.0, 1e5), "gaps.0": (0.0, 0.01)}, rng=seed)
         assert found.best == pytest.approx({STIFFNESS: 6000.0, "gaps.0": 0.0015}, rel=1e-4)
 
 
@@ -82,7 +82,7 @@ def test_the_same_seed_gives_the_same_bits_on_any_number_of_threads(monkeypatch)
     found = []
     for threads in (1, 4):
         monkeypatch.setattr("os.cpu_count", lambda count=threads: count)
-        found.append(sb.fit(stack(), data, vary, starts=4096, seed=7))
+        found.append(sb.fit(stack(), data, vary, starts=4096, rng=7))
     one, other = ([minimum.x.tobytes() for minimum in fit.minima] for fit in found)
     assert one == other
     assert len({fit.covariance.values.tobytes() for fit in found}) == 1

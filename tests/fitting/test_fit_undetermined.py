@@ -34,7 +34,7 @@ def test_ratios_at_no_gap_tell_the_stiffness_ratio_alone():
 
 
 def test_what_is_left_open_stays_where_the_drop_has_it():
-    values = [sb.fit(STACK, RATIOS, BOTH, seed=seed).best for seed in range(3)]
+    values = [sb.fit(STACK, RATIOS, BOTH, rng=seed).best for seed in range(3)]
     for one in values:
         assert one == pytest.approx(values[0], rel=1e-5)
         assert one["contacts.0.stiffness"] == pytest.approx(2500.0, rel=0.02)

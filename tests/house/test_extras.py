@@ -99,6 +99,17 @@ def test_a_plain_install_sweeps():
     assert (run.stdout, run.stderr) == ("[1 1]\n", "")
 
 
+@pytest.mark.slow
+def test_the_paper_by_call_needs_what_measures_and_what_draws():
+    without = sorted({*BROUGHT, "markupsafe"} - {*EXTRAS["measure"], *EXTRAS["plots"]})
+    run = plain(
+        f"import sys; sys.modules |= dict.fromkeys({without}); import stackbounce as sb; "
+        "found = sb.cross2007.figure('4a'), sb.cross2007.table('II'), sb.cross2007.audit(); "
+        "print([len(made._repr_html_()) > 1000 for made in found])"
+    )
+    assert (run.stdout, run.stderr) == ("[True, True, True]\n", "")
+
+
 @pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("arguments", "extra", "what"),

@@ -128,7 +128,7 @@ def test_records_with_the_fitted_curve(records):
 @pytest.mark.parametrize("which", ["one", "two"])
 def test_a_corner_has_a_panel_for_each_pair(which, request):
     found = request.getfixturevalue(which)
-    posterior = found.sample(6400, seed=2)
+    posterior = found.sample(6400, rng=2)
     figure = plots.corner(posterior)
     count = len(found.names)
     assert len(figure.axes) == count**2

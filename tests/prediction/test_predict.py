@@ -65,7 +65,7 @@ def test_changing_counts_are_drawn():
 
 
 def test_draws_repeat_bit_for_bit_and_follow_the_seed():
-    found = [sb.predict(LOSSY, CHANGING, draws=500, seed=seed) for seed in (0, 0, 1)]
+    found = [sb.predict(LOSSY, CHANGING, draws=500, rng=seed) for seed in (0, 0, 1)]
     first, second, other = (prediction.draws for prediction in found)
     assert first.identical(second)
     assert not np.array_equal(other.rebound_speeds, first.rebound_speeds)
@@ -243,6 +243,20 @@ def test_names_that_are_not_predicted_are_refused():
 
 
 def test_a_seed_has_32_bits():
-    with pytest.raises(sb.StackbounceError, match="seed"):
-        sb.predict(RIGID, {"impact_speed": (3.0, 0.03)}, seed=2**32)
-    assert sb.predict(RIGID, {"impact_speed": (3.0, 0.03)}, seed=2**32 - 1)["rebound_speeds.0"]
+    with pytest.raises(sb.StackbounceError, match="the seed must be"):
+        sb.predict(RIGID, {"impact_speed": (3.0, 0.03)}, rng=2**32)
+    assert sb.predict(RIGID, {"impact_speed": (3.0, 0.03)}, rng=2**32 - 1)["rebound_speeds.0"]
+
+
+def test_a_generator_gives_other_draws_each_time_and_its_own_seed_the_same():
+    errors, rng = {"impact_speed": (3.0, 0.03)}, np.random.default_rng(5)
+    one, other, again, third = (
+        sb.predict(RIGID, errors, draws=100, rng=source).draws
+        for source in (rng, rng, np.random.default_rng(5), np.random.SeedSequence(5))
+    )
+    assert not one.equals(other)
+    assert one.equals(again)
+    assert one.equals(third)
+    for wrong in ("a", 1.5, [-1]):
+        with pytest.raises(sb.StackbounceError, match="rng must be a whole number or a Generator"):
+            sb.predict(RIGID, errors, rng=wrong)

@@ -108,14 +108,14 @@ def _fit(problem: "FitProblem", given: Mapping[str, Any], as_json: bool) -> "Fit
     seed, intervals, posterior = given["seed"], None, None
     try:
         with output.progress_bar("trials") as progress:
-            fit = problem.fit(starts=given["starts"], seed=seed, progress=progress)
+            fit = problem.fit(starts=given["starts"], rng=seed, progress=progress)
         try:
             if given["interval"]:
                 with output.progress_bar("trials of intervals") as progress:
                     intervals = fit.intervals(progress=progress)
             if given["sample"] is not None:
                 with output.progress_bar("draws") as progress:
-                    posterior = fit.sample(given["sample"], seed=seed, progress=progress)
+                    posterior = fit.sample(given["sample"], rng=seed, progress=progress)
         except KeyboardInterrupt as stopped:
             raise Interrupted(fit) from stopped
     except Interrupted as stopped:
@@ -133,6 +133,6 @@ def _compare(problem: "FitProblem", given: Mapping[str, Any]) -> "Comparison":
     from stackbounce.fitting.question import has_times
 
     models = standard_models(problem.drops, times=any(map(has_times, problem.data.values())))
-    search = {name: given[name] for name in ("starts", "seed")}
+    search = {"starts": given["starts"], "rng": given["seed"]}
     with output.progress_bar("trials of a model") as progress:
         return compare(models, problem.data, **search, progress=progress)

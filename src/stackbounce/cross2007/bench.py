@@ -12,8 +12,8 @@ and the restitutions in eqs 1 to 4. Some of these come from a fit; the audit's r
 rounding matters (71 % with e = 0.92).
 
 Every row of the audit, every table and every figure is computed on a bench. It records which
-numbers are read and which drops are simulated. The inputs and library calls that a row shows are
-this record.
+numbers are read, which drops are simulated, and which curves are computed. The inputs and library
+calls that a row shows, and the data of a figure, are this record.
 """
 
 import csv
@@ -30,6 +30,7 @@ from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
+    import xarray as xr
     from uncertainties import UFloat
 
 
@@ -130,6 +131,7 @@ class Bench:
         self.data = data
         self.read: list[str] = []
         self.drops: list[Drop] = []
+        self.curves: list[xr.Dataset] = []
 
     def __call__(self, key: str) -> float:
         """Return a number of the paper in SI units."""

@@ -1,6 +1,6 @@
 """Figures 2, 4, 5 and 6: both models of two balls, and the curves of them as arrays."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -38,25 +38,46 @@ def after_collision(bench: Bench, ratios: Array, restitution: float, count: int)
         (2, R), lower and upper ball; nan where they do not collide that often.
     """
     results = [bench.simulate(rigid_pair((ratio, 1.0), restitution)) for ratio in ratios.tolist()]
-    return np.array([after_meeting(result, count) for result in results]).T
+    pairs = np.array([after_meeting(result, count) for result in results]).T
+    return _recorded(bench, "velocity_ratio", pairs, mass_ratio=ratios, restitution=[restitution])
 
 
 def rebound_by_mass(bench: Bench, ratios: Array, stiffness_ratio: float) -> Array:
     """Return both rebound ratios of a drop on springs for mass ratios m1/m2, (2, R)."""
     drops = [spring_pair((ratio, 1.0), (stiffness_ratio, 1.0)) for ratio in ratios.tolist()]
-    return np.array([bench.simulate(drop).rebound_ratios for drop in drops]).T
+    return _rebounds(bench, drops, mass_ratio=ratios, stiffness_ratio=[stiffness_ratio])
 
 
 def rebound_by_stiffness(bench: Bench, mass_ratio: float, ratios: Array) -> Array:
     """Return both rebound ratios of a drop on springs for stiffness ratios k1/k2, (2, R)."""
     drops = [spring_pair((mass_ratio, 1.0), (ratio, 1.0)) for ratio in ratios.tolist()]
-    return np.array([bench.simulate(drop).rebound_ratios for drop in drops]).T
+    return _rebounds(bench, drops, stiffness_ratio=ratios, mass_ratio=[mass_ratio])
+
+
+def _rebounds(bench: Bench, drops: list[Drop], **places: Any) -> Array:
+    """Return both rebound ratios of each drop, (2, R), and record them."""
+    pairs = np.array([bench.simulate(drop).rebound_ratios for drop in drops]).T
+    return _recorded(bench, "rebound_ratio", pairs, **places)
+
+
+def _recorded(bench: Bench, name: str, pairs: Array, **places: Any) -> Array:
+    """Record curves (2, R) over the first of two ratios, at one value of the second."""
+    import xarray as xr
+
+    over, along = places
+    coords = {key: (key, values, {"units": "1"}) for key, values in places.items()}
+    array = ((along, "ball", over), pairs[None], {"units": "1"})
+    bench.curves.append(xr.Dataset({name: array}, {**coords, "ball": [0, 1]}))
+    return pairs
 
 
 def sample_forces(bench: Bench, drop: Drop, times: Array) -> tuple[Array, Result]:
     """Return the forces at floor and between the balls in N, (2, T), and the drop's result."""
     result = bench.simulate(drop)
-    return np.asarray(result.sample(times)["force"].values), result
+    curves = result.sample(times).expand_dims("drop")
+    gap, floor = ("drop", list(drop.gaps), {"units": "m"}), type(drop.contacts[0]).__name__
+    bench.curves.append(curves.assign_coords(gap=gap, floor=("drop", [floor])))
+    return np.asarray(curves["force"].values[0]), result
 
 
 def draw_figure_2a(bench: Bench) -> Picture:
@@ -138,7 +159,7 @@ def draw_figure_6(bench: Bench) -> Picture:
     ax.text(22, 0.58, "$e_1$", va="center")
     ax.xaxis.set_major_formatter("{x:g}")
     ax.set(xlabel=r"$r_k=k_1/k_2$", ylabel=r"$v/v_0$", xlim=(0.1, 100), ylim=(0, 3))
-    return describe("6", figure)
+    return describe("6", figure, upper=bench.curves[-1]["rebound_ratio"].values[0, 1, -1])
 
 
 def _draw_separate(bench: Bench, ax: "Axes", ratios: Array, count: int) -> tuple[Array, Array]:
@@ -166,4 +187,4 @@ def _rebound(bench: Bench, name: str, stiffness_ratio: float, at: float) -> Pict
     tag(ax, ratios, pair[0], at, r"$v_1/v_0$", FLOOR, above=False)
     ax.set(xlim=(0, 10), ylim=(0, 3))
     ax.text(0.04, 0.93, rf"$k_1/k_2={stiffness_ratio:g}$", transform=ax.transAxes, va="top")
-    return describe(name, figure, ratio=stiffness_ratio)
+    return describe(name, figure, ratio=stiffness_ratio, upper=pair[1, -1])

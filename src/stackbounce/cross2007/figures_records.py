@@ -90,18 +90,24 @@ def number_contacts(panels: "list[Axes]", result: Result) -> None:
 
 def draw_figure_7(bench: Bench) -> Picture:
     """Draw force against compression, from the points that the text gives."""
+    import xarray as xr
+
     figure, (ax,) = make_axes()
-    force = bench("static.force")
+    force, points = bench("static.force"), {}
     for key, text, color, place in (
         ("static.tennis", "tennis ball", UPPER, (0.4, 29.0)),
         ("static.basketball", "basketball", FLOOR, (-5.9, 29.4)),
         ("static.both", "tennis ball\non basketball", BLACK, (-6.0, 18.0)),
     ):
+        points[text.replace("\n", " ")] = bench(key)
         compression = 1e3 * bench(key)
         ax.plot([0.0, compression], [0.0, force], color=color)
         ax.plot([compression], [force], "o", color=color, ms=4.5)
         ax.text(compression + place[0], place[1], text, color=color)
     ax.set(xlabel="compression (mm)", ylabel=r"$F$ (N)", xlim=(0, 30), ylim=(0, 35))
+    forces = ("load", [force] * len(points), {"units": "N"})
+    curves = {"force": forces, "compression": ("load", list(points.values()), {"units": "m"})}
+    bench.curves.append(xr.Dataset(curves, {"load": list(points)}))
     stiffness = force / bench("static.tennis")
     return describe("7", figure, stiffness=1e-4 * stiffness)
 

@@ -1,13 +1,12 @@
 """The whole paper, in the order of its text, and the files of `stackbounce paper` and its page."""
 
-import csv
-import io
 import itertools
 import json
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import asdict, dataclass
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from stackbounce.cross2007 import (
     checks_basketball,
@@ -22,11 +21,16 @@ from stackbounce.cross2007.bench import CLAIMS, PAPER, Bench, Data
 from stackbounce.cross2007.cases import link_figures
 from stackbounce.cross2007.checks import AGREES, DIFFERS, WITHIN_ERROR, Row, last_place, run_check
 from stackbounce.cross2007.pages import data_uri, make_environment
-from stackbounce.cross2007.style import Picture, render, use_style
+from stackbounce.cross2007.style import Picture, data_of, render, use_style
 from stackbounce.cross2007.tables import Table, make_table_one, make_table_two
+from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.extras import need
 from stackbounce.files import prepare_folder, write_folder
+from stackbounce.shown import Shown
 from stackbounce.version import __version__
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 _MODULES = (
     checks_models,
@@ -50,12 +54,15 @@ FIGURES: dict[str, Callable[[Bench], Picture]] = {
 """The functions that draw the figures, by the paper's number; 1 and 3 are sketches.
 
 "8-hollow" is Fig. 8 with another model."""
+_TABLES = {"I": make_table_one, "II": make_table_two}
+_SIGNS = re.compile(r"(?i)^fig(ure|\.)?|^table|[()\s]")  # in "Fig. 4(a)", besides its name
+_WIDE = 40  # letters of a cell in the text of the audit
 _NAMES = ("index.html", "audit.csv", "audit.json")
 
 
-@dataclass(frozen=True)
-class Audit:
-    """The paper's numbers beside the computed ones.
+@dataclass(frozen=True, repr=False)
+class Audit(Shown):
+    """The paper's numbers beside the computed ones; it shows the counts and what differs.
 
     Parameters
     ----------
@@ -73,6 +80,37 @@ class Audit:
         """The number of rows with each verdict."""
         verdicts = [row.verdict for row in self.rows]
         return {verdict: verdicts.count(verdict) for verdict in (AGREES, WITHIN_ERROR, DIFFERS)}
+
+    @property
+    def table(self) -> "pd.DataFrame":
+        """All rows by name, with the library calls and the inputs of each."""
+        import pandas as pd
+
+        return pd.DataFrame(map(_cells, self.rows)).set_index("id")
+
+    def __repr__(self) -> str:
+        """The counts, and what differs with the beginning of the reason."""
+        rows = self._differing.to_string(float_format="{:.4g}".format, max_colwidth=_WIDE)
+        return f"{self.counted}\n{rows}\nAll rows with all reasons: table"
+
+    def _repr_html_(self) -> str:
+        """The counts, and what differs with the reason, for a notebook."""
+        import pandas as pd
+
+        with pd.option_context("display.max_colwidth", None):
+            rows = self._differing.to_html(float_format="{:.4g}".format)
+        return f"<p>{self.counted}</p>{rows}"
+
+    @property
+    def counted(self) -> str:
+        """The counts in a sentence."""
+        counts = ", ".join(f"{verdict} {count}" for verdict, count in self.counts.items())
+        return f"{len(self.rows)} numbers of the paper: {counts}"
+
+    @property
+    def _differing(self) -> "pd.DataFrame":
+        rows = self.table.query("verdict == @DIFFERS").set_index("what")
+        return rows[["printed", "computed", "unit", "reason"]]
 
     def as_dict(self) -> dict[str, Any]:
         """Return the audit as plain dicts, lists, strings and numbers, for JSON."""
@@ -99,6 +137,12 @@ def audit(data: Data = PAPER, progress: Callable[[str], None] = lambda _: None) 
     Returns
     -------
     Audit
+        It shows the counts and what differs; `table` is a pandas DataFrame of all rows.
+
+    Raises
+    ------
+    MissingExtra
+        If the extra `measure` is not installed.
 
     Examples
     --------
@@ -106,7 +150,7 @@ def audit(data: Data = PAPER, progress: Callable[[str], None] = lambda _: None) 
     >>> [row.verdict for row in result.rows if row.id == "II.ten_springs"]
     ['agrees']
     """
-    need("paper", "stackbounce paper")
+    need("measure", "the audit of the paper")
     rows: list[Row] = []
     for _, section in itertools.groupby(CLAIMS.values(), lambda claim: claim.id.partition(".")[0]):
         claims = list(section)
@@ -117,15 +161,83 @@ def audit(data: Data = PAPER, progress: Callable[[str], None] = lambda _: None) 
     return Audit(tuple(rows), data)
 
 
-def draw_figures(
-    data: Data = PAPER, progress: Callable[[str], None] = lambda _: None
-) -> Iterator[Picture]:
-    """Yield the paper's figures, recomputed; see `audit` for the arguments."""
-    for name, draw in FIGURES.items():
-        progress(f"figure {name}")
-        with use_style():
-            picture = draw(Bench(data))
-        yield picture
+def figure(name: str | int, data: Data = PAPER) -> Picture:
+    """Return a figure of the paper, recomputed, with its curves and the points of its text.
+
+    Parameters
+    ----------
+    name : str or int
+        As the paper has it: ``"4a"``, ``"Fig. 4(a)"``, ``"Figure 5"`` or ``5``. ``"8-hollow"`` is
+        Fig. 8 with a hollow ball. Figs. 1 and 3 are sketches, which are not drawn.
+    data : mapping of str to Input, optional
+        The input numbers, by default those of the paper.
+
+    Returns
+    -------
+    Picture
+        It shows itself in a notebook. `picture` is matplotlib's Figure, whose `axes` take more
+        curves. `data` are the curves with their units, an xarray Dataset; its variables `known_…`
+        are what the paper's text gives: points, or lines across or along the figure. `table` has
+        what the text reports beside what is computed here.
+
+    Raises
+    ------
+    InvalidValue
+        If there is no figure of that name; the message lists all.
+    MissingExtra
+        If the extras `measure` and `plots` are not installed.
+
+    Examples
+    --------
+    >>> found = figure("4a")
+    >>> found.data.rebound_ratio.sel(ball=1, mass_ratio=10).round(3).item()
+    1.127
+    >>> found.data.known_rebound_ratio.values  # as the paper's text has them
+    array([1.13, 1.19, 0.76])
+    """
+    need("plots", "a figure of the paper")
+    need("measure", "a figure of the paper")
+    short = _SIGNS.sub("", str(name)).lower()
+    if short not in FIGURES:
+        raise InvalidValue(f"the paper has no figure {shown(name)}; {nearest(short, FIGURES)}")
+    bench = Bench(data)
+    with use_style():
+        found = FIGURES[short](bench)
+    return replace(found, data=data_of(bench, short))
+
+
+def table(name: str | int, data: Data = PAPER) -> Table:
+    """Return a table of the paper, recomputed, with the errors carried through.
+
+    Parameters
+    ----------
+    name : str or int
+        ``"I"`` or ``"II"``, also ``"Table II"``.
+    data : mapping of str to Input, optional
+        The input numbers, by default those of the paper.
+
+    Returns
+    -------
+    Table
+        It shows itself in a notebook; `table` is a pandas DataFrame of texts.
+
+    Raises
+    ------
+    InvalidValue
+        If there is no table of that name.
+    MissingExtra
+        If the extra `measure` is not installed.
+
+    Examples
+    --------
+    >>> table("II").table["e2"]["basketball"]
+    '1.640±0.005'
+    """
+    need("measure", "a table of the paper")
+    short = _SIGNS.sub("", str(name)).upper()
+    if short not in _TABLES:
+        raise InvalidValue(f"the paper has no table {shown(name)}; {nearest(short, _TABLES)}")
+    return _TABLES[short](Bench(data))
 
 
 def write(
@@ -166,14 +278,16 @@ def write(
     done = audit(PAPER, progress)
     files: dict[str, bytes] = {}
     drawn: list[tuple[Picture, str]] = []
-    for picture in draw_figures(PAPER, progress):
-        images = render(picture.figure)
+    for name in FIGURES:
+        progress(f"figure {name}")
+        picture = figure(name)
+        images = render(picture.picture)
         files |= {f"figures/figure-{picture.name}.{end}": data for end, data in images.items()}
         drawn.append((picture, data_uri(images["svg"])))
     progress("tables I and II")
-    tables = [make_table_one(Bench(PAPER)), make_table_two(Bench(PAPER))]
+    tables = [table(name) for name in _TABLES]
     progress(f"writing to {out}")
-    files["audit.csv"] = _csv(done).encode()
+    files["audit.csv"] = done.table.to_csv().encode()
     files["audit.json"] = _json(done, [picture for picture, _ in drawn], tables).encode()
     files["index.html"] = _page(done, drawn, tables, explorer).encode()
     write_folder(out, files)
@@ -182,36 +296,20 @@ def write(
 
 def _json(done: Audit, drawn: list[Picture], tables: list[Table]) -> str:
     content = done.as_dict()
-    content["figures"] = [
-        {
-            "name": picture.name,
-            "caption": picture.caption,
-            "guesses": picture.guesses,
-            "features": picture.features,
-        }
-        for picture in drawn
-    ]
+    told = ("name", "caption", "guesses", "features")
+    content["figures"] = [{key: getattr(picture, key) for key in told} for picture in drawn]
     content["tables"] = [vars(table) for table in tables]
     return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
 
 
-def _csv(done: Audit) -> str:
-    stream = io.StringIO()
-    rows = [_cells(row) for row in done.rows]
-    writer = csv.DictWriter(stream, rows[0], lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return stream.getvalue()
-
-
-def _cells(row: Row) -> dict[str, str]:
-    """Return a row of the audit by the columns of ``audit.csv``."""
+def _cells(row: Row) -> dict[str, Any]:
+    """Return a row of the audit by the columns of its table."""
     readings = [
         f"{attempt.reading}: {attempt.computed:.6g} ({attempt.verdict})" for attempt in row.attempts
     ]
     names = ("id", "where", "what", "printed", "unit", "computed", "tolerance", "error")
     return {
-        **{name: str(getattr(row, name)) for name in (*names, "verdict", "reason")},
+        **{name: getattr(row, name) for name in (*names, "verdict", "reason")},
         "other readings": "; ".join(readings),
         "computed by": row.source,
         "library calls": "; ".join(row.calls),

@@ -10,11 +10,20 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
+from html import escape
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from stackbounce.cross2007.bench import CLAIMS, Bench
+from stackbounce.cross2007.checks import SCALES
+from stackbounce.cross2007.pages import data_uri
+from stackbounce.shown import Shown
+from stackbounce.version import __version__
+
 if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -27,16 +36,22 @@ GREY = "#6b6b6b"
 
 WIDTH = 4.2  # inches
 _FEATURE = ("what", "paper", "here")
+_FILES: dict[str, Any] = {
+    "svg": {"metadata": {"Date": None, "Creator": None}},
+    "png": {"dpi": 300, "metadata": {"Software": None}},
+}
 _BRACKET = 0.75  # height of a bracket in its axes
 
 
-@dataclass(frozen=True, eq=False)
-class Picture:
-    """A recomputed figure.
+@dataclass(frozen=True, eq=False, repr=False)
+class Picture(Shown):
+    """A recomputed figure, which shows itself in a notebook.
 
     ``name`` is the paper's number (``"2a"``), ``guesses`` are assumptions where the paper gives no
     value, and ``features`` compares the figure with the text: each has `what` it is, as the `paper`
-    reports it, and as the model gives it `here`.
+    reports it, and as the model gives it `here`. ``picture`` is matplotlib's Figure, whose `axes`
+    take more curves. ``data`` is an xarray Dataset of the curves, with units; its variables
+    ``known_…`` are what the paper's text gives: points, or lines across or along the figure.
     """
 
     name: str
@@ -44,7 +59,32 @@ class Picture:
     caption: str
     guesses: tuple[str, ...]
     features: tuple[dict[str, str], ...]
-    figure: "Figure"
+    picture: "Figure"
+    data: Any = None
+
+    @property
+    def table(self) -> "pd.DataFrame":
+        """The features that the paper's text reports, as it has them and as computed here."""
+        import pandas as pd
+
+        return pd.DataFrame(list(self.features), columns=list(_FEATURE)).set_index("what")
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What is guessed."""
+        return tuple(f"Guessed: {guess}" for guess in self.guesses)
+
+    def __repr__(self) -> str:
+        """The words of the figure, and the table."""
+        return f"Figure {self.name}: {self.title}\n{self.caption}\n{super().__repr__()}"
+
+    def _repr_html_(self) -> str:
+        """The figure with its words, for a notebook."""
+        title = escape(f"Figure {self.name}: {self.title}")
+        source = data_uri(render(self.picture, "svg")["svg"])
+        image = f'<img src="{source}" alt="{title}" style="background: #fff">'
+        words = f"<p><b>{title}.</b> {escape(self.caption)}</p>"
+        return f"{image}{words}{super()._repr_html_()}"
 
 
 def describe(name: str, figure: "Figure", **numbers: object) -> Picture:
@@ -61,6 +101,30 @@ def describe(name: str, figure: "Figure", **numbers: object) -> Picture:
         ),
         figure,
     )
+
+
+def data_of(bench: Bench, name: str) -> "xr.Dataset":
+    """Return the curves that the bench has recorded of a figure, and the points of the text."""
+    import xarray as xr
+
+    first = next(iter(bench.curves[0].values()))
+    data = xr.concat(bench.curves, str(first.dims[0]), combine_attrs="drop_conflicts").squeeze()
+    known = [[_place(bench, key) for key in point] for point in read_words()[name].get("known", ())]
+    if known:
+        data = data.assign_coords(known=["".join(what for what, _ in point) for point in known])
+    for axis, column in zip((data[first.dims[-1]], first), zip(*known, strict=True), strict=False):
+        data[f"known_{axis.name}"] = "known", [place for _, place in column], axis.attrs
+    return data.assign_attrs(stackbounce=__version__)
+
+
+def _place(bench: Bench, key: str | float) -> tuple[str, float]:
+    """Return words for a number that the paper gives and its SI value; or no words and a place."""
+    if not isinstance(key, str):
+        return "", key
+    if key in bench.data:
+        return bench.data[key].what, bench(key)
+    claim = CLAIMS[key]
+    return claim.what, float(claim.digits) * SCALES[claim.unit]
 
 
 @cache
@@ -158,15 +222,12 @@ def tag(
     )
 
 
-def render(figure: "Figure") -> dict[str, bytes]:
+def render(figure: "Figure", *endings: str) -> dict[str, bytes]:
     """Return a figure as bytes of an SVG and a PNG file; equal figures give equal bytes."""
     images = {}
     with use_style():
-        for ending, options in (
-            ("svg", {"metadata": {"Date": None, "Creator": None}}),
-            ("png", {"dpi": 300, "metadata": {"Software": None}}),
-        ):
+        for ending in endings or _FILES:
             buffer = io.BytesIO()
-            figure.savefig(buffer, format=ending, **options)
+            figure.savefig(buffer, format=ending, **_FILES[ending])
             images[ending] = buffer.getvalue()
     return images

@@ -4,6 +4,7 @@ The paper's errors are propagated by `uncertainties`.
 """
 
 from dataclasses import dataclass
+from html import escape
 from math import pi, sqrt
 from typing import TYPE_CHECKING
 
@@ -12,8 +13,10 @@ from stackbounce.cross2007.checks import Compute
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.cross2007.stacks import heavier_b1, hollow_pair
 from stackbounce.measure.constants import dynamic_stiffness
+from stackbounce.shown import Shown
 
 if TYPE_CHECKING:
+    import pandas as pd
     from uncertainties import UFloat
 
 PAIRS = (
@@ -104,8 +107,8 @@ READINGS: dict[str, tuple[Compute, ...]] = {
 }
 
 
-@dataclass(frozen=True)
-class Table:
+@dataclass(frozen=True, repr=False)
+class Table(Shown):
     """A recomputed table as text: its number, title, column heads, rows and notes."""
 
     name: str
@@ -113,6 +116,21 @@ class Table:
     head: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     notes: tuple[str, ...]
+
+    @property
+    def table(self) -> "pd.DataFrame":
+        """The rows, by their first cell."""
+        import pandas as pd
+
+        return pd.DataFrame(list(self.rows), columns=list(self.head)).set_index(self.head[0])
+
+    def __repr__(self) -> str:
+        """The table with its title and its notes."""
+        return f"Table {self.name}: {self.title}\n{super().__repr__()}"
+
+    def _repr_html_(self) -> str:
+        """The table with its title and its notes, for a notebook."""
+        return f"<p><b>Table {self.name}: {escape(self.title)}</b></p>{super()._repr_html_()}"
 
 
 def make_table_one(bench: Bench) -> Table:

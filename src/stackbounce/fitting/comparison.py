@@ -216,7 +216,7 @@ def compare(models: Mapping[str, FitProblem], data: Any, **options: Any) -> Comp
     data : mapping
         What was measured, as `fit` takes it.
     **options
-        The options of `fit`: `starts`, `seed`, `rtol`, `progress`.
+        The options of `fit`: `starts`, `rng`, `rtol`, `progress`.
 
     Returns
     -------

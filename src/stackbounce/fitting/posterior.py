@@ -8,7 +8,7 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, shown, whole
 from stackbounce.fitting.objective import Objective
-from stackbounce.run.options import check_room
+from stackbounce.run.options import check_room, seed_of
 from stackbounce.run.paths import identifier
 from stackbounce.run.quantities import Array
 
@@ -44,7 +44,7 @@ class Posterior:
     acceptance : float
         The acceptance fraction of the steps; 0.2 to 0.5 is usual.
     seed : int
-        The seed of the random numbers.
+        The seed of the random numbers, as given or as drawn from a Generator.
     unsolved : int
         The number of runs that did not finish; there are no draws at their places.
     others : int
@@ -62,7 +62,7 @@ class Posterior:
     >>> import stackbounce as sb
     >>> drop = sb.Drop([sb.Ball(0.0567)], [sb.Spring(1e4)], height=0.3)
     >>> found = sb.fit(drop, {"durations.0": "5.0 ± 0.1 ms"}, vary=["contacts.0.stiffness"])
-    >>> posterior = found.sample(6400, seed=1)
+    >>> posterior = found.sample(6400, rng=1)
     >>> 0.9 < posterior["contacts.0.stiffness"].std_dev / 900.0 < 1.1
     True
     """
@@ -109,20 +109,15 @@ class Posterior:
         """Return the draws (chain, draw) of each parameter in SI units, and `lp`, as ArviZ reads.
 
         The path ``gaps.0`` becomes the name ``gaps_0``.
-
         ``arviz.convert_to_inference_data(posterior.to_dataset())`` has diagnostics and pictures.
         """
         import xarray as xr
 
         dims = ("chain", "draw")
-        columns = {
-            identifier(name): (
-                dims,
-                self.chain[:, :, k].T,
-                {"units": self.units[name], "path": name},
-            )
-            for k, name in enumerate(self.names)
-        }
+        columns = {}
+        for k, name in enumerate(self.names):
+            attributes = {"units": self.units[name], "path": name}
+            columns[identifier(name)] = dims, self.chain[:, :, k].T, attributes
         return xr.Dataset({**columns, "lp": (dims, self.log_probability.T)})
 
     def quantiles(self, name: str, at: Any = (0.159, 0.5, 0.841)) -> Array:
@@ -172,7 +167,7 @@ class Posterior:
         return tuple(found)
 
 
-def sample(fit: "Fit", draws: int, *, seed: int = 0, progress: Any = None) -> Posterior:
+def sample(fit: "Fit", draws: int, *, rng: Any = 0, progress: Any = None) -> Posterior:
     """Return draws from the posterior distribution of the parameters.
 
     Parameters
@@ -181,8 +176,9 @@ def sample(fit: "Fit", draws: int, *, seed: int = 0, progress: Any = None) -> Po
         Around whose best values the walkers start.
     draws : int
         The number of draws of all walkers, burn-in included.
-    seed : int, optional
-        The seed of the random numbers: the same seed gives the same draws.
+    rng : int, numpy.random.Generator or the like, optional
+        Of the random numbers, as `numpy.random.default_rng` takes it: the same number gives the
+        same draws, and a Generator others each time. `Posterior.seed` repeats them.
     progress : callable, optional
         Called with the number of draws done and the number of all draws.
 
@@ -204,7 +200,8 @@ def sample(fit: "Fit", draws: int, *, seed: int = 0, progress: Any = None) -> Po
     walkers = max(least, 2 * (whole("draws", draws, 20 * least, _MOST_DRAWS) // (2 * _STEPS)))
     steps = draws // walkers
     check_room(_NUMBERS * (size + 1) * draws, f"{draws} draws", "take fewer")
-    random = np.random.RandomState(whole("seed", seed, 0, 2**32 - 1))
+    seed = seed_of(rng)
+    random = np.random.RandomState(seed)
     before = objective.unsolved.total()
     sampler = emcee.EnsembleSampler(
         walkers, size, _log_probability(objective), vectorize=True, moves=emcee.moves.DEMove()

@@ -16,6 +16,7 @@ from stackbounce.fitting.result import Fit
 from stackbounce.fitting.ties import read_ties
 from stackbounce.model import Drop
 from stackbounce.prediction.draws import Progress
+from stackbounce.run.options import seed_of
 from stackbounce.run.paths import value_in
 
 _MOST_STARTS = 1_000_000
@@ -150,7 +151,7 @@ class FitProblem:
         self,
         *,
         starts: int | None = None,
-        seed: int = 0,
+        rng: Any = 0,
         rtol: float | None = None,
         progress: Progress | None = None,
     ) -> Fit:
@@ -160,8 +161,8 @@ class FitProblem:
         ----------
         starts : int, optional
             The number of trials that are screened before the best of them are followed.
-        seed : int, optional
-            The seed of their places.
+        rng : int, numpy.random.Generator or the like, optional
+            Of their places, as `numpy.random.default_rng` takes it.
         rtol : float, optional
             Another relative tolerance than that of the problem.
         progress : callable, optional
@@ -179,12 +180,12 @@ class FitProblem:
         accuracy = self.rtol if rtol is None else between("rtol", rtol, 1e-14, 1e-3)
         objective = replace(self.objective, rtol=accuracy)  # with its own count of unsolved runs
         count = None if starts is None else whole("starts", starts, 1, _MOST_STARTS)
-        first, start = _first_trial(objective), whole("seed", seed, 0)
+        first, seed = _first_trial(objective), seed_of(rng)
         expected = expected_trials(objective, count)
         course = objective.course
         try:
             with course.reported(progress, expected):
-                minima = find_minima(objective, first[None], count, start)
+                minima = find_minima(objective, first[None], count, seed)
         except KeyboardInterrupt as stopped:
             if course.best is None:
                 raise
@@ -226,7 +227,7 @@ def fit(
     *,
     tie: Any = None,
     starts: int | None = None,
-    seed: int = 0,
+    rng: Any = 0,
     rtol: float = _RTOL,
     progress: Progress | None = None,
 ) -> Fit:
@@ -254,8 +255,8 @@ def fit(
     starts : int, optional
         The number of trials that are screened before descents start at the best of them; default
         128 per parameter, 1024 at most.
-    seed : int, optional
-        The seed of their places.
+    rng : int, numpy.random.Generator or the like, optional
+        Of their places, as `numpy.random.default_rng` takes it.
     rtol : float, optional
         The relative tolerance of each run if the contact laws are not linear.
     progress : callable, optional
@@ -298,7 +299,7 @@ def fit(
     (1.48+/-0.06)e+03 N/m
     """
     problem = FitProblem(drop, data, vary, tie, rtol)
-    return problem.fit(starts=starts, seed=seed, progress=progress)
+    return problem.fit(starts=starts, rng=rng, progress=progress)
 
 
 def _read_drops(drops: object) -> dict[str, Drop]:

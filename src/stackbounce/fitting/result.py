@@ -280,7 +280,7 @@ class Fit(Shown):
         draws : int, optional
             The number of draws of all walkers; the first quarter is discarded as burn-in.
         **options
-            ``seed``, and ``progress``, a function that is called with the number of draws done and
+            ``rng``, and ``progress``, a function that is called with the number of draws done and
             the number of all draws.
 
         Returns
@@ -357,7 +357,7 @@ class Fit(Shown):
         >>> import stackbounce as sb
         >>> drop = sb.Drop([sb.Ball(0.0567)], [sb.Spring(1e4)], height=0.3)
         >>> found = sb.fit(drop, {"durations.0": "5.0 ± 0.1 ms"}, vary=["contacts.0.stiffness"])
-        >>> drawn = found.draws(found.sample(6400, seed=1))
+        >>> drawn = found.draws(found.sample(6400, rng=1))
         >>> sb.sweep(drop, {path: ("draw", x) for path, x in drawn.items()}).sizes["draw"]
         4800
         """

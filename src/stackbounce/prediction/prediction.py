@@ -15,7 +15,7 @@ from stackbounce.prediction.draws import DRAWS, Progress, Slopes, differentiate,
 from stackbounce.prediction.inputs import FEWEST, read_inputs
 from stackbounce.prediction.result import Prediction
 from stackbounce.run.driver import solve_one
-from stackbounce.run.options import Options, run_options
+from stackbounce.run.options import Options, run_options, seed_of
 from stackbounce.run.result import ROUND_OFF
 
 _MOST = 10_000_000  # draws
@@ -32,7 +32,7 @@ def predict(
     rtol: float = 1e-12,
     event_limit: int = 1_000_000,
     draws: int | None = None,
-    seed: int = 0,
+    rng: Any = 0,
     progress: Progress | None = None,
 ) -> Prediction:
     """Run a drop whose numbers have errors; return speeds, times and energy with errors.
@@ -53,8 +53,9 @@ def predict(
         have their own number. All draws together may cost what takes up to half a minute, and more
         where more draws or a larger `event_limit` are asked for. If they cost more, fewer are run,
         and a note says so.
-    seed : int, optional
-        Of the random numbers: the same seed gives the same draws, bit for bit.
+    rng : int, numpy.random.Generator or the like, optional
+        Of the random numbers, as `numpy.random.default_rng` takes it: the same number gives the
+        same draws, bit for bit, and a Generator others each time.
     progress : callable, optional
         Is called with the number of draws done and the number of all.
 
@@ -94,7 +95,7 @@ def predict(
     inputs = read_inputs(drop, errors)
     count = _default_draws(inputs.drop, options) if draws is None else draws
     count = whole("draws", count, FEWEST, _MOST)
-    drawn, refused, share = inputs.draw(count, whole("seed", seed, 0, 2**32 - 1))
+    drawn, refused, share = inputs.draw(count, seed_of(rng))
     reason = "draws were given" if inputs.given else ""
     if share > _FEW and not reason:
         reason = f"numbers within the errors are not possible and left out: {refused}"

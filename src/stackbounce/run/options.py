@@ -2,12 +2,16 @@
 
 import math
 import os
-from typing import NamedTuple
+from numbers import Integral
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from stackbounce.engine.work import EVENT_LIMIT, WORK_LIMIT
 from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown, whole
 from stackbounce.model import Drop
 
+_SEEDS = 2**32
 _MOST_BALLS = 2000  # the arrays for normal modes and queues grow with the number of balls
 _MOST_EVENTS = 10**18  # the range of a 64-bit counter
 _USUAL = 16 * 10**9  # bytes of memory, where it is not known
@@ -35,6 +39,35 @@ def run_options(drop: object, until: object, rtol: object, event_limit: object) 
         event_limit=events,
         work_limit=min(WORK_LIMIT * max(events, EVENT_LIMIT) // EVENT_LIMIT, _MOST_EVENTS),
     )
+
+
+def seed_of(rng: Any) -> int:
+    """Return a whole number itself, and the seed that is drawn from any other source of numbers.
+
+    Parameters
+    ----------
+    rng : int, numpy.random.Generator, or what `numpy.random.default_rng` takes
+        A Generator gives another seed each time; None one that nobody can foretell.
+
+    Raises
+    ------
+    InvalidValue
+        If a seed has more than 32 bits, or is negative.
+    InvalidType
+        If it is no source of random numbers.
+
+    Examples
+    --------
+    >>> seed_of(3), seed_of(np.random.default_rng(3))
+    (3, 3485385464)
+    """
+    if isinstance(rng, Integral):
+        return whole("the seed", rng, 0, _SEEDS - 1)
+    try:
+        return int(np.random.default_rng(rng).integers(_SEEDS))
+    except (TypeError, ValueError) as error:
+        message = f"rng must be a whole number or a Generator of numpy, got {shown(rng)}"
+        raise InvalidType(message) from error
 
 
 def check_room(numbers: int, what: str, way: str) -> None:
