@@ -288,6 +288,18 @@ def handy(most: float, unit: str) -> tuple[str, float]:
     return next(((name, by) for start, name, by in choices if most >= start), (unit, 1.0))
 
 
+def handy_text(value: float, unit: str) -> str:
+    """Return a number with six digits in the unit in which it is handy.
+
+    Examples
+    --------
+    >>> handy_text(0.15, "kg"), handy_text(0.002, "m"), handy_text(2500.0, "N/m")
+    ('150 g', '2 mm', '2500 N/m')
+    """
+    name, by = handy(abs(value), unit)
+    return f"{by * value:.6g} {name.replace('**', '^')}".strip()
+
+
 def rounded(values: Iterable[float], error: float) -> list[str]:
     """Return numbers as texts that end where an error of theirs has two digits.
 

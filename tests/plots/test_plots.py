@@ -194,7 +194,7 @@ def test_small_maps_fill_their_axes(shape, show):
         (lambda ds: plots.heatmap(ds, axes=plt.subplots(2)[1]), "axes must be 1 Axes of matplot"),
         (
             lambda ds: plots.heatmap(ds, axes="left"),
-            "axes must be 1 Axes of matplotlib, got 'left'",
+            "axes must be 1 Axes of matplotlib, got 0",
         ),
     ],
 )

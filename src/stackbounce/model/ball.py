@@ -1,10 +1,12 @@
 """A ball: its mass and, where needed, its diameter, elastic constants and name."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
 from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown
-from stackbounce.units import Unit, in_unit
+from stackbounce.shown import Shown, Table, call_of
+from stackbounce.units import Unit, handy_text, in_unit
 
 _POSITIVE = (
     ("mass", "kg", "kilograms"),
@@ -14,7 +16,7 @@ _POSITIVE = (
 
 
 @dataclass(frozen=True)
-class Ball:
+class Ball(Shown):
     """One ball of a stack; its numbers are SI, or texts or quantities of pint with a unit.
 
     Parameters
@@ -53,6 +55,8 @@ class Ball:
     young_modulus: Annotated[float, Unit("Pa")] | None = None
     poisson_ratio: Annotated[float, Unit()] | None = None
 
+    __repr__ = call_of
+
     def __post_init__(self) -> None:
         for name, unit, words in _POSITIVE:
             value = getattr(self, name)
@@ -64,6 +68,12 @@ class Ball:
         if self.poisson_ratio is not None:
             ratio = _poisson_ratio(in_unit(self.poisson_ratio, "", "poisson_ratio"))
             object.__setattr__(self, "poisson_ratio", ratio)
+
+    def _tables(self) -> Sequence[Table]:
+        units = {**{name: unit for name, unit, _ in _POSITIVE}, "poisson_ratio": ""}
+        known = {name: value for name in units if (value := getattr(self, name)) is not None}
+        rows = [(name.replace("_", " "), handy_text(x, units[name])) for name, x in known.items()]
+        return (Table(self.name or "Ball", ("", ""), rows),)
 
 
 def _poisson_ratio(value: object) -> float:

@@ -16,8 +16,10 @@ from stackbounce.errors import (
     shown,
 )
 from stackbounce.model.ball import Ball
+from stackbounce.model.drawing import draw_stack, label
 from stackbounce.model.laws import LAWS, ContactLaw
-from stackbounce.units import Unit, in_unit
+from stackbounce.shown import Shown, Table
+from stackbounce.units import Unit, handy_text, in_unit
 
 if TYPE_CHECKING:
     from stackbounce.explorer.notebook import ExplorerFrame
@@ -26,11 +28,12 @@ STANDARD_GRAVITY = 9.80665
 """Standard gravity in m/s**2, for the fall from `height` if `gravity` is 0."""
 
 _MOST_ITEMS = 100_000  # far more than can be run: an endless sequence ends with an error
+_FEW = 6  # velocities that are written
 _INCIDENCE = ("impact_speed", "height", "velocities")
 
 
-@dataclass(frozen=True)
-class Drop:
+@dataclass(frozen=True, repr=False)
+class Drop(Shown):
     """A falling stack of balls at t = 0, when the lowest ball touches the floor.
 
     Its numbers are SI, or texts or quantities of pint with a unit.
@@ -170,6 +173,36 @@ class Drop:
     def rigid(self) -> bool:
         """Return whether every contact is `Rigid`, so that the drop is a sequence of collisions."""
         return all(law.rigid for law in self.contacts if law is not None)
+
+    @property
+    def incidence(self) -> str:
+        """How the balls come in, in words: the height or the speed, and gravity.
+
+        Examples
+        --------
+        >>> from stackbounce.model.laws import Rigid
+        >>> Drop([Ball(0.057)], [Rigid(0.8)], height=0.63, gravity=9.81).incidence
+        'from 0.63 m, at 3.516 m/s, with gravity 9.81 m/s²'
+        """
+        fall = f"from {handy_text(self.height, 'm')}, " if self.height is not None else ""
+        speeds = [f"{velocity:.4g}" for velocity in self.velocities or ()]
+        listed = ", ".join([*speeds[:_FEW], *["…"] * (len(speeds) > _FEW)])
+        came = f"coming in at {listed}" if listed else f"at {self.reference_speed:.4g}"
+        gravity = f", with gravity {self.gravity:.6g} m/s²" if self.gravity else ""
+        return f"{fall}{came} m/s{gravity}"
+
+    def _tables(self) -> Sequence[Table]:
+        rows = [("floor", "")] if self.contacts[0] is not None else []
+        for i, (ball, law) in enumerate(zip(self.balls, self.contacts, strict=True)):
+            gap = f", gap {handy_text(self.gaps[i - 1], 'm')}" if i and self.gaps[i - 1] else ""
+            if law is not None:
+                rows.append((f"  contact {i}", law.described() + gap))
+            size = f", {handy_text(ball.diameter, 'm')}" if ball.diameter else ""
+            rows.append((label(ball.name, i), handy_text(ball.mass, "kg") + size))
+        return (Table(f"Drop {self.incidence}", ("", ""), rows[::-1]),)
+
+    def _drawing(self) -> str:
+        return draw_stack(self.balls, self.gaps, floor=self.contacts[0] is not None)
 
     @classmethod
     def from_mapping(cls, mapping: Mapping[str, Any]) -> "Drop":

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.model.drawing import meeting
 from stackbounce.plots.style import WIDTH, check_kind, color_of, panels, written
 from stackbounce.run.result import Result
 
@@ -170,7 +171,7 @@ def _draw_contacts(
     for i, law in enumerate(result.drop.contacts):
         if law is None:
             continue
-        color, name = color_of(i), _between(result, i)
+        color, name = color_of(i), written(meeting(result.drop.balls, i))
         if law.rigid:
             rows = result.intervals[result.intervals["contact"] == i]
             name += f" ({_count(int(result.collisions[i]))})"
@@ -189,13 +190,6 @@ def _count(collisions: int) -> str:
     if collisions < 0:
         return "infinitely many"
     return "once" if collisions == 1 else f"{collisions} times"
-
-
-def _between(result: Result, contact: int) -> str:
-    """Return the words for a contact, such as ``floor and basketball``."""
-    names = [written(ball.name or f"ball {b}") for b, ball in enumerate(result.drop.balls)]
-    lower = "floor" if contact == 0 else names[contact - 1]
-    return f"{lower} and {names[contact]}"
 
 
 def _summary(result: Result) -> str:

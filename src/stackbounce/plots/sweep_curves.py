@@ -30,10 +30,7 @@ _MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 
 
 def lines(
-    data: "xr.Dataset",
-    show: str = "rebound_ratio",
-    index: int | None = None,
-    axes: "Axes | None" = None,
+    data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = None, axes: Any = None
 ) -> "Figure":
     """Draw a sweep of one parameter: a line for each ball or each contact.
 
@@ -91,10 +88,7 @@ def lines(
 
 
 def heatmap(
-    data: "xr.Dataset",
-    show: str = "rebound_ratio",
-    index: int = -1,
-    axes: "Axes | None" = None,
+    data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1, axes: Any = None
 ) -> "Figure":
     """Draw a sweep of two parameters as a map: contours, or discrete colors for counts.
 
@@ -136,7 +130,7 @@ def heatmap(
     if part:
         title += f" of {name_of(data, part, _index(own, part, index))}"
         own = own.isel({part: index})
-    with panels((6.4, 4.8), axes, style={"axes.grid": False}) as (figure, (axes,)):
+    with panels((6.4, 4.8), axes) as (figure, (axes,)):
         axes.grid(visible=False)
         x, y = read_scale(data, across), read_scale(data, up)
         label(axes, "x", path_of(data, across), x)
@@ -239,9 +233,8 @@ def _prepared(
     if len(dims) != count:
         right = "one dimension" if count == 1 else "two dimensions"
         got = ", ".join(map(str, dims)) or "none"
-        plot = {1: "lines", 2: "highest" if "height_ratio" in data else "heatmap"}.get(len(dims))
-        or_draw = f", or draw it by plots.{plot}" if plot else ""
-        choose = "choose with data.sel or data.isel" + or_draw
+        plots = {1: "lines", 2: "highest" if "height_ratio" in data else "heatmap"}
+        choose = f"choose with data.sel or data.isel, or see plots.{plots.get(len(dims), 'lines')}"
         raise InvalidValue(f"data must have {right}, got {got}: {choose}")
     numeric = [dim for dim in dims if dim in data.coords and data[dim].dtype.kind in "iuf"]
     data = data.sortby(numeric)
@@ -268,7 +261,7 @@ def name_of(data: "xr.Dataset", part: str, index: int) -> str:
     return f"{part} {index}" + (f" ({own})" if own else "")
 
 
-def highest(data: "xr.Dataset", axes: "Axes | None" = None) -> "Figure":
+def highest(data: "xr.Dataset", axes: Any = None) -> "Figure":
     """Draw the rebound height of the top ball for the best stacks, for each gap.
 
     Parameters

@@ -14,7 +14,10 @@ from stackbounce.engine import codes
 from stackbounce.engine.ratios import energy_kept
 from stackbounce.errors import InvalidType, InvalidValue, finite, shown, unmasked
 from stackbounce.model import Drop
+from stackbounce.model.drawing import label, meeting
+from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.run.conditioning import amplification, known_until
+from stackbounce.shown import Shown, Table
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
@@ -102,8 +105,8 @@ _ADVICE = {
 }
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Result:
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
+class Result(Shown):
     """The result of a run; made by `simulate`.
 
     It holds the log of events, not the motion between them: `sample`, and `apexes` by it, repeat
@@ -170,6 +173,34 @@ class Result:
         'a limit was met, because masses or stiffnesses are of very different sizes, '
         """
         return self.cause.advice if self.cause else self.status.advice
+
+    def _tables(self) -> Sequence[Table]:
+        drop, speed = self.drop, self.rebound_speeds
+        heights = 0.5 * speed * abs(speed) / (drop.gravity or STANDARD_GRAVITY)
+        numbers = (drop.start_velocities, speed, self.rebound_ratios, heights)
+        times_ms = (1e3 * self.first_touch, 1e3 * self.last_release)
+        balls = [
+            (label(drop.balls[i].name, i), *map(_short, own))
+            for i, own in enumerate(zip(*numbers, strict=True))
+        ]
+        contacts = [
+            (meeting(drop.balls, i), "∞" if count < 0 else str(count), *map(_short, own))
+            for i, (count, *own) in enumerate(zip(self.collisions, *times_ms, strict=True))
+        ]
+        speeds = ("upward speeds", "before m/s", "after m/s", "after/v0", "height m")
+        times = ("contact", "collisions", "first touch ms", "last release ms")
+        first = Table(f"Result of a drop {drop.incidence}", speeds, balls[::-1])
+        return first, Table("", times, contacts[::-1])
+
+    def _drawing(self) -> str:
+        return self.drop._drawing()
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """The share of the energy that is left, and what the status means unless all is well."""
+        kept = f"energy retained: {100.0 * self.energy_retained:.4g} %"
+        well = self.status is Status.FINISHED
+        return (kept,) if well else (kept, f"{self.status.name}: {self.advice}")
 
     @functools.cached_property
     def rebound_speeds(self) -> NDArray[np.float64]:
@@ -461,3 +492,7 @@ def _numbers(times: object) -> NDArray[np.float64]:
 def _frozen(array: NDArray[Any]) -> NDArray[Any]:
     array.flags.writeable = False
     return array
+
+
+def _short(number: float) -> str:
+    return "–" if math.isnan(number) else f"{number:.4g}".replace("inf", "∞")

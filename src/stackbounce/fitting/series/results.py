@@ -27,7 +27,7 @@ from stackbounce.fitting.series.series import make_series, why_not
 from stackbounce.fitting.series.table import read_table
 from stackbounce.json_values import plain
 from stackbounce.model.laws import LAWS, law_named
-from stackbounce.shown import Shown
+from stackbounce.shown import Shown, Table
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
@@ -80,6 +80,9 @@ class SeriesFit(Shown):
 
         tables = {found.series.title: found.table for found in self.comparisons}
         return pd.concat(tables, names=["ball"]) if tables else pd.DataFrame()
+
+    def _tables(self) -> Sequence[Table]:
+        return [table for found in self.comparisons for table in found._tables()]
 
     def as_dict(self) -> dict[str, Any]:
         """Return everything as plain values, for JSON."""

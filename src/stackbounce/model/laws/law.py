@@ -2,7 +2,7 @@
 
 import functools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from numbers import Real
 from types import MappingProxyType
@@ -22,6 +22,7 @@ from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, between, positive
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import rising_root
+from stackbounce.shown import Shown, Table, call_of
 from stackbounce.units import Unit, in_unit, unit_of
 
 STEEPEST = 1e6
@@ -107,7 +108,7 @@ Flanks: TypeAlias = tuple[Flank, Flank]
 _Law = TypeVar("_Law", bound="ContactLaw")
 
 
-class ContactLaw:
+class ContactLaw(Shown):
     """The base class of all contact laws: the attributes and methods that the package uses.
 
     A law is a frozen dataclass; the hint of each parameter holds a `Quantity`. The class must set
@@ -159,6 +160,9 @@ class ContactLaw:
     if TYPE_CHECKING:  # fields differ from law to law
 
         def __getattr__(self, name: str) -> Any: ...
+
+    def __repr__(self) -> str:
+        return call_of(self, self.derived_field())
 
     def __post_init__(self) -> None:
         for name, number in self.quantities().items():
@@ -235,12 +239,25 @@ class ContactLaw:
         >>> HuntCrossley(3e6, 1.5, dissipation=0.15).described()
         'HuntCrossley, stiffness 3e+06 N/m^1.5, exponent 1.5, dissipation 0.15 s/m'
         """
-        words = [type(self).__name__]
+        return ", ".join([type(self).__name__, *map(" ".join, self._described_numbers())])
+
+    def _described_numbers(self) -> list[tuple[str, str]]:
+        """Return the name of each number in words, and the number with its unit."""
+        found = []
         for name in self._described_fields():
             digits = ".4g" if name == "restitution" else ".6g"
             unit = self.units()[name].replace("**", "^")
-            words.append(f"{name.replace('_', ' ')} {getattr(self, name):{digits}} {unit}".strip())
-        return ", ".join(words)
+            found.append((name.replace("_", " "), f"{getattr(self, name):{digits}} {unit}".strip()))
+        return found
+
+    def _tables(self) -> Sequence[Table]:
+        numbers = self._described_numbers()
+        return (Table(type(self).__name__ if numbers else self.described(), ("", ""), numbers),)
+
+    @property
+    def remarks(self) -> Sequence[str]:
+        """The formula of the law, for a notebook."""
+        return (self.formula,)
 
     def _described_fields(self) -> list[str]:
         return list(self.quantities())

@@ -35,7 +35,7 @@ Piece = tuple[float, float, float, float]
 
 
 @register
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Tabulated(ContactLaw):
     """A law from measured points, such as those of a press curve: force over compression.
 
