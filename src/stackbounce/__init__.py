@@ -5,11 +5,12 @@
 # program handles Ctrl+C.
 _ROOMS = {
     "errors": "StackbounceError",
+    "explorer.notebook": "explore",
     "fitting": "Fit Model Range compare fit standard_models",
     "fitting.series": "fit_series",
     "measure": "read",
     "model": "Air Ball Bond Dashpot Drop Hertz HollowBall HuntCrossley Hysteretic PowerLaw Rigid "
-    "RigidBySpeed RigidLossBySpeed Spring StandardLinearSolid Tabulated Viscoelastic series",
+    "RigidBySpeed RigidLossBySpeed Spring StandardLinearSolid Tabulated Viscoelastic laws series",
     "model.catalogue": "balls stack",
     "prediction": "Prediction predict",
     "run.bounces": "bounces_in_air",
@@ -25,7 +26,7 @@ _HOMES = {name: room for room, names in _ROOMS.items() for name in names.split()
 __all__ = list(_HOMES)
 
 _FIRST = (  # what `dir` shows
-    "Ball Drop Hysteretic Rigid Spring balls calibrate compare cross2007 datasets fit "
+    "Ball Drop Hysteretic Rigid Spring balls calibrate compare cross2007 datasets explore fit "
     "measure plots predict read separate simulate stack sweep"
 ).split()
 

@@ -77,7 +77,7 @@ def test_every_public_name_is_documented():
     api = read("docs/api.md")
     rooms = set(stackbounce.__all__) | set(measure.__all__) | set(plots.__all__)
     entries = re.findall(r"^.. auto(?:class|function|exception|data):: (\w+)$", api, re.MULTILINE)
-    assert set(entries) == rooms - {"__version__"}
+    assert set(entries) == rooms - {"__version__", "laws"}  # a module: its members have entries
 
 
 @pytest.mark.parametrize(

@@ -22,6 +22,9 @@ from stackbounce.model.laws import LAWS, ContactLaw
 from stackbounce.shown import Shown, Table
 from stackbounce.units import Unit, checked, handy_text, in_unit
 
+if TYPE_CHECKING:
+    from stackbounce.explorer.notebook import ExplorerFrame
+
 STANDARD_GRAVITY = 9.80665
 """Standard gravity in m/s**2, for the fall from `height` if `gravity` is 0."""
 
@@ -329,6 +332,33 @@ class Drop(Shown):
         from stackbounce.model.toml import write_toml
 
         return write_toml(self.to_mapping())
+
+    def explore(self, *, height: int = 640) -> "ExplorerFrame":
+        """Return the explorer with this drop for the last line of a notebook's cell.
+
+        Parameters
+        ----------
+        height : int, optional
+            The height of the frame in px.
+
+        Returns
+        -------
+        ExplorerFrame
+
+        Raises
+        ------
+        InvalidValue
+            If the explorer cannot show the drop, see `stackbounce.explore`.
+
+        Examples
+        --------
+        >>> from stackbounce.model.laws import Spring
+        >>> Drop([Ball(0.057)], [Spring(22500)], height=1.0).explore()
+        <the explorer with 1 ball: a notebook shows it as the last line of a cell>
+        """
+        import stackbounce  # by its public name: the model knows nothing of the explorer
+
+        return stackbounce.explore(self, height=height)
 
 
 def _check_balls(balls: tuple[object, ...]) -> None:

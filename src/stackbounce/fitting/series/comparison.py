@@ -203,7 +203,7 @@ def format_p(value: float) -> str:
 
 
 def compare_laws(
-    series: Series, without_air: Series | None = None, laws: Collection[str] = tuple(LAWS)
+    series: Series, without_air: Series | None = None, laws: Collection[str] = LAWS
 ) -> Comparison:
     """Return how well laws follow a series.
 

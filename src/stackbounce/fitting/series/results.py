@@ -98,7 +98,7 @@ class SeriesFit(Shown):
 def fit_series(
     source: File,
     *,
-    laws: Collection[str] = tuple(LAWS),
+    laws: Collection[str] | None = None,
     errors: Sequence[str] = (),
     mass: float | None = None,
     diameter: float | None = None,
@@ -115,7 +115,7 @@ def fit_series(
         A table, as `read_table` reads it, or its name and content; or ``dataset:NAME``, a published
         data set, or ``dataset:all``.
     laws : collection of str, optional
-        The names of the laws; by default all.
+        The names of the laws; by default all, your own with them.
     errors : sequence of str, optional
         Errors of numbers that have none, such as ``"5 mm"`` or ``"drop height = 2 mm"``.
     mass, diameter : float, optional
@@ -142,7 +142,7 @@ def fit_series(
     >>> [f"{limit:.3f}" for limit in found.outcomes[0].interval()]
     ['0.734', '0.738']
     """
-    laws = [law_named(law).__name__ for law in laws]
+    laws = [law_named(law).__name__ for law in (LAWS if laws is None else laws)]
     name = str(source)
     if not name.startswith(PREFIX):
         table = read_table(source, errors, mass=mass, diameter=diameter)

@@ -37,6 +37,7 @@ EngineNumbers: TypeAlias = tuple[int, Any, Any, Any, Any]
 _MEASURED = ("mass", "impact_speed", "contact_time", "exponent")
 _LOSSLESS = 1.0 - 1e-11  # a smaller loss is not told from round-off in a simulation
 _FAR = 1e6  # times the largest one of its slider: the largest loss that a calibration tries
+_LEAST = 1e-3  # times the same: where the search begins if the slider begins at 0
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
@@ -60,7 +61,18 @@ class Quantity(Unit):
 
 
 def stiffness_in(unit: str) -> Quantity:
-    """Return the `Quantity` of a stiffness in ``unit``: N/m, or N/m**p of a power law."""
+    """Return the `Quantity` of a stiffness.
+
+    Parameters
+    ----------
+    unit : str
+        ``N/m``, or such as ``N/m**1.5`` of a power law.
+
+    Examples
+    --------
+    >>> stiffness_in("N/m**2").symbol
+    'N/m**2'
+    """
     slider = (5e3, 1e2, 1e6) if unit == "N/m" else (2e5, 1e3, 1e10)
     return Quantity(unit, lambda name, value: positive(name, value, unit), slider)
 
@@ -455,7 +467,7 @@ def _found(cls: type[_Law], numbers: dict[str, float], given: Given) -> _Law:
             raise ArithmeticError
         return math.log(kept / lasting({cls.loss: loss}).restitution_at(mass, speed))
 
-    return lasting({cls.loss: rising_root(excess, least)})
+    return lasting({cls.loss: rising_root(excess, least or _LEAST * most)})
 
 
 def contact_numbers(law: ContactLaw | None, varied: Mapping[str, Any] = _NOTHING) -> EngineNumbers:
