@@ -91,9 +91,9 @@ def stack(
     height: float | str | None = None,
     impact_speed: float | str | None = None,
     velocities: Sequence[float | str] | None = None,
+    gravity: float | str = 0.0,
     gap: float | str | None = None,
     gaps: Sequence[float | str] | None = None,
-    gravity: float | str = 0.0,
 ) -> Drop:
     """Return a drop of balls of the catalogue, on the contacts that it has for them.
 

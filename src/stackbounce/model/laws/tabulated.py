@@ -97,7 +97,7 @@ class Tabulated(ContactLaw):
     compression: Annotated[Sequence[float], Unit("m")]
     force: Annotated[Sequence[float], Unit("N")]
     unloading: Annotated[Sequence[float], Unit("N")] | None = None
-    restitution: Annotated[float, Unit()] | None = None
+    restitution: float | None = None
 
     def __post_init__(self) -> None:
         lengths = _points("compression", self.compression, "m")
