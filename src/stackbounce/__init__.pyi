@@ -1,3 +1,7 @@
+from stackbounce import cross2007 as cross2007
+from stackbounce import datasets as datasets
+from stackbounce import measure as measure
+from stackbounce import plots as plots
 from stackbounce.errors import StackbounceError as StackbounceError
 from stackbounce.explorer.notebook import explore as explore
 from stackbounce.fitting import Fit as Fit

@@ -7,7 +7,6 @@ from rich.table import Table
 
 from stackbounce.cli.tables import add_columns, new_table, number, percent, with_error, write_count
 from stackbounce.model.drawing import label, meeting
-from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.prediction import Prediction
 from stackbounce.run.result import Result
 
@@ -97,12 +96,12 @@ class Bounce:
 def _numbers(result: Result) -> dict[tuple[str, int], float]:
     """Return the numbers of the tables by heading and ball or contact."""
     found: dict[tuple[str, int], float] = {}
-    gravity = result.drop.gravity or STANDARD_GRAVITY
     speeds, ratios = result.rebound_speeds.tolist(), result.rebound_ratios.tolist()
+    heights = result.rebound_heights.tolist()
     for i, before in enumerate(result.drop.start_velocities):
         balls = [before, speeds[i], ratios[i]]
         if not speeds[i] < 0.0:
-            balls += [ratios[i] * ratios[i], speeds[i] * speeds[i] / (2.0 * gravity)]
+            balls += [ratios[i] * ratios[i], heights[i]]
         found |= {(heading, i): value for heading, value in zip(_BALLS, balls, strict=False)}
         rows = result.intervals[result.intervals["contact"] == i]
         if len(rows):

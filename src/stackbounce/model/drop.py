@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,6 +11,7 @@ from stackbounce.errors import (
     InvalidValue,
     finite,
     listed,
+    no_attribute,
     non_negative,
     positive,
     shown,
@@ -19,7 +20,7 @@ from stackbounce.model.ball import Ball
 from stackbounce.model.drawing import draw_stack, label
 from stackbounce.model.laws import LAWS, ContactLaw
 from stackbounce.shown import Shown, Table
-from stackbounce.units import Unit, handy_text, in_unit
+from stackbounce.units import Unit, checked, handy_text, in_unit
 
 if TYPE_CHECKING:
     from stackbounce.explorer.notebook import ExplorerFrame
@@ -107,17 +108,14 @@ class Drop(Shown):
                 f"gaps must hold one number per neighbouring pair of balls ({len(balls) - 1}), "
                 f"got {len(gaps)}"
             )
-        gaps = tuple(
-            non_negative(name := f"gaps.{i}", in_unit(gap, "m", name), "metres")
-            for i, gap in enumerate(gaps)
-        )
+        gaps = in_unit(gaps, "m", "gaps")
+        gaps = tuple(non_negative(f"gaps.{i}", gap, "metres") for i, gap in enumerate(gaps))
         for i, gap in enumerate(gaps):
             if gap > 0.0 and contacts[i + 1].pulls:
                 bond = type(contacts[i + 1]).__name__
                 raise InvalidValue(f"gaps.{i} must be 0 at a {bond}, got {gap!r}")
         values: dict[str, Any] = {"balls": balls, "contacts": contacts, "gaps": gaps}
-        gravity = in_unit(self.gravity, "m/s**2", "gravity")
-        values["gravity"] = non_negative("gravity", gravity, "m/s**2")
+        values["gravity"] = checked(non_negative, "gravity", self.gravity, "m/s**2")
         for name, value in (values | self._incidence(len(balls))).items():
             object.__setattr__(self, name, value)
         if not 0.0 < self.reference_speed < math.inf:  # only a height's is computed
@@ -134,23 +132,51 @@ class Drop(Shown):
                 f"got {' and '.join(given) or 'none'}"
             )
         if self.impact_speed is not None:
-            speed = in_unit(self.impact_speed, "m/s", "impact_speed")
-            return {"impact_speed": positive("impact_speed", speed, "m/s")}
+            return {"impact_speed": checked(positive, "impact_speed", self.impact_speed, "m/s")}
         if self.height is not None:
-            height = in_unit(self.height, "m", "height")
-            return {"height": positive("height", height, "metres")}
+            return {"height": checked(positive, "height", self.height, "metres")}
         velocities = listed("velocities", self.velocities, _MOST_ITEMS)
         if len(velocities) != count:
             raise InvalidValue(
                 f"velocities must hold one number per ball ({count}), got {len(velocities)}"
             )
-        velocities = tuple(
-            finite(name := f"velocities.{i}", in_unit(v, "m/s", name), "m/s")
-            for i, v in enumerate(velocities)
-        )
+        velocities = in_unit(velocities, "m/s", "velocities")
+        velocities = tuple(finite(f"velocities.{i}", v, "m/s") for i, v in enumerate(velocities))
         if not any(velocities):
             raise InvalidValue("velocities must not all be 0, got 0 for every ball")
         return {"velocities": velocities}
+
+    if not TYPE_CHECKING:  # checkers know which attributes there are
+
+        def __getattr__(self, name: str) -> Any:
+            raise no_attribute(Drop, name)
+
+    def replace(self, **changes: Any) -> "Drop":
+        """Return the drop with other values of some fields.
+
+        Parameters
+        ----------
+        **changes
+            As of `Drop`. Another impact speed, height or velocities take the place of the one of
+            the three that was given.
+
+        Raises
+        ------
+        TypeError
+            If a drop has no such field.
+        InvalidValue, InvalidType
+            As of `Drop`.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> drop = sb.stack("basketball", "tennis", height="63 cm").replace(impact_speed="2 m/s")
+        >>> drop.height, drop.impact_speed
+        (None, 2.0)
+        """
+        if changes.keys() & set(_INCIDENCE):
+            changes = dict.fromkeys(_INCIDENCE) | changes
+        return replace(self, **changes)
 
     @property
     def reference_speed(self) -> float:

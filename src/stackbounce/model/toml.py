@@ -110,10 +110,10 @@ def _each(read: Any, values: object, path: str) -> list[Any]:
     return [read(value, f"{path}.{i}") for i, value in enumerate(values)]
 
 
-def _raised(path: str, make: Callable[..., _T], *arguments: object, **values: Any) -> _T:
+def _raised(path: str, make: Callable[..., _T], **values: Any) -> _T:
     """Return what a function returns; its errors are those of a scenario, at a path."""
     try:
-        return make(*arguments, **values)
+        return make(**values)
     except (InvalidValue, InvalidType) as error:
         raise ScenarioError(_join(path, str(error))) from error
 

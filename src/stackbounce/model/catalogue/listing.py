@@ -1,5 +1,6 @@
 """The balls of the catalogue by name, as a table that shows itself."""
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
@@ -39,12 +40,11 @@ class Balls(Shown, Mapping[str, Ball]):
         import pandas as pd
 
         entries = [catalogue_ball(name) for name in self]
-        times = [entry.contact_time for entry in entries]
         figures = {
             "mass/g": [1e3 * entry.ball.mass for entry in entries],
-            "diameter/mm": [1e3 * (entry.ball.diameter or float("nan")) for entry in entries],
+            "diameter/mm": [1e3 * (entry.ball.diameter or math.nan) for entry in entries],
             "restitution": [entry.restitution for entry in entries],
-            "contact time/ms": [float("nan") if time is None else 1e3 * time for time in times],
+            "contact time/ms": [1e3 * (entry.contact_time or math.nan) for entry in entries],
             "stiffness/(N/m)": [entry.stiffness for entry in entries],
         }
         return pd.DataFrame(figures, index=list(self))

@@ -3,7 +3,6 @@
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from stackbounce.errors import InvalidValue, UnknownName, nearest, shown
 from stackbounce.model.ball import Ball
@@ -11,7 +10,6 @@ from stackbounce.model.catalogue.balls import BALLS, CLASS_BALLS, PAIRS, Catalog
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw, Spring
 from stackbounce.model.laws.series import between
-from stackbounce.units import in_unit
 
 DEFAULT_HEIGHT = 1.0
 """In m: the height of a fall of which nothing is said."""
@@ -132,15 +130,11 @@ def stack(
         raise InvalidValue("gap and gaps: only one of the two can be given, got both")
     chosen = stacked(balls)
     if gap is not None:
-        gaps = [in_unit(gap, "m", "gap")] * (len(balls) - 1)
-    numbers: dict[str, Any] = {
-        "gaps": chosen.gaps if gaps is None else gaps,
-        "height": DEFAULT_HEIGHT if height is impact_speed is velocities is None else height,
-        "impact_speed": impact_speed,
-        "velocities": velocities,
-        "gravity": gravity,
-    }
-    return Drop(chosen.balls, chosen.contacts, **numbers)
+        gaps = [gap] * (len(balls) - 1)
+    drop = Drop(chosen.balls, chosen.contacts, chosen.gaps, height=DEFAULT_HEIGHT)
+    fall = {"height": height, "impact_speed": impact_speed, "velocities": velocities}
+    numbers = fall | {"gaps": gaps, "gravity": gravity}
+    return drop.replace(**{name: value for name, value in numbers.items() if value is not None})
 
 
 def stacked(names: Sequence[str]) -> Stack:
