@@ -34,7 +34,8 @@ class ExplorerFrame:
         return (
             f'<iframe title="stackbounce: the explorer" name="{html.escape(state)}" '
             f'style="width: 100%; height: {self.height}px; border: 0" '
-            f'allow="clipboard-write *; fullscreen *" srcdoc="{html.escape(one_file())}"></iframe>'
+            f'allow="clipboard-write *; fullscreen *" srcdoc="{html.escape(one_file())}">'
+            "The explorer is shown in a notebook that is trusted: run this cell again.</iframe>"
         )
 
 
