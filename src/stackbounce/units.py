@@ -331,8 +331,8 @@ def handy(most: float, unit: str) -> tuple[str, float]:
     return next(((name, by) for start, name, by in choices if most >= start), (unit, 1.0))
 
 
-def handy_text(value: float, unit: str) -> str:
-    """Return a number with six digits in the unit in which it is handy.
+def handy_text(value: float, unit: str, digits: int = 6) -> str:
+    """Return a number with so many digits in the unit in which it is handy.
 
     Examples
     --------
@@ -340,7 +340,7 @@ def handy_text(value: float, unit: str) -> str:
     ('150 g', '2 mm', '2500 N/m')
     """
     name, by = handy(abs(value), unit)
-    return f"{by * value:.6g} {name.replace('**', '^')}".strip()
+    return f"{by * value:.{digits}g} {name.replace('**', '^')}".strip()
 
 
 def rounded(values: Iterable[float], error: float) -> list[str]:

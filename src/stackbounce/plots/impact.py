@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.model.drawing import meeting
-from stackbounce.plots.style import WIDTH, check_kind, color_of, panels, written
+from stackbounce.plots.style import WIDTH, check_kind, color_of, into_axes, panels, written
 from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
@@ -62,7 +62,8 @@ def sample_with_approach(result: Result, times: NDArray[np.float64]) -> "xr.Data
     return sample.assign_coords(time=("time", times, sample.time.attrs))
 
 
-def bounce(result: "Result | Prediction", axes: Any = None) -> "Figure":
+@into_axes
+def bounce(result: "Result | Prediction", *, axes: Any = None) -> "Figure":
     """Draw the impact: the position of each ball and the force at each contact against time.
 
     Parameters
@@ -75,7 +76,7 @@ def bounce(result: "Result | Prediction", axes: Any = None) -> "Figure":
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or `axes` if given
         Not shown and not saved: ``figure.savefig("bounce.svg")`` does.
 
     Raises

@@ -1,9 +1,10 @@
 """The style of all plots."""
 
+import functools
 import io
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numpy as np
 
@@ -12,6 +13,8 @@ from stackbounce.errors import InvalidType, InvalidValue, a_or_an, shown
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+_Plot = TypeVar("_Plot", bound=Callable[..., Any])
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """The palette of Okabe and Ito, which colour-blind readers can tell apart."""
@@ -97,6 +100,20 @@ def panels(
         look: Any = {"sharex": sharex, "squeeze": False, "height_ratios": ratios}
         yield figure, figure.subplots(len(ratios), 1, **look)[:, 0].tolist()
         figure.align_ylabels()
+
+
+def into_axes(plot: _Plot) -> _Plot:
+    """Let a plot return the axes that it was given: a notebook shows their figure by itself.
+
+    Used as a decorator; without axes the plot returns its figure.
+    """
+
+    @functools.wraps(plot)
+    def drawn(*args: Any, **options: Any) -> Any:
+        figure, axes = plot(*args, **options), options.get("axes")
+        return figure if axes is None else axes
+
+    return cast("_Plot", drawn)
 
 
 def list_axes(axes: Any, *counts: int) -> "list[Axes]":

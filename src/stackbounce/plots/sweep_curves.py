@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.plots.maps import draw_counts, draw_levels, hatch
 from stackbounce.plots.scales import is_flat, label, path_of, read_scale, show_in_handy_unit
-from stackbounce.plots.style import COLORS, WIDTH, color_of, drawn_by, panels
+from stackbounce.plots.style import COLORS, WIDTH, color_of, drawn_by, into_axes, panels
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,8 +29,9 @@ _BARS = 12  # stacks that are drawn at most
 _MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 
 
+@into_axes
 def lines(
-    data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = None, axes: Any = None
+    data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = None, *, axes: Any = None
 ) -> "Figure":
     """Draw a sweep of one parameter: a line for each ball or each contact.
 
@@ -48,7 +49,7 @@ def lines(
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or `axes` if given
         Not shown and not saved. Unfinished drops are left out; the title has their number.
 
     Raises
@@ -87,8 +88,9 @@ def lines(
     return figure
 
 
+@into_axes
 def heatmap(
-    data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1, axes: Any = None
+    data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1, *, axes: Any = None
 ) -> "Figure":
     """Draw a sweep of two parameters as a map: contours, or discrete colors for counts.
 
@@ -105,7 +107,7 @@ def heatmap(
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or `axes` if given
         Not shown and not saved. Cells without a value are hatched: unfinished drops, whose number
         is in the title, and times of contacts that never close.
 
@@ -261,7 +263,8 @@ def name_of(data: "xr.Dataset", part: str, index: int) -> str:
     return f"{part} {index}" + (f" ({own})" if own else "")
 
 
-def highest(data: "xr.Dataset", axes: Any = None) -> "Figure":
+@into_axes
+def highest(data: "xr.Dataset", *, axes: Any = None) -> "Figure":
     """Draw the rebound height of the top ball for the best stacks, for each gap.
 
     Parameters
@@ -273,7 +276,7 @@ def highest(data: "xr.Dataset", axes: Any = None) -> "Figure":
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or `axes` if given
         The first stacks in order, at most 12, the best one above; a mark for each gap. Not shown
         and not saved.
 

@@ -26,8 +26,9 @@ from stackbounce.units import Unit, handy_text
 MEASURED, RULE, ESTIMATE = KINDS = ("measured", "rule", "estimate")
 """What a figure is: measured, set by the rules of a game, or estimated."""
 
-_UNITS = {"mass": "kg", "diameter": "m", "restitution": "", "contact_time": "s"}
-_UNITS |= dict.fromkeys(("stiffness", "static_stiffness"), "N/m")
+UNITS = {"mass": "kg", "diameter": "m", "restitution": "", "contact_time": "s"}
+UNITS |= dict.fromkeys(("stiffness", "static_stiffness"), "N/m")
+"""The unit of each figure of a ball."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -73,7 +74,7 @@ class CatalogueBall(Shown):
     def _tables(self) -> Sequence[Table]:
         numbers, rows = self.to_mapping(), []
         for name, source in self.sources:
-            value = handy_text(numbers[name], _UNITS[name])
+            value = handy_text(numbers[name], UNITS[name], 4)
             rows.append((name.replace("_", " "), value, self.kind_of(name), source))
         return (Table(str(self.ball.name), ("", "value", "kind", "source"), rows),)
 

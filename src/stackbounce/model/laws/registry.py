@@ -85,7 +85,7 @@ def register(law: type[_Law]) -> type[_Law]:
     if missing:
         raise TypeError(f"{law.__name__} must set {', '.join(missing)}")
     if "__dataclass_fields__" not in vars(law):
-        law = dataclass(frozen=True)(law)
+        law = dataclass(frozen=True, repr=False)(law)
     other = (LAWS | UNLISTED).get(law.__name__, law)
     if (other.__module__, other.__qualname__) != (law.__module__, law.__qualname__):
         raise TypeError(f"{law.__name__} is the name of a law in {other.__module__} already")
