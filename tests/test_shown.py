@@ -7,9 +7,9 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.errors import shown
-from stackbounce.model.catalogue import catalogue_ball, stack
+from stackbounce.model.catalogue import catalogue_ball, stacked
 
-CHOSEN = stack(["basketball", "tennis"])
+CHOSEN = stacked(["basketball", "tennis"])
 DROP = sb.Drop(CHOSEN.balls, CHOSEN.contacts, gaps=[0.002], height=0.63)
 ODD = sb.Drop([sb.Ball(0.1), sb.Ball(0.05, name="<b>&\x1b\n")], [sb.Spring(1e3)] * 2, height=1.0)
 MANY = sb.Drop([sb.Ball(0.1)] * 100, [sb.Rigid(0.9)] * 100, impact_speed=1.0)

@@ -139,7 +139,7 @@ def test_a_number_may_have_a_unit(got, right):
 )  # fmt: skip
 def test_values_of_a_sweep_may_have_units(values):
     ds = sb.sweep(DROP, {"balls.1.mass": values})
-    assert ds.coords["balls.1.mass"].values.tolist() == [0.01, 0.02]
+    assert ds.balls_1_mass.values.tolist() == [0.01, 0.02]
 
 
 def test_a_wrong_unit_says_what_would_be_right():

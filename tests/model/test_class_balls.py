@@ -119,8 +119,8 @@ def test_the_balls_are_a_mapping_and_a_table():
     assert "Tennis-Ball" in sb.balls
     with pytest.raises(KeyError, match="'tenis'; did you mean tennis"):
         sb.balls["tenis"]
-    assert repr(sb.balls).splitlines()[1].split()[:2] == ["basketball", "150"]
-    assert "<th>golf ball</th>" in sb.balls._repr_html_()
+    assert repr(sb.balls).splitlines()[2].split()[:2] == ["basketball", "150"]
+    assert ">golf ball</th>" in sb.balls._repr_html_()
 
 
 def test_a_stack_has_the_numbers_that_are_given_and_those_of_the_catalogue():
