@@ -11,7 +11,6 @@ from stackbounce.plots.style import WIDTH, check_kind, color_of, into_axes, pane
 from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
-    import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -40,26 +39,28 @@ def choose_window(result: Result) -> tuple[float, float]:
     return -_BEFORE * span, last if stopped else last + _AFTER * span
 
 
-def sample_with_approach(result: Result, times: NDArray[np.float64]) -> "xr.Dataset":
-    """Return `Result.sample` at given times, extended to times before the first touch.
+def sample_with_approach(
+    result: Result, times: NDArray[np.float64]
+) -> dict[str, NDArray[np.float64]]:
+    """Return `Result.sampled` at given times, extended to times before the first touch.
 
     Examples
     --------
     >>> import numpy as np
     >>> import stackbounce as sb
     >>> drop = sb.Drop([sb.Ball(0.057)], [sb.Spring(22500.0)], impact_speed=3.5)
-    >>> sample_with_approach(sb.simulate(drop), np.array([-1e-3])).position.values
+    >>> sample_with_approach(sb.simulate(drop), np.array([-1e-3]))["position"]
     array([[0.0035]])
     """
     drop = result.drop
-    sample = result.sample(np.maximum(times, 0.0))
+    sample = result.sampled(np.maximum(times, 0.0))
     early = np.minimum(times, 0.0)
     fallen = np.array(drop.start_velocities)[:, None] * early - 0.5 * drop.gravity * early**2
     sample["position"] += fallen
     sample["velocity"] -= drop.gravity * early
     sample["compression"] -= np.diff(fallen, axis=0, prepend=0.0)
     sample["force"] *= times >= 0.0
-    return sample.assign_coords(time=("time", times, sample.time.attrs))
+    return sample | {"time": times}
 
 
 @into_axes
@@ -106,8 +107,8 @@ def bounce(result: "Result | Prediction", *, axes: Any = None) -> "Figure":
     with panels((WIDTH, 5.6), axes, [3, 2]) as (figure, (above, below)):
         times = np.linspace(*choose_window(result), _SAMPLES)
         sample = sample_with_approach(result, times)
-        _draw_positions(above, result, times, sample.position.values)
-        _draw_contacts(below, result, times, sample.force.values)
+        _draw_positions(above, result, times, sample["position"])
+        _draw_contacts(below, result, times, sample["force"])
         if prediction is not None:
             _draw_bands(above, prediction, times, "position", 1e3)
             if not result.drop.rigid:

@@ -409,7 +409,7 @@ class Prediction(Shown):
         if name not in _CURVES:
             raise InvalidValue(f"{shown(name)} is not a curve; {nearest(name, _CURVES)}")
         within = np.minimum(times, self.options.until)
-        curves = np.array([result.sample(within)[name].values for result in self._results])
+        curves = np.array([result.sampled(within)[name] for result in self._results])
         if self.reason:
             low, high = np.nanquantile(curves, _ONE_SIGMA, axis=0)
             return low, high

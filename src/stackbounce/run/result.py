@@ -44,6 +44,13 @@ EVENT = np.dtype(
 APEX = np.dtype([("ball", "i8"), ("time", "f8"), ("height", "f8")])
 _PER_BALL = ("rebound_speed", "rebound_ratio", "rebound_height")
 _PER_CONTACT = ("collisions", "first_touch", "last_release")
+_SAMPLED = (  # of `Result.sample`: name, dimensions, unit
+    ("position", ("ball", "time"), "m"),
+    ("velocity", ("ball", "time"), "m/s"),
+    ("force", ("contact", "time"), "N"),
+    ("compression", ("contact", "time"), "m"),
+    ("energy", ("time",), "J"),
+)
 ROUND_OFF = 1e-15
 """Relative error that a step without a tolerance adds to a speed."""
 
@@ -359,7 +366,7 @@ class Result(Shown):
             if velocity > 0.0 and start + velocity / gravity < end
         ]
         rising = sorted(row for row in rising if row[0] <= last)
-        positions = self.sample([start for _, _, start, _ in rising]).position.values
+        positions = self.sampled([start for _, _, start, _ in rising])["position"]
         rows = [
             (ball, top, positions[ball, row] + rise)
             for row, (top, ball, _, rise) in enumerate(rising)
@@ -457,6 +464,25 @@ class Result(Shown):
         """
         import xarray as xr
 
+        table = self.sampled(times)
+        columns = {name: (dims, table[name], {"units": unit}) for name, dims, unit in _SAMPLED}
+        part = np.arange(len(self.drop.balls))
+        return xr.Dataset(
+            columns,
+            coords={"time": ("time", table["time"], {"units": "s"}), "ball": part, "contact": part},
+            attrs={"stackbounce": __version__, "drop": self.drop.to_toml()},
+        )
+
+    def sampled(self, times: ArrayLike) -> dict[str, NDArray[np.float64]]:
+        """Return what `sample` returns, in plain arrays, with the energy `stored` in each contact.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], impact_speed=2.0)
+        >>> sb.simulate(drop).sampled([0.5])["stored"].round(6)
+        array([[0.459698]])
+        """
         wanted = self._times(times)
         order = np.argsort(wanted, kind="stable")
         run = self.rerun(wanted[order].tolist())
@@ -467,26 +493,12 @@ class Result(Shown):
             )
         samples = run.samples
         balls = len(self.drop.balls)
-        tables = {}
+        tables = {"time": wanted}
         for name in ("position", "velocity", "compression", "force", "stored"):
             table = np.empty((balls, len(wanted)))
             table[:, order] = np.reshape(getattr(samples, name), (-1, balls)).T
             tables[name] = table
-        return xr.Dataset(
-            {
-                "position": (("ball", "time"), tables["position"], {"units": "m"}),
-                "velocity": (("ball", "time"), tables["velocity"], {"units": "m/s"}),
-                "force": (("contact", "time"), tables["force"], {"units": "N"}),
-                "compression": (("contact", "time"), tables["compression"], {"units": "m"}),
-                "energy": ("time", self._energy(tables), {"units": "J"}),
-            },
-            coords={
-                "time": ("time", wanted, {"units": "s"}),
-                "ball": np.arange(balls),
-                "contact": np.arange(balls),
-            },
-            attrs={"stackbounce": __version__, "drop": self.drop.to_toml()},
-        )
+        return tables | {"energy": self._energy(tables)}
 
     @functools.cached_property
     def _rows(self) -> NDArray[np.float64]:

@@ -52,9 +52,9 @@ def table(drop):
     sample = sample_with_approach(result, times)
     columns = {"time (s)": times}
     for name, unit in (("position", "m"), ("velocity", "m/s"), ("force", "N")):
-        rows = enumerate(sample[name].values)
+        rows = enumerate(sample[name])
         columns |= {f"{name} {i} ({unit})": values for i, values in rows}
-    return columns | {"energy (J)": sample.energy.values}
+    return columns | {"energy (J)": sample["energy"]}
 
 
 def varying(drop):

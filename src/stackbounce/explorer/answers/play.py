@@ -100,15 +100,15 @@ def _is_unfinished(result: Result) -> bool:
 def _sample_frames(result: Result, times: _Times) -> dict[str, Any]:
     sample = sample_with_approach(result, times)
     mass = np.array([ball.mass for ball in result.drop.balls])[:, None]
-    kinetic = 0.5 * mass * sample.velocity.values**2
-    potential = np.sum(mass * result.drop.gravity * sample.position.values, axis=0)
-    total = sample.energy.values  # the same on the way down
+    kinetic = 0.5 * mass * sample["velocity"] ** 2
+    potential = np.sum(mass * result.drop.gravity * sample["position"], axis=0)
+    total = sample["energy"]  # the same on the way down
     stored = np.maximum(total - np.sum(kinetic, axis=0) - potential, 0.0)
     energy = {"kinetic": kinetic, "stored": stored, "potential": potential, "total": total}
     names = ("position", "velocity", "force", "compression")
     return {
         "time": times,
-        **{name: _round(sample[name].values) for name in names},
+        **{name: _round(sample[name]) for name in names},
         "energy": {name: _round(values) for name, values in energy.items()},
     }
 
@@ -129,7 +129,7 @@ def _play_separate(drop: Drop, until: float | None, times: _Times) -> dict[str, 
             textbook = dataclasses.replace(textbook, gravity=drop.gravity)
         result = run_drop(textbook, until)
         reached = result.end_time if _is_unfinished(result) else math.inf
-        place = sample_with_approach(result, np.minimum(times, reached)).position.values
+        place = sample_with_approach(result, np.minimum(times, reached))["position"]
     except StackbounceError as error:
         return {"error": str(error)}
     laws = textbook.contacts

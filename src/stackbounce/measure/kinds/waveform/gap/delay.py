@@ -214,4 +214,4 @@ def _spring_gap(t: float, v: float, tau: float) -> float:
 def _simulated_gap(contact: Any, t: float, v: float, mass: float) -> float:
     """Return v0 t + q(t) of a ball on any law."""
     single = simulate(Drop([Ball(mass)], [contact], impact_speed=v))
-    return v * t + float(single.sample([t]).position.values[0, 0])
+    return v * t + float(single.sampled([t])["position"][0, 0])
