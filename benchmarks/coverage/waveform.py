@@ -13,7 +13,7 @@ import numpy as np
 
 import stackbounce as sb
 from stackbounce.measure.kinds.waveform.analysis import waveform
-from stackbounce.measure.kinds.waveform.gap.delay import delay, gap_from_delay
+from stackbounce.measure.kinds.waveform.gap import delay, gap_from_delay
 from synthetic.waveform import waveform as record_of
 
 MASS, SPEED, TIME = 0.101, 1.98, 4.3e-3  # the paper's ball B1

@@ -4,8 +4,6 @@ from shown import show
 
 import stackbounce as sb
 from stackbounce.measure.kinds.waveform.analysis import waveform
-from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
-from stackbounce.plots.measurements.gap import draw as draw_gap
 from stackbounce.plots.measurements.waveform import draw
 from synthetic.waveform import waveform as record_of
 
@@ -30,14 +28,6 @@ def floor():
 def balls():
     """The force between the two."""
     _draw(RECORD[["voltage_2"]])
-
-
-def by_the_floor():
-    """The floor's force under both, and under B1 alone."""
-    alone = sb.Drop(PAIR.balls[:1], [FLOOR], height=0.2)
-    lower = record_of(alone, offset=0.1, seed=2, **SCOPE)
-    found = floor_gap(RECORD, lower, impact_speed=PAIR.reference_speed, restitution=0.78)
-    show(draw_gap, RECORD, found)
 
 
 def collisions():

@@ -85,14 +85,6 @@ def test_a_true_law_is_refuted_as_often_as_p_says_if_its_errors_are_a_scatter(
         assert np.mean(np.array(found) < limit) == pytest.approx(limit, abs=3.0 * error)
 
 
-def test_calibrated_on_one_and_fitted_to_all_say_the_same_of_a_constant(monkeypatch):
-    """A constant is linear in its value, and then χ² of the contrasts is that of the best fit."""
-    monkeypatch.setattr(comparison, "families", only("Rigid"))
-    found = compare_laws(series_of(sb.Rigid, np.random.default_rng(5)))
-    own = outcome(found, "Rigid")
-    assert own.p_calibrated == pytest.approx(own.p, rel=1e-6)
-
-
 def test_assumed_errors_are_halved_and_doubled(monkeypatch):
     monkeypatch.setattr(comparison, "families", only("Rigid"))
     made = series_of(sb.Rigid, np.random.default_rng(6))

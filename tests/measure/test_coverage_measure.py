@@ -6,7 +6,6 @@ from typing import NamedTuple
 import pytest
 from benchmarks.coverage import (
     accelerometer,
-    floor_gap,
     heights,
     press,
     sound,
@@ -67,16 +66,6 @@ def test_errors_by_a_sensor_that_rings_are_not_bold(trial):
     for quantity, share in shares(trial, range(150)).items():
         assert share.within_one >= 0.65, quantity
         assert share.within_two >= 0.93, quantity
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "case", chosen(floor_gap.CASES, "floor's force alone, gap of 1 mm, 0.3 % noise")
-)
-def test_gaps_by_the_force_on_the_floor(case):
-    found = [floor_gap.CASES[case](seed) for seed in range(210)]
-    assert sum(map(bool, found)) > 0.7 * len(found)  # a gap near 0.8 mm may look like none
-    test_the_truth_lies_within_one_sigma_in_two_of_three(found.__getitem__, len(found))
 
 
 @pytest.mark.parametrize("case", heights.CASES)

@@ -24,7 +24,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "measure.md"
 LAB = PAGE.parent / "lab"
 FORCE = (LAB / "tennis-force.csv").read_text(encoding="utf-8")
 GERMAN = "Zeit (s);Kraft (N)\n" + "".join(f"0,{k:03};{k % 7},250\n" for k in range(60))
-ONLY_TYPED = {"heights"}  # the page takes files
+ONLY_TYPED = {"heights", "restitution"}  # the page takes files
 
 
 def test_python_takes_what_the_table_has():
@@ -128,16 +128,6 @@ def test_a_law_needs_what_it_is_calibrated_with(capfd):
     assert "needs what was not found: impact speed" in capfd.readouterr().err
 
 
-def test_the_record_of_the_lower_ball_alone_comes_with_the_page_too(capfd):
-    path = LAB / "tennis-force.csv"
-    file = (path.name, path.read_bytes())
-    page = json.loads(records.measure_record(*file, {"speed": "4.4 m/s"}, alone=file))
-    assert main(["measure", str(path), "--speed", "4.4", "--alone", str(path), "--json"]) == 0
-    (told,) = json.loads(capfd.readouterr().out)["files"]
-    assert page["found"] == told["found"]
-    assert "gap between the balls" in [row["name"] for row in page["found"]]
-
-
 def test_the_impact_speed_of_a_force_is_that_of_the_fall_of_the_lowest_point():
     setup = Setup(height=1.066, measured_to="top", diameter=0.066, gravity=9.8)
     assert setup.impact_speed == pytest.approx(19.6**0.5, rel=1e-12)
@@ -151,9 +141,6 @@ def test_an_option_that_is_not_there_or_another_function_s_is_refused():
         analyse(data, holds="table")
     with pytest.raises(InvalidType, match="repeated must be true or false, got 'yes'"):
         read_options({"repeated": "yes"}, lambda one: one.name)
-    for alone in ("/etc/hostname", ["a", "b"], {}):  # a request cannot name a file of the server
-        with pytest.raises(InvalidType, match="“Force under the lower ball alone” must be a file"):
-            records.measure_record("a.csv", b"Time (s),Force (N)\n0,0\n", {"alone": alone})
 
 
 def test_a_column_is_named_by_its_number_or_its_heading():

@@ -5,7 +5,6 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.measure import analyse
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from synthetic.waveform import waveform as record_of
 
@@ -136,16 +135,6 @@ def test_a_wrong_law_shows_in_the_misfit():
     (wrong,) = waveform(record, law="power-law", exponent=3.0).contacts
     assert right.flanks[0].misfit == 1.0
     assert wrong.start.std_dev > right.start.std_dev
-
-
-def test_a_gap_has_both_records_by_the_law_that_is_told():
-    balls, laws = [sb.Ball(0.101), sb.Ball(0.0248)], [sb.Spring(5.6e4), sb.Spring(1.6e4)]
-    drops = sb.Drop(balls, laws, gaps=[1e-3], height=0.2), sb.Drop(balls[:1], laws[:1], height=0.2)
-    both, alone = (record_of(drop, rate=1e5, noise=0.3, seed=1) for drop in drops)
-    for one in (both, alone):
-        one.attrs["holds"] = "waveform"
-    *_, found = analyse(both, alone=alone, mass=0.101, law="spring")
-    assert abs(off(found.gap, 1e-3)) < 3.0
 
 
 STEEP = "more steeply than that of any spring"

@@ -58,7 +58,7 @@ def _parameter(
 
 def _measured(option: Option) -> dict[str, Any]:
     """Return the row of an option of measurements, whose numbers are texts with a unit."""
-    forms = {"flag": "flag", "file": "file", "columns": "texts"}
+    forms = {"flag": "flag", "columns": "texts"}
     return {
         "form": forms.get(option.form, "text"),
         "names": [option.on_command_line],

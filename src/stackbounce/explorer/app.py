@@ -125,15 +125,11 @@ def _add_jobs(app: FastAPI, workers: Workers, seconds: float) -> None:
 
     @app.post("/api/measure")
     async def measure_record(
-        request: Request,
-        file: UploadFile,
-        options: _Options = None,
-        alone: UploadFile | None = None,
+        request: Request, file: UploadFile, options: _Options = None
     ) -> Response:
         """Recognise a file of measurements and analyse it."""
         async with turn(request):
-            other = None if alone is None else await _read(alone)
-            return await compute(records.measure_record, *await _read(file), options or {}, other)
+            return await compute(records.measure_record, *await _read(file), options or {})
 
     @app.post("/api/fit")
     async def fit_record(

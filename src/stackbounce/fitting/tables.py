@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from stackbounce.errors import InvalidType, InvalidValue, nearest, positive, shown
+from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fitting.files import check_name, read_force_record
-from stackbounce.fitting.quantities import find_quantity
+from stackbounce.fitting.quantities import find_quantity, read_with_error
 from stackbounce.fitting.rows import Row, decimal_comma, rows_of
-from stackbounce.measure.quantities import quantity_with_error
+from stackbounce.measure.quantities import without_error
 from stackbounce.measure.reading.roles import heading
 from stackbounce.model import Drop
 from stackbounce.run.paths import drop_at, numbers_of
@@ -214,15 +214,8 @@ def _data(row: Mapping[str, Mapping[str, _Cell]], folder: Path) -> dict[str, Any
 
 def _with_error(name: str, cell: _Cell, beside: _Cell | None) -> tuple[float, float]:
     """Return a number and its error, from its own cell or the one in the column of errors."""
-    unit = QUANTITIES[name.partition(".")[0]].unit
-    value: Any = quantity_with_error(cell.text, unit, cell.where)
-    if hasattr(value, "nominal_value"):
-        if beside is not None:
-            raise InvalidValue(f"{cell.where} has an error in its cell and one beside it")
-        return value.nominal_value, value.std_dev
-    if beside is None:
-        raise InvalidValue(
-            f"{cell.where} must have an error, in its cell, such as '{cell.text} ± …', or in a "
-            f"column '{_ERROR}{name}', got {shown(cell.text)}"
-        )
-    return value, positive(beside.where, quantity(beside.text, unit, beside.where))
+    if beside is not None and without_error(cell.text):
+        raise InvalidValue(f"{cell.where} has an error in its cell and one beside it")
+    right = f"a number with its error, '{cell.text} ± …', or one beside it, '{_ERROR}{name}'"
+    given = cell.text if beside is None else (cell.text, beside.text)
+    return read_with_error(given, QUANTITIES[name.partition(".")[0]].unit, cell.where, right)

@@ -14,7 +14,7 @@ constants     contact time, restitution or results -> stiffness, law, a ball to 
 messages      texts with options that they recommend, worded for each user interface
 quantities    numbers with errors, and those of a function of them; a row of a table
 samples       columns of a Dataset or arrays, runs, rounding, areas
-statistics/   regression, change points, AR noise
+statistics/   regression, AR noise
 ============= ================================================================
 """
 
@@ -37,8 +37,7 @@ _MODULES = {
     "kinds.sound.analysis": "knocks",
     "kinds.track.analysis": "track",
     "kinds.waveform.analysis": "waveform",
-    "kinds.waveform.gap.delay": "gap_from_delay sensor_gap",
-    "kinds.waveform.gap.floor_gap": "floor_gap",
+    "kinds.waveform.gap": "gap_from_delay sensor_gap",
     "reading": "read",
 }
 _HOMES = {name: module for module, names in _MODULES.items() for name in names.split()}

@@ -11,8 +11,7 @@ from stackbounce.measure.kinds.press.series import split_series as split_series
 from stackbounce.measure.kinds.sound.analysis import knocks as knocks
 from stackbounce.measure.kinds.track.analysis import track as track
 from stackbounce.measure.kinds.waveform.analysis import waveform as waveform
-from stackbounce.measure.kinds.waveform.gap.delay import gap_from_delay as gap_from_delay
-from stackbounce.measure.kinds.waveform.gap.delay import sensor_gap as sensor_gap
-from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap as floor_gap
+from stackbounce.measure.kinds.waveform.gap import gap_from_delay as gap_from_delay
+from stackbounce.measure.kinds.waveform.gap import sensor_gap as sensor_gap
 from stackbounce.measure.measurement import analyse as analyse
 from stackbounce.measure.reading import read as read

@@ -1,9 +1,8 @@
 """The drag of the air in measured flights: heights and times ↔ speeds, with errors."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass, replace
-from itertools import pairwise
 from typing import Any, TypeVar
 
 from stackbounce.errors import InvalidValue, non_negative, shown
@@ -110,14 +109,6 @@ class Drag:
         """Return the speeds in m/s at which a flight of a time in s began and ended."""
         leaving = self._found(drag.flight_speed, time, gravity)
         return leaving, self._found(drag.landing_speed, leaving, gravity)
-
-    def restitution_between(self, heights: Sequence[Any]) -> Number:
-        """Return the restitution of bounces between some heights in m, their geometric mean."""
-        kept = [
-            self.launch_speed(after) / self.fallen_speed(before)
-            for before, after in pairwise(heights)
-        ]
-        return math.prod(kept) ** (1.0 / len(kept))
 
     def height_after(self, start: float, restitution: float, bounces: float) -> float:
         """Return the height in m after some bounces of one restitution, from a drop height in m.

@@ -37,7 +37,6 @@ def analyse(
     mass: Number | float | None = None,
     diameter: Number | float | None = None,
     contact_time: Number | float | None = None,
-    restitution: Number | float | None = None,
     law: type[ContactLaw] | ContactLaw | str | None = None,
     exponent: float | None = None,
     height: Number | float | None = None,
@@ -46,7 +45,6 @@ def analyse(
     repeated: bool = False,
     measured_to: Place | tuple[Place, Place] = "bottom",
     floor: float | None = None,
-    alone: "xr.Dataset | None" = None,
     tabulated: bool = False,
     time_constant: float | None = None,
     gravity: float = STANDARD_GRAVITY,
@@ -63,8 +61,8 @@ def analyse(
         Of the ball, in kg: a contact time then gives a stiffness.
     diameter : float or ufloat, optional
         Of the ball, in m; needed where `measured_to` is not its bottom, and for drag.
-    contact_time, restitution : float or ufloat, optional
-        Of the lower ball alone, in s and dimensionless, for the gap of a stack.
+    contact_time : float or ufloat, optional
+        Of the lower ball alone, in s, for the gap of a stack.
     law : ContactLaw, its class or its name, optional
         Of the contact in a force waveform; touch and release then have smaller errors.
     exponent : float, optional
@@ -82,8 +80,6 @@ def analyse(
         follows; a pair has the point for the drop height first, then that for the bounces.
     floor : float, optional
         Level of the floor in a track of one ball, in m as tracked.
-    alone : xarray.Dataset, optional
-        The floor's force under the lower ball alone; with that under the stack it gives the gap.
     tabulated : bool, optional
         Whether the contact of a press curve is the table of its points, in place of a fitted law.
     time_constant : float, optional
@@ -102,8 +98,8 @@ def analyse(
         Of a sound `Bounces` (`FewBounces` where they are too few for a restitution) and `Knocks`;
         of knock times and of phyphox's bounces `Bounces`; of a track `Tracks`; of an acceleration
         `Accelerometer`; of a force waveform `Waveform`, with a second sensor between two balls
-        `SensorGap` before it, and with `alone` `FloorGap` after it; of a press curve `Press`; of a
-        table with one column of heights, the drop's above the bounces', `Heights`.
+        `SensorGap` before it; of a press curve `Press`; of a table with one column of heights, the
+        drop's above the bounces', `Heights`.
 
     Raises
     ------
@@ -230,8 +226,7 @@ def measure_file(
     file : Path or (str, bytes)
         Its path, or its name and its content.
     options : mapping
-        Those of `read` and `analyse`, as `read_options` returns them;
-        `alone` is a file.
+        Those of `read` and `analyse`, as `read_options` returns them.
     wording : callable, optional
         What the user interface makes of hints in doubts and errors; by default Python.
 
@@ -253,10 +248,7 @@ def _measured(file: File, options: Mapping[str, Any], wording: Wording) -> Measu
     name = file[0] if isinstance(file, tuple) else str(file)
     with warnings.catch_warnings():  # numpy's and scipy's, of numbers that the analysis refuses
         warnings.filterwarnings("ignore", module=_CALCULATING)
-        if "alone" in own:
-            whole = {name: reading[name] for name in reading if name not in ("start", "stop")}
-            own["alone"] = _read(own["alone"], whole)
-        data = _read(file, reading)
+        data = read_content(*file, **reading) if isinstance(file, tuple) else read(file, **reading)
         try:
             found = analyse(data, **own)
         except StackbounceError as error:
@@ -267,10 +259,6 @@ def _measured(file: File, options: Mapping[str, Any], wording: Wording) -> Measu
     evidence = {key: data.attrs[key] for key in ("format", "why", "doubt", "holds")}
     evidence["doubt"] = Message(evidence["doubt"]).worded(wording)
     return Measurement(name, evidence, data, found, wording)
-
-
-def _read(file: File, reading: Mapping[str, Any]) -> Any:
-    return read_content(*file, **reading) if isinstance(file, tuple) else read(file, **reading)
 
 
 def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
@@ -56,7 +55,6 @@ def read_options(
 _TYPES: dict[str, tuple[Any, str]] = {
     "flag": (bool, "true or false"),
     "text": (str | int, "a text"),
-    "file": (Path | tuple, "a file"),  # a text in a request would be a path on the server
 }
 
 

@@ -17,7 +17,7 @@ from stackbounce.model.laws import LAWS
 from stackbounce.units import examples
 
 Form: TypeAlias = Literal[
-    "number", "measured", "lengths", "flag", "points", "law", "file", "columns", "text"
+    "number", "measured", "lengths", "flag", "points", "law", "columns", "text"
 ]
 _PANELS = {
     "ball": "What is known of the ball",
@@ -44,7 +44,7 @@ class Option:
         The help text.
     form : str
         What its value is: a number with a unit, a number that may have an error (``measured``),
-        several lengths, a flag, points of the ball, a contact law, a file, columns, a text.
+        several lengths, a flag, points of the ball, a contact law, columns, a text.
     unit : str
         The SI unit of a number.
     metavar : str

@@ -2,16 +2,13 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.measure.drag import Drag, drag_of, speed_after_fall
 from stackbounce.measure.quantities import Number, nominal
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.model.laws import ContactLaw
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 Place: TypeAlias = Literal["bottom", "centre", "top"]
 """The point of the ball that a height was read at."""
@@ -45,7 +42,6 @@ class Setup:
     repeated: bool = False
     measured_to: Place | tuple[Place, Place] = "bottom"
     floor: float | None = None
-    alone: "xr.Dataset | None" = None
     tabulated: bool = False
     time_constant: float | None = None
     gravity: float = STANDARD_GRAVITY

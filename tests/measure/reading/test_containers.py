@@ -60,16 +60,6 @@ def test_a_sheet_is_chosen_by_its_name(read):
         read(content, table="Run 3")
 
 
-def test_names_may_stand_beside_the_first_row(read):
-    rows = [[0.01 * k, 0.5, 1.0 - 0.1 * k] for k in range(8)]
-    rows[0] += [None, "t", "x", "y"]
-    data = read(xlsx({"Run": rows}))
-    assert data.attrs["holds"] == "track"
-    assert "words beside the first row name its columns: t, x, y" in data.attrs["why"]
-    np.testing.assert_allclose(data.time.values, TIMES)
-    np.testing.assert_allclose(data.y.values[:, 0], 1.0 - 10.0 * TIMES)
-
-
 def test_what_a_spreadsheet_cannot_be(read, monkeypatch):
     content = xlsx(SHEETS)
     for wrong, message in (

@@ -33,12 +33,7 @@ _SHOWN = 4000  # most points of a curve that a page draws
 _AFTER = 1.5  # part of a record that is kept, in durations of the simulated impact
 
 
-def measure_record(
-    name: str,
-    content: bytes,
-    options: Mapping[str, Any],
-    alone: tuple[str, bytes] | None = None,
-) -> str:
+def measure_record(name: str, content: bytes, options: Mapping[str, Any]) -> str:
     """Recognise a file of measurements and analyse it; return results and curves, as JSON.
 
     Parameters
@@ -49,8 +44,6 @@ def measure_record(
         The content of the file.
     options : mapping
         Options of `read` and `analyse`; numbers may carry units.
-    alone : (str, bytes), optional
-        Name and content of a record of the lower ball alone.
 
     Returns
     -------
@@ -65,7 +58,7 @@ def measure_record(
         If it cannot be read, or holds nothing that can be analysed.
     """
     try:
-        one = _measure(name, content, options, alone)
+        one = _measure(name, content, options)
     except StackbounceError:
         bounces = _laws_of(name, content)
         if bounces is None:
@@ -164,14 +157,8 @@ def fit_record(
     )
 
 
-def _measure(
-    name: str,
-    content: bytes,
-    options: Mapping[str, Any],
-    alone: tuple[str, bytes] | None = None,
-) -> Measurement:
-    given = dict(options) if alone is None else {**options, "alone": alone}
-    known = read_options(given, _control, to=("read", "analyse"))
+def _measure(name: str, content: bytes, options: Mapping[str, Any]) -> Measurement:
+    known = read_options(options, _control, to=("read", "analyse"))
     return measure_file((name, content), known, _wording)
 
 

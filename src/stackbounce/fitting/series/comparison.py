@@ -1,4 +1,4 @@
-"""How well each law follows a series: calibrated at one speed, and fitted to all."""
+"""How well each law follows a series, fitted to all speeds."""
 
 import math
 from collections.abc import Callable, Collection, Sequence
@@ -44,9 +44,6 @@ class Outcome:
         Its degrees of freedom.
     p : float
         The probability of a larger χ² if the law holds.
-    p_calibrated : float
-        The same for the law that is calibrated at the highest speed alone and asked for the other
-        speeds. The error of the calibration is part of the covariance.
     p_half, p_twice : float or None
         p with half and with twice the assumed errors; None if none is assumed.
     p_without_air : float or None
@@ -61,7 +58,6 @@ class Outcome:
     chi_squared: float
     freedom: int
     p: float
-    p_calibrated: float
     p_half: float | None = None
     p_twice: float | None = None
     p_without_air: float | None = None
@@ -266,7 +262,6 @@ def _outcome(
         chi_squared=squares,
         freedom=freedom,
         p=_probability(squares, freedom, series),
-        p_calibrated=_probability(_of_the_rest(curve, series), freedom, series),
         freedom_of_error=series.freedom(),
         **supposed,
     )
@@ -329,31 +324,10 @@ def _fitted(
     bounds, exactly = _reach(series), {"xatol": 1e-9}
     best = minimize_scalar(squares, bounds=bounds, method="bounded", options=exactly)
     start = float(best.x)
-    slope = _slope(curve, start)
+    slope = (curve(start + _STEP) - curve(start - _STEP)) / (2.0 * _STEP)
     value = float(_unscaled(start))
     by_value = -value * np.log(value)
     return value, float(by_value / np.sqrt(slope @ weight @ slope)), float(best.fun)
-
-
-def _of_the_rest(curve: Callable[[float], Array], series: Series) -> float:
-    """Return χ² of the other speeds for the law that is calibrated at the highest one.
-
-    What is left over is ``y_i - f_i(y_0)``, and its covariance has the error of y_0 in all places.
-    """
-    first = int(np.argmax(series.speeds))
-    start = float(_scaled(series.values)[first])
-    slope = _slope(curve, start)
-    slope = slope / slope[first]  # by the value at the first speed itself
-    apart = series.values - curve(start)
-    shared = np.eye(series.values.size)
-    shared[:, first] -= slope
-    kept = np.arange(series.values.size) != first
-    covariance = (shared @ series.covariance() @ shared.T)[np.ix_(kept, kept)]
-    return float(apart[kept] @ np.linalg.solve(covariance, apart[kept]))
-
-
-def _slope(curve: Callable[[float], Array], start: float) -> Array:
-    return (curve(start + _STEP) - curve(start - _STEP)) / (2.0 * _STEP)
 
 
 def _power(series: Series) -> tuple[float, float, float | None]:

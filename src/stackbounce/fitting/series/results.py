@@ -106,8 +106,8 @@ def fit_series(
 ) -> SeriesFit:
     r"""Fit contact laws to a table of bounces from several heights, or at several speeds.
 
-    A law is calibrated at the highest speed of a series and asked for the others, and it is fitted
-    to all of them. Both are judged by χ², with all errors and their correlations.
+    A law has one free number, the restitution at the highest speed of a series. It is fitted to all
+    speeds, and judged by χ², with all errors and their correlations.
 
     Parameters
     ----------

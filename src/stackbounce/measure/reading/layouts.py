@@ -185,11 +185,6 @@ def general(text: Text) -> Layout:
     first = _body(text)
     width = _width(text, first)
     above = [k for k in range(first) if any(text.head[k])]
-    beside = _beside(text, width, above[-1] if above else first)
-    if beside:
-        why = f"words beside the first row name its columns: {', '.join(beside)}"
-        first = above[-1] if above else first
-        return Layout("table of numbers", why, columns_of(beside, width), first)
     if not above or first - above[-1] > 2:
         columns, doubt = guess(_numbers(text, first, width))
         why = "rows of numbers without a header"
@@ -213,16 +208,6 @@ def general(text: Text) -> Layout:
     return Layout(
         "table of numbers", f"a header names its columns: {shown}{more}", columns, first, doubts
     )
-
-
-def _beside(text: Text, width: int, index: int) -> list[str]:
-    """Return names that stand to the right of a row of numbers, one for each of its columns."""
-    cells = text.head[index]
-    if any(number(cell, text.decimal) is None for cell in cells[:width]) or not any(cells[:width]):
-        return []
-    names = [cell for cell in cells[width:] if cell]
-    words = all(number(name, text.decimal) is None for name in names)
-    return names if words and len(names) == width else []
 
 
 def _numbers(text: Text, first: int, width: int) -> Array:

@@ -1,1 +1,1 @@
-"""Statistics of several kinds: regression, AR noise, change points."""
+"""Statistics of several kinds: regression, AR noise."""

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, ClassVar
 
 import numpy as np
@@ -201,9 +202,8 @@ def _mean(start: Any, counted: list[Any], repeated: bool, drag: Drag | None) -> 
     from uncertainties import ufloat
 
     if not repeated:
-        if drag is not None:
-            return drag.restitution_between([start, *counted])
-        return (counted[-1] / start) ** (0.5 / len(counted))
+        kept = [_kept(first, after, drag) for first, after in pairwise([start, *counted])]
+        return math.prod(kept) ** (1.0 / len(kept))
     mean = sum(counted) / len(counted)
     if len(counted) > 1:
         # The scatter of the heights includes their reading errors.

@@ -9,8 +9,8 @@ WAVEFORM = Kind(
     "contacts, contact times, peaks, impulse, stiffness, gaps",
     f"{__name__}.kind",
     options=(
-        *("mass", "contact_time", "restitution", "law", "exponent", "height", "measured_to"),
-        *("diameter", "speed", "alone", "time_constant", "gravity"),
+        *("mass", "contact_time", "law", "exponent", "height", "measured_to"),
+        *("diameter", "speed", "time_constant", "gravity"),
     ),
     columns=(("time",), ("force", "voltage")),
 )

@@ -5,7 +5,7 @@ import { choice } from "../../set_up/fields.js";
 import { translated } from "../../words/language.js";
 
 /**
- * Fill the form of `parts` with a list of options `{name, form, label, example, says, rare, choices}`; returns `{options(), files()}`.
+ * Fill the form of `parts` with a list of options `{name, form, label, example, says, rare, choices}`; returns `{options()}`.
  * `changed` is called after each change.
  */
 export function measureForm({ options: form, more, rare }, options, changed) {
@@ -20,16 +20,8 @@ export function measureForm({ options: form, more, rare }, options, changed) {
   more.before(...options.filter((option) => !option.rare).map(field));
   rare.append(...options.filter((option) => option.rare).map(field));
   form.addEventListener("submit", (event) => event.preventDefault());
-  const given = (isFile) =>
-    Object.fromEntries(Object.entries(values).filter(([, value]) => value !== "" && value instanceof File === isFile));
-  return { options: () => given(false), files: () => given(true) };
+  return { options: () => Object.fromEntries(Object.entries(values).filter(([, value]) => value !== "")) };
 }
-
-/** The inputs by the form of an option: their attributes, and what they give. */
-const INPUTS = {
-  flag: [{ type: "checkbox" }, ({ checked }) => checked],
-  file: [{ type: "file" }, ({ files }) => files[0] ?? ""],
-};
 
 function chooseField({ name, label, example, choices }, set) {
   const others = choices.filter((value) => value !== example).map((value) => [value, translated(value)]);
@@ -37,8 +29,8 @@ function chooseField({ name, label, example, choices }, set) {
 }
 
 function inputField({ name, form, label, says, example }, set) {
-  const text = [{ type: "text", placeholder: example, spellcheck: "false" }, ({ value }) => value.trim()];
-  const [attributes, valueOf] = INPUTS[form] ?? text;
-  const input = h("input", { name, ...attributes, onchange: () => set(valueOf(input)) });
+  const isFlag = form === "flag";
+  const attributes = isFlag ? { type: "checkbox" } : { type: "text", placeholder: example, spellcheck: "false" };
+  const input = h("input", { name, ...attributes, onchange: () => set(isFlag ? input.checked : input.value.trim()) });
   return h("label", { class: "option", title: translated(says) }, h("span", { text: translated(label) }), input);
 }

@@ -68,7 +68,6 @@ class MeasureView {
       const body = new FormData();
       body.append("file", file);
       body.append("options", JSON.stringify(options));
-      for (const [name, other] of Object.entries(form.files())) body.append(name, other);
       const answer = await this.api.measure(body);
       if (mine === this.newest) this.show(answer, { measured: answer.measured, file, options });
     } catch (error) {

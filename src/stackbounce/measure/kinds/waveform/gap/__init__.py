@@ -1,1 +1,0 @@
-"""The gap between two falling balls, from delays and from the force on the floor."""
