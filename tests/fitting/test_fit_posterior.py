@@ -94,8 +94,7 @@ def test_draws_stay_between_the_bounds_and_progress_is_told():
         BALL, {"rebound_ratios.0": (0.58, 0.1)}, {"contacts.0.restitution": (0.5, 0.7)}
     ).sample(3200, rng=1, progress=lambda done, of: told.append((done, of)))
     draws = found.draws("contacts.0.restitution")
-    assert draws.min() >= 0.5
-    assert draws.max() <= 0.7
+    assert 0.5 < draws.min() < draws.max() < 0.7  # not at the bounds, where values are cut
     assert draws.shape == (75 * 32,)
     assert told[0] == (32, 3200)
     assert told[-1] == (3200, 3200)
