@@ -28,7 +28,7 @@ extensions = [
     "docs._extensions.offline",
     "docs._extensions.validation",
     "matplotlib.sphinxext.plot_directive",
-    "myst_parser",
+    "myst_nb",
     "numpydoc",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
@@ -53,6 +53,11 @@ numpydoc_validation_exclude = {
 
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
+
+# The notebooks run when the pages are built; an error in one ends the build.
+nb_execution_mode = "force"
+nb_execution_timeout = 60  # s, of one cell
+nb_execution_raise_on_error = True
 math_number_all = False
 math_eqref_format = "({number})"
 

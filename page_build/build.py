@@ -48,11 +48,11 @@ def is_up_to_date(engine: Path, folder: Path) -> bool:
 
 def list_files(engine: Path) -> dict[str, bytes]:
     """Return all files by their names."""
-    from page_build.data import laws_js, model_json
+    from page_build.data import laws_js, model_json, options_json
     from page_build.folder import folder_files, one_file
 
-    data = {"laws.js": laws_js().encode(), "model.json": model_json().encode()}
-    parts = data | _read_engine(engine)
+    texts = {"laws.js": laws_js(), "model.json": model_json(), "options.json": options_json()}
+    parts = {name: text.encode() for name, text in texts.items()} | _read_engine(engine)
     form = {name: content for name, content in folder_files(parts).items() if "/" not in name}
     return parts | form | {made.ONE_FILE: one_file(parts).encode()}
 

@@ -1,4 +1,4 @@
-"""What the page knows of the package: `model.json`, and the code of laws, `laws.js`.
+"""What the page knows of the package: `model.json`, `options.json`, the code of laws, `laws.js`.
 
 Balls, contact laws, examples, the paper's lines, lessons and units, with the numbers that each
 check lets through, found by asking it. The page reads units as `stackbounce.units.quantity` does,
@@ -23,6 +23,7 @@ from stackbounce.cross2007.drops import bisect
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.explorer.limits import LIMITS, RTOL
 from stackbounce.json_values import as_json
+from stackbounce.measure.options import options_for
 from stackbounce.model import LAWS, STANDARD_GRAVITY, STEEPEST, ContactLaw, Hysteretic
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stacked
 from stackbounce.run.result import Cause, Status
@@ -184,6 +185,24 @@ def laws_js() -> str:
         if kind.page_code
     )
     return "\n".join(["export const LAW_CODE = {", *codes, "};", ""])
+
+
+def options_json() -> str:
+    """Return the options of the page's form of a measurement, as JSON.
+
+    Examples
+    --------
+    >>> import json
+    >>> json.loads(options_json())["options"][0]["name"]
+    'mass'
+    """
+    told = ("name", "form", "label", "example", "says", "rare")
+    options = [
+        {name: getattr(option, name) for name in told}
+        | {"choices": None if option.choices is None else list(option.choices)}
+        for option in options_for("read", "analyse").values()
+    ]
+    return as_json({"options": options})
 
 
 def _list_lines() -> list[dict[str, Any]]:

@@ -4,13 +4,10 @@ import collections
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import matplotlib as mpl
 import pytest
 from hypothesis import settings
-
-ROOT = Path(__file__).parents[1]
 
 mpl.use("Agg")
 
@@ -25,8 +22,8 @@ settings.load_profile("steady")
 def pytest_configure(config):
     """Make the page of the present sources, once for all processes."""
     if not hasattr(config, "workerinput"):
-        own = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
-        subprocess.run([sys.executable, "-m", "page_build"], cwd=ROOT, env=own, check=False)
+        own = {"cwd": config.rootpath, "env": {**os.environ, "PYTHONPATH": "src"}}
+        subprocess.run([sys.executable, "-m", "page_build"], **own, check=False)
 
 
 @pytest.hookimpl(tryfirst=True)

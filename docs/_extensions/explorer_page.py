@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from docutils import nodes
+from page_build.lessons.lesson import explorer_fragment
 from sphinx.application import Sphinx
 from sphinx.util.docutils import ReferenceRole
-
-from page_build.lessons.lesson import explorer_fragment
 
 NAME = "explorer.html"
 

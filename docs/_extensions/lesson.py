@@ -8,9 +8,8 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-from sphinx.application import Sphinx
-
 from page_build.lessons.lesson import NAMES, read_lesson, split_links
+from sphinx.application import Sphinx
 
 _LINE = "______________________"
 _WIDTH, _HEIGHT, _STEP = 160, 90, 10

@@ -5,11 +5,12 @@
 # program handles Ctrl+C.
 _ROOMS = {
     "errors": "StackbounceError",
+    "explorer.notebook": "explore",
     "fitting": "Fit Model Range compare fit standard_models",
     "fitting.series": "fit_series",
     "measure": "read",
     "model": "Air Ball Bond Dashpot Drop Hertz HollowBall HuntCrossley Hysteretic PowerLaw Rigid "
-    "RigidBySpeed RigidLossBySpeed Spring StandardLinearSolid Tabulated Viscoelastic series",
+    "RigidBySpeed RigidLossBySpeed Spring StandardLinearSolid Tabulated Viscoelastic laws series",
     "model.catalogue": "balls stack",
     "prediction": "Prediction predict",
     "run.bounces": "bounces_in_air",
@@ -24,6 +25,11 @@ _ROOMS = {
 _HOMES = {name: room for room, names in _ROOMS.items() for name in names.split()}
 __all__ = list(_HOMES)
 
+_FIRST = (  # what `dir` shows
+    "Ball Drop Hysteretic Rigid Spring balls calibrate compare cross2007 datasets explore fit "
+    "measure plots predict read separate simulate stack sweep"
+).split()
+
 
 def __getattr__(name: str) -> object:
     from importlib import import_module
@@ -34,9 +40,11 @@ def __getattr__(name: str) -> object:
     elif not name.startswith("_") and find_spec(f"{__name__}.{name}"):
         import_module(f"{__name__}.{name}")  # which sets it
     else:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from stackbounce.errors import no_attribute
+
+        raise no_attribute(import_module(__name__), name)
     return globals()[name]
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *_HOMES})
+    return _FIRST

@@ -1,4 +1,9 @@
+from stackbounce import cross2007 as cross2007
+from stackbounce import datasets as datasets
+from stackbounce import measure as measure
+from stackbounce import plots as plots
 from stackbounce.errors import StackbounceError as StackbounceError
+from stackbounce.explorer.notebook import explore as explore
 from stackbounce.fitting import Fit as Fit
 from stackbounce.fitting import Model as Model
 from stackbounce.fitting import Range as Range
@@ -24,6 +29,7 @@ from stackbounce.model import Spring as Spring
 from stackbounce.model import StandardLinearSolid as StandardLinearSolid
 from stackbounce.model import Tabulated as Tabulated
 from stackbounce.model import Viscoelastic as Viscoelastic
+from stackbounce.model import laws as laws
 from stackbounce.model import series as series
 from stackbounce.model.catalogue import balls as balls
 from stackbounce.model.catalogue import stack as stack

@@ -5,6 +5,7 @@ with the name, so that the reader of a file can prefix the path (``mass must be 
 ``balls.1.mass must be …``).
 """
 
+import functools
 import itertools
 import math
 from collections.abc import Callable, Iterable, Mapping, Set
@@ -222,14 +223,56 @@ def nearest(name: object, known: Iterable[str]) -> str:
     >>> nearest("sprung", ["Rigid", "Spring"])
     'did you mean Spring? Known: Rigid, Spring'
     """
+    names = list(known)
+    close = _closest(name, names)
+    listed_names = ", ".join(names)
+    return f"did you mean {close}? Known: {listed_names}" if close else f"known: {listed_names}"
+
+
+def _closest(name: object, names: Iterable[str]) -> str:
     import difflib
 
-    names = list(known)
     folded = {name.casefold(): name for name in names}
     word = name[:60] if isinstance(name, str) else shown(name)
-    close = difflib.get_close_matches(word.casefold(), folded, n=1)
-    hint = f"did you mean {folded[close[0]]}? " if close else ""
-    return f"{hint}Known: {', '.join(names)}" if hint else f"known: {', '.join(names)}"
+    return "".join(folded[one] for one in difflib.get_close_matches(word.casefold(), folded, n=1))
+
+
+def no_attribute(owner: Any, name: str) -> AttributeError:
+    """Return the error for an attribute that is not there, with what to use in its place.
+
+    Parameters
+    ----------
+    owner : type or module
+        What lacks it; a table of ``attributes.toml`` has its name.
+    name : str
+        The attribute.
+
+    Examples
+    --------
+    >>> from stackbounce.model import Drop
+    >>> no_attribute(Drop, "heigth")
+    AttributeError("Drop has no attribute 'heigth'; did you mean height?")
+    >>> no_attribute(Drop, "run")
+    AttributeError("Drop has no attribute 'run'; use stackbounce.simulate(drop)")
+    """
+    message = f"{owner.__name__} has no attribute {name!r}"
+    if not name.startswith("_"):  # which programs ask for, not people
+        tried = _tried(owner.__name__)
+        known = sorted({*dir(owner), *vars(owner).get("__all__", ())})
+        if name in tried:
+            message += f"; use {tried[name]}"
+        elif close := _closest(name, known):
+            message += f"; did you mean {close}?"
+    return AttributeError(message, name=name)  # with its name alone, Python adds no hint
+
+
+@functools.cache
+def _tried(owner: str) -> Any:
+    import tomllib
+    from importlib.resources import files
+
+    text = (files(__package__) / "attributes.toml").read_text("utf-8")
+    return tomllib.loads(text)[owner]
 
 
 def shown(value: object) -> str:

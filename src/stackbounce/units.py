@@ -3,7 +3,7 @@
 import functools
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from numbers import Real
 from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin
@@ -33,6 +33,8 @@ _KINDS = {
     "kg/m**3": ("a density", "1.2 kg/m^3"),
 }
 
+WORDS = {"kilograms": "kg", "metres": "m", "seconds": "s", "newtons": "N", "pascals": "Pa"}
+"""The unit of each of the words of messages."""
 _HANDY = {  # unit: (from this value on, its name, how many of it the unit has), largest first
     "m": ((0.1, "m", 1.0), (1e-4, "mm", 1e3), (0.0, "µm", 1e6)),
     "s": ((1.0, "s", 1.0), (1e-3, "ms", 1e3), (0.0, "µs", 1e6)),
@@ -121,14 +123,8 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
     >>> quantity(0.058, "m")
     0.058
     """
-    if hasattr(value, "m_as"):
-        try:
-            number = value.m_as(unit)
-        except Exception:  # each registry has classes of its own
-            raise UnitError(_message(name, str(value), unit)) from None
-        value = str(value) if hasattr(number, "std_dev") else number
-    if hasattr(value, "std_dev"):  # a ufloat, which reads like the text "0.15+/-0.01"
-        value = str(value)
+    number = magnitude(value, unit, name)
+    value = str(value) if hasattr(number, "std_dev") else number
     if not isinstance(value, str):
         try:
             return finite(name, value, unit)
@@ -149,17 +145,64 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
 def in_unit(value: object, unit: str, name: str) -> Any:
     """Return a value as it is, but a float in `unit` for one that may have a unit of its own.
 
-    What has none is validated where it is used. See `quantity` for what is raised.
+    So is each member of a list, and an array of pint becomes one of numpy. What has no unit is
+    validated where it is used. See `quantity` for what is raised.
 
     Examples
     --------
-    >>> in_unit("58 mm", "m", "diameter"), in_unit(None, "m", "diameter")
-    (0.058, None)
+    >>> in_unit("58 mm", "m", "diameter"), in_unit(["2 mm", 0], "m", "gaps")
+    (0.058, [0.002, 0])
     """
     if type(value) is float or isinstance(value, Real):
         return value
+    if isinstance(value, list | tuple):
+        return [
+            part if type(part) is float else in_unit(part, unit, f"{name}.{i}")
+            for i, part in enumerate(value)
+        ]
+    if getattr(value, "ndim", 0) and hasattr(value, "m_as"):
+        return magnitude(value, unit, name)
     own = isinstance(value, str) or hasattr(value, "m_as") or hasattr(value, "std_dev")
     return quantity(value, unit, name) if own else value
+
+
+def checked(check: Callable[..., float], name: str, value: object, of: str = "") -> float:
+    """Return a number, which may have a unit, as a float in SI units if it passes a check.
+
+    Parameters
+    ----------
+    check : callable
+        One of those in `stackbounce.errors`, such as `positive`.
+    name : str
+        The name of the value; messages begin with it.
+    value : float, str or quantity
+        As of `quantity`.
+    of : str, optional
+        The unit in words, as in messages; empty for a pure number.
+
+    Examples
+    --------
+    >>> from stackbounce.errors import positive
+    >>> checked(positive, "mass", "57 g", "kilograms")
+    0.057
+    """
+    number = value if type(value) is float else in_unit(value, WORDS.get(of, of), name)
+    return check(name, number, of) if of else check(name, number)
+
+
+def magnitude(value: Any, unit: str, name: str) -> Any:
+    """Return the number, or what else it has, of a quantity of pint; anything else as it is.
+
+    Examples
+    --------
+    >>> import pint
+    >>> magnitude(pint.Quantity([1.0, 2.0], "mm"), "m", "gaps").tolist()
+    [0.001, 0.002]
+    """
+    try:
+        return value.m_as(unit) if hasattr(value, "m_as") else value
+    except Exception:  # each registry has classes of its own
+        raise UnitError(_message(name, str(value), unit)) from None
 
 
 def unit_written(text: str) -> str | None:
@@ -250,7 +293,7 @@ def _factor(written: str, unit: str, message: str) -> float:
 
 
 def _message(name: str, value: object, unit: str) -> str:
-    kind, example = _KINDS.get(unit, ("a quantity", f"20 {unit}"))
+    kind, example = _KINDS.get(unit.replace("^", "**"), ("a quantity", f"20 {unit}"))
     number = f"a number of {unit}" if unit else "a number"
     right = f'{kind} ({number} or a string such as "{example}")'
     if isinstance(value, str) and _WITH_ERROR.search(value):
@@ -286,6 +329,18 @@ def handy(most: float, unit: str) -> tuple[str, float]:
     """
     choices = _HANDY.get(unit, ()) if most > 0.0 else ()
     return next(((name, by) for start, name, by in choices if most >= start), (unit, 1.0))
+
+
+def handy_text(value: float, unit: str, digits: int = 6) -> str:
+    """Return a number with so many digits in the unit in which it is handy.
+
+    Examples
+    --------
+    >>> handy_text(0.15, "kg"), handy_text(0.002, "m"), handy_text(2500.0, "N/m")
+    ('150 g', '2 mm', '2500 N/m')
+    """
+    name, by = handy(abs(value), unit)
+    return f"{by * value:.{digits}g} {name.replace('**', '^')}".strip()
 
 
 def rounded(values: Iterable[float], error: float) -> list[str]:

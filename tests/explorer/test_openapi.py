@@ -16,7 +16,6 @@ CHECKS = [
 ]
 OPERATIONS = [
     ("GET", "/api/places"),
-    ("GET", "/api/measure/options"),
     ("POST", "/api/simulate"),
     ("POST", "/api/predict"),
     ("POST", "/api/measure"),

@@ -154,8 +154,6 @@ def test_the_page_knows_the_numbers_of_every_law_and_which_set_its_loss():
     assert units == {"stiffness": "N/m**exponent", "exponent": "", "dissipation": "s/m"}
     for name, law in laws.items():
         given = {field["name"]: field["default"] for field in law["fields"]}
-        assert law["formula"]
-        assert set(law["loss_fields"]) <= set(given)
         assert bool(law["loss_fields"]) == bool(sb.model.LAWS[name].loss)
         given.pop("unloading_exponent", None)  # or the restitution
         assert sb.model.LAWS[name](**given)

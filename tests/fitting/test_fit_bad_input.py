@@ -109,7 +109,7 @@ def test_drops_that_do_not_fit(drop, data, kind, message):
         ({"starts": 0}, InvalidValue),
         ({"starts": 1.5}, InvalidType),
         ({"starts": 10**9}, InvalidValue),
-        ({"seed": -1}, InvalidValue),
+        ({"rng": 1.5}, InvalidType),
         ({"rtol": 1.0}, InvalidValue),
         ({"tie": 5}, InvalidType),
     ],

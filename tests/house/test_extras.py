@@ -69,6 +69,7 @@ def test_what_is_installed_of_an_extra_is_not_named(monkeypatch):
     "arguments",
     [
         ["simulate", "basketball", "tennis", "--height", "0.63m", "--gap", "2mm"],
+        ["app", "--export", "explorer.html"],
         ["balls"],
         ["simulate", "B1", "--contact", "HuntCrossley stiffness=1e5 exponent=1.5 dissipation=.1"],
         ["highest", "--balls", "2"],
@@ -76,15 +77,9 @@ def test_what_is_installed_of_an_extra_is_not_named(monkeypatch):
     ],
     ids=" ".join,
 )
-def test_a_plain_install_runs(arguments):
-    run = plain(COMMAND, *arguments)
+def test_a_plain_install_runs(arguments, tmp_path):
+    run = plain(COMMAND, *arguments, folder=tmp_path)
     assert (run.returncode, run.stderr) == (0, "")
-
-
-def test_a_plain_install_writes_the_explorer(tmp_path):
-    run = plain(COMMAND, "app", "--export", "explorer.html", folder=tmp_path)
-    assert (run.returncode, run.stderr) == (0, "")
-    assert (tmp_path / "explorer.html").read_text("utf-8").startswith("<!doctype html>")
 
 
 @pytest.mark.slow
@@ -139,7 +134,6 @@ def test_a_command_names_the_extra_it_needs(arguments, extra, what, tmp_path):
     [
         ("import stackbounce as sb; sb.read('sound.wav')", "measure"),
         pytest.param("from stackbounce.plots import bounce", "plots", marks=pytest.mark.slow),
-        pytest.param("import stackbounce.explorer.serve", "web", marks=pytest.mark.slow),
     ],
 )
 def test_a_function_names_the_extra_it_needs(code, extra):

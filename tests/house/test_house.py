@@ -77,7 +77,7 @@ def test_every_public_name_is_documented():
     api = read("docs/api.md")
     rooms = set(stackbounce.__all__) | set(measure.__all__) | set(plots.__all__)
     entries = re.findall(r"^.. auto(?:class|function|exception|data):: (\w+)$", api, re.MULTILINE)
-    assert set(entries) == rooms - {"__version__"}
+    assert set(entries) == rooms - {"__version__", "laws"}  # a module: its members have entries
 
 
 @pytest.mark.parametrize(
@@ -134,10 +134,12 @@ def test_lines_of_a_formula_are_aligned():
 # --- the package's front door: its names come when they are used, and its functions stay
 def test_every_name_is_there():
     assert {name for name in sb.__all__ if not hasattr(sb, name)} == set()
-    assert set(sb.__all__) <= set(dir(sb))
+    assert len(dir(sb)) <= 20
+    assert {name for name in dir(sb) if not hasattr(sb, name)} == set()
     for package in (sb, measure):
         stub = Path(package.__file__).with_suffix(".pyi").read_text("utf-8")
-        assert sorted(re.findall(r"as (\w+)$", stub, re.MULTILINE)) == sorted(package.__all__)
+        names = {*package.__all__, *(dir(sb) if package is sb else ())}
+        assert sorted(re.findall(r"as (\w+)$", stub, re.MULTILINE)) == sorted(names)
 
 
 def test_no_module_has_the_name_of_a_function():

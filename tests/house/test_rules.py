@@ -20,7 +20,8 @@ LAWS = {"Dashpot", "HuntCrossley", "Viscoelastic"}  # those that nothing else bu
 AT_HOME = ("model/laws/", "model/__init__.py", "__init__.py", "cross2007/")
 
 WRITERS = set("write_text write_bytes to_csv to_netcdf to_zarr dump savefig tofile".split())
-HOMES = {"files.py", "plots/style.py", "cross2007/style.py"}  # the writer; pictures into memory
+# the writer; pictures into memory
+HOMES = {"files.py", "plots/style.py", "plots/figure.py", "cross2007/style.py"}
 UNSAFE = {"pickle", "cPickle", "marshal", "shelve", "dill", "cloudpickle", "joblib", "platformdirs"}
 
 

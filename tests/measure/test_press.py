@@ -241,8 +241,8 @@ def test_springs_in_series_have_no_excess():
 
 
 def test_split_series_is_checked():
-    with pytest.raises(InvalidType, match="upper must be a positive number"):
-        split_series(1e-3, "2 mm", 3e-3, force=1.0)
+    with pytest.raises(InvalidValue, match="upper must be a length"):
+        split_series(1e-3, "2 ms", 3e-3, force=1.0)
     with pytest.raises(InvalidValue, match="both must be compressed"):
         split_series(3e-3, 1e-3, 1e-3, force=1.0)
 

@@ -382,7 +382,7 @@ def test_what_is_no_waveform_is_refused_in_one_line(data, error):
     ("option", "value"),
     [
         ("mass", -1.0),
-        ("mass", "1 kg"),
+        ("mass", "1 m"),
         ("mass", ufloat(1.0, np.inf)),
         ("impact_speed", 0.0),
         ("time_constant", 0.0),

@@ -111,3 +111,23 @@ def test_solid_balls_have_the_mass_and_the_hertz_contact_time_of_their_material(
     speed = math.sqrt(2.0 * sb.model.STANDARD_GRAVITY * 1.0)
     assert ball.mass == pytest.approx(density * math.pi / 6.0 * ball.diameter**3, rel=1e-3)
     assert entry.contact_time == pytest.approx(sb.contact_time(law, ball.mass, speed), rel=1e-2)
+
+
+def test_the_balls_are_a_mapping_and_a_table():
+    assert len(sb.balls) == len(list(sb.balls)) == len(BALLS) + len(CLASS_BALLS)
+    assert all(sb.balls[name].name == name for name in sb.balls)
+    assert "Tennis-Ball" in sb.balls
+    with pytest.raises(KeyError, match="'tenis'; did you mean tennis"):
+        sb.balls["tenis"]
+    assert repr(sb.balls).splitlines()[2].split()[:2] == ["basketball", "150"]
+    assert ">golf ball</th>" in sb.balls._repr_html_()
+
+
+def test_a_stack_has_the_numbers_that_are_given_and_those_of_the_catalogue():
+    drop = sb.stack("b1", "B2", "tennis ball", gravity=9.81, velocities=[-1, "-2 m/s", 0])
+    assert (drop.gaps, drop.velocities, drop.gravity) == ((1e-3, 0.0), (-1.0, -2.0, 0.0), 9.81)
+    assert drop.contacts == stacked(["B1", "B2", "tennis ball"]).contacts
+    drop = sb.stack("B1", "B2", gap="2 mm").replace(height=2.0)
+    assert drop == sb.stack("B1", "B2", gaps=[2e-3], height="2 m")
+    with pytest.raises(ValueError, match="gap and gaps: only one of the two can be given"):
+        sb.stack("B1", "B2", gap=0.0, gaps=[0.0])

@@ -21,7 +21,6 @@ from synthetic.waveform import waveform as record_of
 MASS, SPEED, TIME, KEPT = 0.1, 2.0, 4e-3, 0.8
 
 
-@dataclasses.dataclass(frozen=True)
 class SharpCone(ElasticLaw):
     """A sharp cone on a flat floor: ``F = k c**2``."""
 

@@ -219,7 +219,7 @@ def test_a_hollow_ball_has_a_least_restitution_for_the_time_at_which_it_shall_bu
     assert str(caught.value).endswith("a restitution of 0.9, got 0.3 times")
 
 
-@pytest.mark.parametrize("value", ["5 g", {"a": 1.0, "b": 2.0}, ("1", 2.0), True, np.array(1.0)])
+@pytest.mark.parametrize("value", [{"a": 1.0, "b": 2.0}, ([1.0], 2.0), True, np.array(1.0)])
 def test_a_mass_is_a_number_or_two(value):
     got = refusal(errors.InvalidType, sb.calibrate, sb.Dashpot, **(MEASURED | {"mass": value}))
     assert re.match(r"mass(\.0)? must be a positive number of kilograms, got ", got)

@@ -3,7 +3,10 @@
 import copy
 import math
 import pickle
+import re
+import tomllib
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -82,8 +85,8 @@ class Unreadable:
     [
         [0.5, True],
         np.array([True]),
-        "1",
-        [1.0, "2"],
+        b"1",
+        [1j],
         [[1], [2, 3]],
         np.array([1, 2], dtype="m8[ns]"),
         np.ma.array([1.0, 2.0], mask=[False, True]),
@@ -154,3 +157,40 @@ def test_a_dashpot_alone_has_its_peak_at_the_touch():
 def test_rigid_balls_have_it_at_the_collision():
     result = sb.simulate(sb.Drop([sb.Ball(1.0)] * 2, [sb.Rigid(0.5)] * 2, [0.1], impact_speed=1.0))
     assert (result.intervals["peak_time"] == result.intervals["start"]).all()
+
+
+def test_a_result_is_a_dataset_with_units():
+    result = sb.simulate(sb.stack("basketball", "tennis", gravity=9.81), until=2.0)
+    ds = result.to_dataset()
+    for name in ("interval", "event", "apex"):
+        rows = result.apexes if name == "apex" else getattr(result, f"{name}s")
+        for field in rows.dtype.names:
+            assert np.array_equal(ds[f"{name}_{field}"].values, rows[field])
+    v = result.rebound_speeds
+    assert result.rebound_heights == pytest.approx(v * abs(v) / 19.62)
+    assert ds.rebound_height.values == pytest.approx(result.rebound_heights)
+    assert ds.status == sb.Status.TIME_REACHED
+    assert ds.interval_impulse.attrs == {"long_name": "interval impulse", "units": "N s"}
+    assert {name for name in ds.data_vars if "units" not in ds[name].attrs} == {"event_kind"}
+    assert sb.Drop.from_mapping(tomllib.loads(ds.attrs["drop"])) == result.drop
+
+
+def test_a_number_of_the_drop_is_no_argument_of_simulate():
+    for name, kind in (("gravity", "Drop"), ("gap", "Drop"), ("mass", "Ball")):
+        got = refusal(errors.InvalidType, sb.simulate, DROP, **{name: 1.0})
+        right = f"give it to {kind}(…), or see Drop.replace"
+        assert got == f"{name} is no argument of simulate; {right}"
+    assert "; did you mean until? " in refusal(errors.InvalidType, sb.simulate, DROP, utnil=1.0)
+
+
+def test_an_attribute_that_is_not_there_says_what_is(result):
+    for name, right in (("_energies", ""), ("collision", "; did you mean collisions?")):
+        got = refusal(AttributeError, getattr, result, name)
+        assert got == f"Result has no attribute '{name}'{right}"
+    path = Path(errors.__file__).with_name("attributes.toml")
+    owners = {"stackbounce": sb, "Drop": DROP, "Result": result, "drop": DROP, "result": result}
+    for owner, tried in tomllib.loads(path.read_text("utf-8")).items():
+        for name, right in tried.items():
+            assert refusal(AttributeError, getattr, owners[owner], name).endswith(f"; use {right}")
+            for first, there in re.findall(r"\b(stackbounce|result|drop)\.(\w+)", right):
+                assert hasattr(owners[first], there)

@@ -161,7 +161,7 @@ def test_an_error_has_all_numbers_of_the_element():
         ({"contacts.0.restitution": [1.0]}, "contacts.0.restitution is not a parameter of this"),
         ({"balls.0.mass": [1, -1]}, r"balls.0.mass must be a .*, got -1.0 \(at balls_0_mass 1: "),
         ({"gaps.0": [0.0, np.nan]}, r"gaps.0 must be .*, got nan \(at gaps_0 1: gaps.0 = nan\)"),
-        ({"balls.0.mass": ["a"]}, "balls.0.mass must be numbers"),
+        ({"balls.0.mass": ["a"]}, "balls.0.mass.0 must be a mass .*, got 'a'"),
         ({"balls.0.mass": [[1.0], [2.0]]}, "or a DataArray with named dimensions, got 2"),
         ({"balls.0.mass": xr.DataArray([1.0], dims="ball")}, "has a dimension named ball"),
         ({1: [1.0]}, "a path must be a string, got 1"),

@@ -248,7 +248,7 @@ def test_a_given_stack_is_ranked_with_its_best_masses():
     assert (ds.attrs["within"], ds.attrs["at_the_end"]) == ((0.2, 0.4), [1])
     assert np.isnan(ds.gap).all()
     assert ds.rebound_ratio.values[2, 0] == pytest.approx(sb.simulate(drop).rebound_ratios)
-    assert plots.highest(ds).legends[0].get_texts()[0].get_text() == "with its own gaps"
+    assert plots.highest(ds).axes[0].get_legend().get_texts()[0].get_text() == "with its own gaps"
 
 
 def test_masses_are_best_at_the_first_gap():

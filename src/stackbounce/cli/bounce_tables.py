@@ -6,32 +6,13 @@ from typing import Any
 from rich.table import Table
 
 from stackbounce.cli.tables import add_columns, new_table, number, percent, with_error, write_count
-from stackbounce.model.drop import STANDARD_GRAVITY, Drop
+from stackbounce.model.drawing import label, meeting
 from stackbounce.prediction import Prediction
 from stackbounce.run.result import Result
 
 _BALLS = ("before\nm/s", "after\nm/s", "ratio\nv/v0", "bounce\n/drop", "height\nm")
 _CONTACTS = ("touch\nms", "release\nms", "longest\nms", "peak\nN", "peak\nmm", "impulse\nN s")
 _TIMES = _CONTACTS[:3]
-
-
-def label(name: str | None, i: int) -> str:
-    """Return the name of ball `i` in tables: printable, and at most 16 characters.
-
-    Examples
-    --------
-    >>> label(None, 1), label("B1", 0)
-    ('ball 1', 'B1')
-    """
-    text = "".join(c if c.isprintable() else "?" for c in name or f"ball {i}")
-    return text if len(text) <= 16 else text[:15] + "…"
-
-
-def meeting(drop: Drop, contact: int) -> str:
-    """Return the two sides of a contact: the floor or the ball below, and the ball above."""
-    upper = label(drop.balls[contact].name, contact)
-    below = "floor" if contact == 0 else label(drop.balls[contact - 1].name, contact - 1)
-    return f"{below} – {upper}"
 
 
 class Bounce:
@@ -81,7 +62,7 @@ class Bounce:
                 counts = sorted(self.prediction.collisions[i])
             ends = dict.fromkeys((counts[0], counts[-1]))
             cells = [self._cell(heading, i) for heading in _CONTACTS]
-            names = meeting(self.result.drop, i)
+            names = meeting(self.result.drop.balls, i)
             table.add_row(names, "–".join(map(write_count, ends)), *cells)
         return table
 
@@ -115,12 +96,12 @@ class Bounce:
 def _numbers(result: Result) -> dict[tuple[str, int], float]:
     """Return the numbers of the tables by heading and ball or contact."""
     found: dict[tuple[str, int], float] = {}
-    gravity = result.drop.gravity or STANDARD_GRAVITY
     speeds, ratios = result.rebound_speeds.tolist(), result.rebound_ratios.tolist()
+    heights = result.rebound_heights.tolist()
     for i, before in enumerate(result.drop.start_velocities):
         balls = [before, speeds[i], ratios[i]]
         if not speeds[i] < 0.0:
-            balls += [ratios[i] * ratios[i], speeds[i] * speeds[i] / (2.0 * gravity)]
+            balls += [ratios[i] * ratios[i], heights[i]]
         found |= {(heading, i): value for heading, value in zip(_BALLS, balls, strict=False)}
         rows = result.intervals[result.intervals["contact"] == i]
         if len(rows):

@@ -4,11 +4,12 @@ import math
 
 from rich.console import Console
 
-from stackbounce.cli.bounce_tables import Bounce, label, meeting
+from stackbounce.cli.bounce_tables import Bounce
 from stackbounce.cli.scenario import Scenario
 from stackbounce.cli.tables import number, percent, write_count
 from stackbounce.model import Tabulated
 from stackbounce.model.catalogue import DEFAULT_HEIGHT
+from stackbounce.model.drawing import label, meeting
 from stackbounce.model.laws import ContactLaw
 from stackbounce.prediction import Prediction
 from stackbounce.run.result import Result, Status
@@ -20,12 +21,7 @@ def incidence(scenario: Scenario) -> str:
     """Return the names of the balls, and their height or speed."""
     drop = scenario.drop
     names = " + ".join(label(ball.name, i) for i, ball in enumerate(drop.balls))
-    if drop.velocities is not None:
-        text = "coming in at " + ", ".join(number(v) for v in drop.velocities) + " m/s"
-    elif drop.height is not None:
-        text = f"from {drop.height:.6g} m, at {number(drop.reference_speed)} m/s"
-    else:
-        text = f"at {number(drop.reference_speed)} m/s"
+    text = drop.incidence
     if scenario.speed_source == "default":
         text += f" ({DEFAULT_HEIGHT:g} m unless --height or --speed is given)"
     return f"{names} {text}"
@@ -58,11 +54,11 @@ def print_simulation(
     console.print(incidence(scenario), style="bold")
     for i, source in enumerate(scenario.contact_sources):
         console.print(
-            f"  contact {i}, {meeting(drop, i)}: {law_text(drop.contacts[i])}  [{source}]"
+            f"  contact {i}, {meeting(drop.balls, i)}: {law_text(drop.contacts[i])}  [{source}]"
         )
     for i, source in enumerate(scenario.gap_sources):
         gap = f"{drop.gaps[i] * 1e3:.6g} mm"
-        console.print(f"  gap {i}, {meeting(drop, i + 1)}: {gap}  [{source}]")
+        console.print(f"  gap {i}, {meeting(drop.balls, i + 1)}: {gap}  [{source}]")
     bounce = Bounce(result, prediction)
     for table in (bounce.balls(textbook), bounce.contacts(), bounce.apexes()):
         if table is not None:

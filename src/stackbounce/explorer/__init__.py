@@ -7,6 +7,7 @@ app         the server's addresses: request, answer function, schema
 guard       admission of requests, and the headers of every answer
 framing     which sites may show the page in a frame
 limits      limits of a request, of a client, and of all together
+notebook    the page in a cell of a notebook, without a server
 workers     worker processes, with limits of time and memory for each job
 schema      the schema of requests, in pydantic
 paper_pages the paper's pages, computed at the first request

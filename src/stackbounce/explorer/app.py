@@ -89,11 +89,6 @@ def create_app(limits: Limits, others: Sequence[Place] = (), framed_by: Sequence
         """List the addresses that other machines can type, with their QR codes."""
         return {"places": [place._asdict() for place in others]}
 
-    @app.get("/api/measure/options")
-    async def list_options() -> Response:
-        """List the kinds of measurement and the options of the page's form."""
-        return _json(records.list_options())
-
     _add_pages(app)
     return app
 

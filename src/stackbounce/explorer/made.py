@@ -1,8 +1,8 @@
 """The files of the page that were made when the package was built: they are only read here.
 
 The folder `made` holds the explorer as one file, that of the folder form, and what the page has in
-its folder `made/`: the engine, data, and formulas of laws. `page_build` in the repository makes
-them.
+its folder `made/`: the engine, data, formulas of laws, and options of measurements. `page_build` in
+the repository makes them.
 """
 
 import base64
@@ -18,6 +18,7 @@ KINDS = {
     "layout.json": "application/json",
     "laws.js": "text/javascript; charset=utf-8",
     "model.json": "application/json",
+    "options.json": "application/json",
 }
 """The files of the page's folder `made/`, with their media types."""
 
@@ -85,8 +86,8 @@ def folder_files() -> dict[str, bytes]:
     >>> sorted(folder_files())[:3]
     ['explorer.css', 'explorer.js', 'explorer.webmanifest']
     """
-    made = {f"made/{name}": made_file(name) for name in _OF_FORM}
-    return {name: made_file(name) for name in _FORM} | made
+    own = {name: made_file(name) for name in _FORM}
+    return own | {f"made/{name}": made_file(name) for name in _OF_FORM}
 
 
 def digest(content: bytes) -> str:

@@ -2,7 +2,7 @@
 
 import functools
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -14,7 +14,7 @@ from stackbounce.fitting.least_squares import find_minima
 from stackbounce.fitting.problem import FitProblem, TooFewData
 from stackbounce.fitting.result import Fit
 from stackbounce.run.quantities import Array
-from stackbounce.shown import Shown
+from stackbounce.shown import Shown, Table, table_of
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
@@ -64,6 +64,9 @@ class Prediction(NamedTuple):
     def pull(self) -> float:
         """Predicted less measured, in units of their combined error."""
         return (self.predicted - self.measured) / math.hypot(self.error, self.predicted_error)
+
+
+_SHORT = {"chi_squared": "χ²", "degrees_of_freedom": "degrees", "probability": "p"}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -139,6 +142,9 @@ class Comparison(Shown):
         import pandas as pd
 
         return pd.DataFrame(self.scores).set_index("model").drop(columns="same_as")
+
+    def _tables(self) -> Sequence[Table]:
+        return (table_of(self.table.rename(columns=_SHORT)),)
 
     @property
     def remarks(self) -> tuple[str, ...]:

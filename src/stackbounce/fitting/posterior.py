@@ -1,6 +1,7 @@
 """Draws from the posterior distribution of the parameters, by emcee."""
 
 import functools
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +12,7 @@ from stackbounce.fitting.objective import Objective
 from stackbounce.run.options import check_room, seed_of
 from stackbounce.run.paths import identifier
 from stackbounce.run.quantities import Array
+from stackbounce.shown import Shown, Table
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,8 +29,8 @@ _NUMBERS = 3  # that are kept of each parameter of a draw, at most at one time
 _ENOUGH = 50  # length of a sufficient chain, in autocorrelation times
 
 
-@dataclass(frozen=True, eq=False)
-class Posterior:
+@dataclass(frozen=True, eq=False, repr=False)
+class Posterior(Shown):
     """Draws from the posterior distribution of the parameters; made by `Fit.sample`.
 
     Parameters
@@ -75,6 +77,11 @@ class Posterior:
     seed: int
     unsolved: int = 0
     others: int = 0
+
+    def _tables(self) -> Sequence[Table]:
+        values = [(name, f"{self[name]:.2u}".replace("+/-", " ± ")) for name in self.names]
+        rows = [(name, value, self.units[name]) for name, value in values]
+        return (Table(f"Posterior, acceptance {self.acceptance:.2f}", ("", "", "unit"), rows),)
 
     def __getitem__(self, name: str) -> "UFloat":
         """Mean and standard deviation of a parameter."""

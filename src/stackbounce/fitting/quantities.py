@@ -7,7 +7,7 @@ from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.measure.quantities import LARGEST, deviation, quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.run.quantities import QUANTITIES
-from stackbounce.units import quantity
+from stackbounce.units import magnitude, quantity
 
 
 def find_quantity(drop: Drop, name: str, path: str) -> tuple[str, int]:
@@ -89,7 +89,8 @@ def read_with_error(given: object, unit: str, name: str, right: str) -> tuple[fl
     >>> read_with_error("1.64 ± 0.02", "", "rebound_ratios.1", "a number with its error")
     (1.64, 0.02)
     """
-    pair: Any = quantity_with_error(given, unit, name) if isinstance(given, str) else given
+    pair: Any = magnitude(given, unit, name)
+    pair = quantity_with_error(pair, unit, name) if isinstance(pair, str) else pair
     if hasattr(pair, "nominal_value"):
         pair = (pair.nominal_value, pair.std_dev)
     if not isinstance(pair, Sequence) or isinstance(pair, str) or len(pair) != 2:

@@ -3,7 +3,6 @@
 import os
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -191,10 +190,9 @@ def drop_of(drop: Drop, values: Mapping[str, float], line: int) -> Drop:
     """
     numbers = numbers_of(drop)
     falls = {name: value for name, value in values.items() if name in _FALLS}
-    others: dict[str, Any] = dict.fromkeys((*_FALLS, "velocities")) | falls if falls else {}
     given = {numbers[path]: value for path, value in values.items() if path not in _FALLS}
     try:
-        return drop_at(replace(drop, **others), given)
+        return drop_at(drop.replace(**falls), given)
     except (InvalidValue, InvalidType) as error:
         raise type(error)(f"row {line}: {error}") from error
 

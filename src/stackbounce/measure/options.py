@@ -9,7 +9,7 @@ import tomllib
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 from stackbounce.errors import finite, fraction, non_negative, positive
 from stackbounce.measure.kinds import KINDS
@@ -91,12 +91,6 @@ class Option:
         if self.form in ("number", "measured"):
             return examples()[self.unit][0].split()[-1].upper()  # a mass: MASS
         return self.metavar or self.name.upper()
-
-    def to_mapping(self) -> dict[str, Any]:
-        """Return what the page needs to offer it."""
-        choices = None if self.choices is None else list(self.choices)
-        names = ("name", "form", "label", "example", "says", "rare")
-        return {name: getattr(self, name) for name in names} | {"choices": choices}
 
 
 def _listed(names: Iterable[str]) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, finite, positive
-from stackbounce.units import quantity, unit_written
+from stackbounce.units import WORDS, checked, magnitude, quantity, unit_written
 
 # 1.64(2)e3 m: the number, its decimals, the error of its last digits, the power of ten, the unit.
 _SHORT = re.compile(
@@ -77,8 +77,9 @@ def measured(
     ----------
     name : str
         What it is called; messages begin with it.
-    value : float or UFloat
-        The value. A UFloat is returned as the same variable, which keeps its correlations.
+    value : float, str, UFloat or quantity
+        The value, also with a unit, as of `stackbounce.units.quantity`, and an error. A UFloat
+        is returned as the same variable, which keeps its correlations.
     of : str, optional
         The unit in words, for the message.
     check : callable, optional
@@ -101,14 +102,18 @@ def measured(
     >>> from uncertainties import ufloat
     >>> measured("mass", 0.057), measured("mass", ufloat(0.057, 0.001))
     (0.057+/-0, 0.057+/-0.001)
+    >>> measured("mass", "57 g", "kilograms"), measured("mass", "57(1) g", "kilograms")
+    (0.057+/-0, 0.057+/-0.001)
     """
     from uncertainties import UFloat
 
-    known: Any = value
-    unit = [of] if of else []
-    if not isinstance(value, UFloat):
-        return known_to(check(name, value, *unit), 0.0)
-    check(name, known.nominal_value, *unit)
+    unit = WORDS.get(of, of)
+    known: Any = magnitude(value, unit, name)
+    if isinstance(known, str):
+        known = quantity_with_error(known, unit, name)
+    if not isinstance(known, UFloat):
+        return known_to(checked(check, name, known, of), 0.0)
+    checked(check, name, known.nominal_value, of)
     deviation(name, known.std_dev)
     return known
 

@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from stackbounce.errors import InvalidType, InvalidValue, finite, non_negative, positive, shown
 from stackbounce.model import drag
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import STANDARD_GRAVITY, Drop
+from stackbounce.units import checked
 
 _SPHERE = 0.5
 
@@ -78,7 +79,8 @@ class Air:
     drag_coefficient: float | Mapping[str, float] = _SPHERE
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "density", non_negative("density", self.density, "kg/m**3"))
+        density = checked(non_negative, "density", self.density, "kg/m**3")
+        object.__setattr__(self, "density", density)
         given = self.drag_coefficient
         if isinstance(given, Mapping):
             for name in given:
@@ -86,13 +88,13 @@ class Air:
                     raise InvalidType(
                         f"drag_coefficient must have names of balls as keys, got {shown(name)}"
                     )
-            checked: object = {
+            coefficients: object = {
                 name: non_negative(f"drag_coefficient.{name}", value)
                 for name, value in given.items()
             }
         else:
-            checked = non_negative("drag_coefficient", given)
-        object.__setattr__(self, "drag_coefficient", checked)
+            coefficients = checked(non_negative, "drag_coefficient", given)
+        object.__setattr__(self, "drag_coefficient", coefficients)
 
     def terminal_speed(self, ball: Ball, gravity: float = STANDARD_GRAVITY) -> float:
         """Return the speed in m/s at which the drag equals the weight; infinite without drag.
@@ -113,7 +115,7 @@ class Air:
         >>> round(Air().impact_speed(Ball(mass=0.057, diameter=0.066), 0.71), 3)
         3.708
         """
-        h = positive("height", height, "metres")
+        h = checked(positive, "height", height, "metres")
         return drag.fallen_speed(self._rate(ball), h, _pull(gravity))
 
     def fall_time(self, ball: Ball, height: float, gravity: float = STANDARD_GRAVITY) -> float:
@@ -124,7 +126,7 @@ class Air:
         >>> round(Air().fall_time(Ball(mass=0.057, diameter=0.066), 0.71), 4)
         0.3813
         """
-        h = positive("height", height, "metres")
+        h = checked(positive, "height", height, "metres")
         return drag.fall_time(self._rate(ball), h, _pull(gravity))
 
     def rise(self, ball: Ball, speed: float, gravity: float = STANDARD_GRAVITY) -> float:
@@ -135,7 +137,7 @@ class Air:
         >>> round(Air(density=0.0).rise(Ball(0.057, 0.066), 4.0, gravity=10.0), 9)
         0.8
         """
-        v = non_negative("speed", speed, "m/s")
+        v = checked(non_negative, "speed", speed, "m/s")
         return drag.risen(self._rate(ball), v, _pull(gravity))
 
     def launch_speed(self, ball: Ball, height: float, gravity: float = STANDARD_GRAVITY) -> float:
@@ -148,7 +150,7 @@ class Air:
         >>> round(Air().launch_speed(Ball(mass=0.057, diameter=0.066), 1.72), 2)
         5.9
         """
-        h = positive("height", height, "metres")
+        h = checked(positive, "height", height, "metres")
         try:
             return drag.launch_speed(self._rate(ball), h, _pull(gravity))
         except OverflowError:
@@ -166,7 +168,7 @@ class Air:
         >>> round(flight.height, 3), round(flight.landing_speed, 3)
         (0.804, 3.942)
         """
-        v, g = positive("speed", speed, "m/s"), _pull(gravity)
+        v, g = checked(positive, "speed", speed, "m/s"), _pull(gravity)
         k = self._rate(ball)
         height, landing = drag.risen(k, v, g), drag.landing_speed(k, v, g)
         flight = Flight(height, drag.rise_time(k, v, g), drag.fall_time(k, height, g), landing)
@@ -232,7 +234,7 @@ class Air:
                     f"gaps.{i} must be 0, or so large that ball {i + 1} does not meet ball {i} in "
                     f"the fall (more than {drop.gaps[i] - gap:.3g} m), got {drop.gaps[i]!r}"
                 )
-        return replace(drop, gaps=gaps, height=None, velocities=[-v for v in speeds])
+        return drop.replace(gaps=gaps, velocities=[-v for v in speeds])
 
     def rebound_heights(self, drop: Drop, speeds: Iterable[float]) -> list[float]:
         """Return the heights in m to which the balls of a drop rise in air.
@@ -265,7 +267,7 @@ class Air:
         """
         if not isinstance(drop, Drop):
             raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
-        given = [finite(f"speeds.{i}", speed, "m/s") for i, speed in enumerate(speeds)]
+        given = [checked(finite, f"speeds.{i}", speed, "m/s") for i, speed in enumerate(speeds)]
         if len(given) != len(drop.balls):
             raise InvalidValue(
                 f"speeds must hold one number per ball ({len(drop.balls)}), got {len(given)}"
@@ -301,7 +303,7 @@ class Air:
 
 
 def _pull(gravity: object) -> float:
-    return positive("gravity", gravity, "m/s**2")
+    return checked(positive, "gravity", gravity, "m/s**2")
 
 
 def _falling_together(

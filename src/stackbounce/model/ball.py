@@ -1,20 +1,19 @@
 """A ball: its mass and, where needed, its diameter, elastic constants and name."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
 from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown
-from stackbounce.units import Unit, in_unit
+from stackbounce.shown import Shown, Table, call_of
+from stackbounce.units import Unit, checked, handy_text
 
-_POSITIVE = (
-    ("mass", "kg", "kilograms"),
-    ("diameter", "m", "metres"),
-    ("young_modulus", "Pa", "pascals"),
-)
+_UNITS = {"mass": "kg", "diameter": "m", "young_modulus": "Pa", "poisson_ratio": ""}
+_POSITIVE = (("mass", "kilograms"), ("diameter", "metres"), ("young_modulus", "pascals"))
 
 
 @dataclass(frozen=True)
-class Ball:
+class Ball(Shown):
     """One ball of a stack; its numbers are SI, or texts or quantities of pint with a unit.
 
     Parameters
@@ -53,23 +52,29 @@ class Ball:
     young_modulus: Annotated[float, Unit("Pa")] | None = None
     poisson_ratio: Annotated[float, Unit()] | None = None
 
+    __repr__ = call_of
+
     def __post_init__(self) -> None:
-        for name, unit, words in _POSITIVE:
+        for name, of in _POSITIVE:
             value = getattr(self, name)
             if value is not None or name == "mass":
-                checked = positive(name, in_unit(value, unit, name), words)
-                object.__setattr__(self, name, checked)
+                object.__setattr__(self, name, checked(positive, name, value, of))
         if self.name is not None:
             _check_name(self.name)
         if self.poisson_ratio is not None:
-            ratio = _poisson_ratio(in_unit(self.poisson_ratio, "", "poisson_ratio"))
+            ratio = checked(_stable, "poisson_ratio", self.poisson_ratio)
             object.__setattr__(self, "poisson_ratio", ratio)
 
+    def _tables(self) -> Sequence[Table]:
+        known = {name: value for name in _UNITS if (value := getattr(self, name)) is not None}
+        rows = [(name.replace("_", " "), handy_text(x, _UNITS[name])) for name, x in known.items()]
+        return (Table(self.name or "Ball", ("", ""), rows),)
 
-def _poisson_ratio(value: object) -> float:
-    ratio = between("poisson_ratio", value, -1.0, 0.5)
+
+def _stable(name: str, value: object) -> float:
+    ratio = between(name, value, -1.0, 0.5)
     if ratio == -1.0:
-        raise InvalidValue(f"poisson_ratio must be above -1, got {shown(value)}")
+        raise InvalidValue(f"{name} must be above -1, got {shown(value)}")
     return ratio
 
 

@@ -2,32 +2,39 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from stackbounce.errors import (
     InvalidType,
     InvalidValue,
     finite,
     listed,
+    no_attribute,
     non_negative,
     positive,
     shown,
 )
 from stackbounce.model.ball import Ball
+from stackbounce.model.drawing import draw_stack, label
 from stackbounce.model.laws import LAWS, ContactLaw
-from stackbounce.units import Unit, in_unit
+from stackbounce.shown import Shown, Table
+from stackbounce.units import Unit, checked, handy_text, in_unit
+
+if TYPE_CHECKING:
+    from stackbounce.explorer.notebook import ExplorerFrame
 
 STANDARD_GRAVITY = 9.80665
 """Standard gravity in m/s**2, for the fall from `height` if `gravity` is 0."""
 
 _MOST_ITEMS = 100_000  # far more than can be run: an endless sequence ends with an error
+_FEW = 6  # velocities that are written
 _INCIDENCE = ("impact_speed", "height", "velocities")
 
 
-@dataclass(frozen=True)
-class Drop:
+@dataclass(frozen=True, repr=False)
+class Drop(Shown):
     """A falling stack of balls at t = 0, when the lowest ball touches the floor.
 
     Its numbers are SI, or texts or quantities of pint with a unit.
@@ -101,17 +108,14 @@ class Drop:
                 f"gaps must hold one number per neighbouring pair of balls ({len(balls) - 1}), "
                 f"got {len(gaps)}"
             )
-        gaps = tuple(
-            non_negative(name := f"gaps.{i}", in_unit(gap, "m", name), "metres")
-            for i, gap in enumerate(gaps)
-        )
+        gaps = in_unit(gaps, "m", "gaps")
+        gaps = tuple(non_negative(f"gaps.{i}", gap, "metres") for i, gap in enumerate(gaps))
         for i, gap in enumerate(gaps):
             if gap > 0.0 and contacts[i + 1].pulls:
                 bond = type(contacts[i + 1]).__name__
                 raise InvalidValue(f"gaps.{i} must be 0 at a {bond}, got {gap!r}")
         values: dict[str, Any] = {"balls": balls, "contacts": contacts, "gaps": gaps}
-        gravity = in_unit(self.gravity, "m/s**2", "gravity")
-        values["gravity"] = non_negative("gravity", gravity, "m/s**2")
+        values["gravity"] = checked(non_negative, "gravity", self.gravity, "m/s**2")
         for name, value in (values | self._incidence(len(balls))).items():
             object.__setattr__(self, name, value)
         if not 0.0 < self.reference_speed < math.inf:  # only a height's is computed
@@ -128,23 +132,51 @@ class Drop:
                 f"got {' and '.join(given) or 'none'}"
             )
         if self.impact_speed is not None:
-            speed = in_unit(self.impact_speed, "m/s", "impact_speed")
-            return {"impact_speed": positive("impact_speed", speed, "m/s")}
+            return {"impact_speed": checked(positive, "impact_speed", self.impact_speed, "m/s")}
         if self.height is not None:
-            height = in_unit(self.height, "m", "height")
-            return {"height": positive("height", height, "metres")}
+            return {"height": checked(positive, "height", self.height, "metres")}
         velocities = listed("velocities", self.velocities, _MOST_ITEMS)
         if len(velocities) != count:
             raise InvalidValue(
                 f"velocities must hold one number per ball ({count}), got {len(velocities)}"
             )
-        velocities = tuple(
-            finite(name := f"velocities.{i}", in_unit(v, "m/s", name), "m/s")
-            for i, v in enumerate(velocities)
-        )
+        velocities = in_unit(velocities, "m/s", "velocities")
+        velocities = tuple(finite(f"velocities.{i}", v, "m/s") for i, v in enumerate(velocities))
         if not any(velocities):
             raise InvalidValue("velocities must not all be 0, got 0 for every ball")
         return {"velocities": velocities}
+
+    if not TYPE_CHECKING:  # checkers know which attributes there are
+
+        def __getattr__(self, name: str) -> Any:
+            raise no_attribute(Drop, name)
+
+    def replace(self, **changes: Any) -> "Drop":
+        """Return the drop with other values of some fields.
+
+        Parameters
+        ----------
+        **changes
+            As of `Drop`. Another impact speed, height or velocities take the place of the one of
+            the three that was given.
+
+        Raises
+        ------
+        TypeError
+            If a drop has no such field.
+        InvalidValue, InvalidType
+            As of `Drop`.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> drop = sb.stack("basketball", "tennis", height="63 cm").replace(impact_speed="2 m/s")
+        >>> drop.height, drop.impact_speed
+        (None, 2.0)
+        """
+        if changes.keys() & set(_INCIDENCE):
+            changes = dict.fromkeys(_INCIDENCE) | changes
+        return replace(self, **changes)
 
     @property
     def reference_speed(self) -> float:
@@ -167,6 +199,36 @@ class Drop:
     def rigid(self) -> bool:
         """Return whether every contact is `Rigid`, so that the drop is a sequence of collisions."""
         return all(law.rigid for law in self.contacts if law is not None)
+
+    @property
+    def incidence(self) -> str:
+        """How the balls come in, in words: the height or the speed, and gravity.
+
+        Examples
+        --------
+        >>> from stackbounce.model.laws import Rigid
+        >>> Drop([Ball(0.057)], [Rigid(0.8)], height=0.63, gravity=9.81).incidence
+        'from 0.63 m, at 3.516 m/s, with gravity 9.81 m/s²'
+        """
+        fall = f"from {handy_text(self.height, 'm')}, " if self.height is not None else ""
+        speeds = [f"{velocity:.4g}" for velocity in self.velocities or ()]
+        listed = ", ".join([*speeds[:_FEW], *["…"] * (len(speeds) > _FEW)])
+        came = f"coming in at {listed}" if listed else f"at {self.reference_speed:.4g}"
+        gravity = f", with gravity {self.gravity:.6g} m/s²" if self.gravity else ""
+        return f"{fall}{came} m/s{gravity}"
+
+    def _tables(self) -> Sequence[Table]:
+        rows = [("floor", "")] if self.contacts[0] is not None else []
+        for i, (ball, law) in enumerate(zip(self.balls, self.contacts, strict=True)):
+            gap = f", gap {handy_text(self.gaps[i - 1], 'm')}" if i and self.gaps[i - 1] else ""
+            if law is not None:
+                rows.append((f"  contact {i}", law.described() + gap))
+            size = f", {handy_text(ball.diameter, 'm')}" if ball.diameter else ""
+            rows.append((label(ball.name, i), handy_text(ball.mass, "kg") + size))
+        return (Table(f"Drop {self.incidence}", ("", ""), rows[::-1]),)
+
+    def _drawing(self) -> str:
+        return draw_stack(self.balls, self.gaps, floor=self.contacts[0] is not None)
 
     @classmethod
     def from_mapping(cls, mapping: Mapping[str, Any]) -> "Drop":
@@ -270,6 +332,33 @@ class Drop:
         from stackbounce.model.toml import write_toml
 
         return write_toml(self.to_mapping())
+
+    def explore(self, *, height: int = 640) -> "ExplorerFrame":
+        """Return the explorer with this drop for the last line of a notebook's cell.
+
+        Parameters
+        ----------
+        height : int, optional
+            The height of the frame in px.
+
+        Returns
+        -------
+        ExplorerFrame
+
+        Raises
+        ------
+        InvalidValue
+            If the explorer cannot show the drop, see `stackbounce.explore`.
+
+        Examples
+        --------
+        >>> from stackbounce.model.laws import Spring
+        >>> Drop([Ball(0.057)], [Spring(22500)], height=1.0).explore()
+        <the explorer with 1 ball: a notebook shows it as the last line of a cell>
+        """
+        import stackbounce  # by its public name: the model knows nothing of the explorer
+
+        return stackbounce.explore(self, height=height)
 
 
 def _check_balls(balls: tuple[object, ...]) -> None:

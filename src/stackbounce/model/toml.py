@@ -1,22 +1,24 @@
 """Scenario files: a drop in TOML, read with the standard library and written back exactly.
 
 A drop is converted from and to plain mappings, the one schema of TOML files, JSON and the web. The
-keys are the fields of the dataclasses, which read units and validate the values. Reading only adds
-the path to their error messages.
+keys are the fields of the dataclasses, and the units are those of their ``Unit`` annotations. The
+dataclasses validate the values. Reading only adds the path to their error messages.
 """
 
+import functools
 import json
 import os
 import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, fields
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_type_hints
 
-from stackbounce.errors import InvalidType, InvalidValue, ScenarioError, nearest, shown
+from stackbounce.errors import InvalidType, InvalidValue, ScenarioError, between, nearest, shown
 from stackbounce.files import content_of
 from stackbounce.model.ball import Ball
-from stackbounce.model.laws import LAWS, ContactLaw, law_named
+from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw, law_named
+from stackbounce.units import Unit, quantity, unit_of
 
 NO_FLOOR = "none"
 """The ``law`` of the lowest contact where there is no floor."""
@@ -35,17 +37,21 @@ def read_mapping(kind: type[_T], mapping: object) -> _T:
     table = _table(mapping, "the scenario")
     _check_keys(kind, table, "")
     values = {
-        "balls": _each(read_ball, table["balls"], "balls"),
-        "contacts": _each(read_law, table["contacts"], "contacts"),
+        key: _value(kind, key, value, "")
+        for key, value in table.items()
+        if key not in ("balls", "contacts")
     }
-    return _raised("", kind, **{**table, **values})
+    values["balls"] = _each(read_ball, table["balls"], "balls")
+    values["contacts"] = _each(read_law, table["contacts"], "contacts")
+    return _raised("", kind, **values)
 
 
 def read_ball(value: object, path: str) -> Ball:
     """Return the ball that a mapping describes; `path` begins the messages."""
     table = _table(value, path)
     _check_keys(Ball, table, path)
-    return _raised(path, Ball, **table)
+    values = {key: _value(Ball, key, one, path) for key, one in table.items()}
+    return _raised(path, Ball, **values)
 
 
 def read_law(value: object, path: str) -> ContactLaw | None:
@@ -63,7 +69,9 @@ def read_law(value: object, path: str) -> ContactLaw | None:
     except InvalidValue as error:
         raise ScenarioError(f"{path}.{error}, {NO_FLOOR}") from error
     _check_keys(kind, table, path)
-    return _raised(path, kind, **table)
+    exponent = _value(kind, "exponent", table["exponent"], path) if "exponent" in table else 1.0
+    values = {key: _value(kind, key, one, path, exponent) for key, one in table.items()}
+    return _raised(path, kind, **values)
 
 
 def write_mapping(drop: Any) -> dict[str, Any]:
@@ -108,6 +116,30 @@ def _each(read: Any, values: object, path: str) -> list[Any]:
     if not isinstance(values, list | tuple):
         raise ScenarioError(f"{path} must be a list of tables, got {shown(values)}")
     return [read(value, f"{path}.{i}") for i, value in enumerate(values)]
+
+
+def _value(kind: type, key: str, value: object, path: str, exponent: float = 1.0) -> Any:
+    unit = _units(kind)[key]
+    if unit is None:
+        return value
+    if "exponent" in unit.symbol:
+        _raised("", between, f"{path}.exponent", exponent, 1.0, STEEPEST)
+        power = "" if exponent == 1.0 else f"**{exponent!r}"
+        unit = Unit(unit.symbol.replace("**exponent", power))
+    if isinstance(value, list | tuple):
+        return [
+            _quantity(member, unit, f"{_join(path, key)}.{i}") for i, member in enumerate(value)
+        ]
+    return _quantity(value, unit, _join(path, key))
+
+
+def _quantity(value: object, unit: Unit, path: str) -> float:
+    return _raised("", quantity, value, unit.symbol, path)
+
+
+@functools.cache
+def _units(kind: type) -> dict[str, Unit | None]:
+    return {key: unit_of(hint) for key, hint in get_type_hints(kind, include_extras=True).items()}
 
 
 def _raised(path: str, make: Callable[..., _T], *arguments: object, **values: Any) -> _T:

@@ -7,7 +7,7 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue
 from stackbounce.plots.fitted_curves import Curve, Points, draw_fitted, spread_over
-from stackbounce.plots.style import WIDTH, check_kind, list_axes, panels
+from stackbounce.plots.style import WIDTH, check_kind, into_axes, list_axes, panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,7 +18,8 @@ _CHANCE = 0.0001  # p that is written
 _FEW = 6  # laws in a picture, the best ones
 
 
-def restitutions(fit: Any, axes: "Axes | Sequence[Axes] | None" = None) -> "Figure":
+@into_axes
+def restitutions(fit: Any, *, axes: "Axes | Sequence[Axes] | None" = None) -> "Figure":
     """Draw restitutions with their errors, the curves of the laws, and what is left over.
 
     Parameters
@@ -31,7 +32,7 @@ def restitutions(fit: Any, axes: "Axes | Sequence[Axes] | None" = None) -> "Figu
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or `axes` if given
         Not shown and not saved. Bars are standard errors, the band is that of the best law. Below:
         fitted less measured restitutions, in errors.
 

@@ -11,7 +11,14 @@ from stackbounce.plots.by_number import draw_by_number, draw_into, find_number, 
 from stackbounce.plots.by_speed import restitutions
 from stackbounce.plots.model_comparison import compared, draw_pulls
 from stackbounce.plots.scales import Scale, label
-from stackbounce.plots.style import COLORS, check_kind, figure_of, list_axes, styled_figure
+from stackbounce.plots.style import (
+    COLORS,
+    check_kind,
+    figure_of,
+    into_axes,
+    list_axes,
+    styled_figure,
+)
 from stackbounce.units import handy, rounded
 
 if TYPE_CHECKING:
@@ -70,7 +77,8 @@ def _extent(fit: Any, k: int) -> tuple[float, float]:
     return max(low, min(near) - reach), min(high, max(near) + reach)
 
 
-def fit(found: Any, axes: Any = None) -> "Figure":
+@into_axes
+def fit(found: Any, *, axes: Any = None) -> "Figure":
     """Draw what a fit found, as its kind asks: by `restitutions`, `fitted`, `compared` or `corner`.
 
     Parameters
@@ -82,7 +90,7 @@ def fit(found: Any, axes: Any = None) -> "Figure":
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or `axes` if given
         Not shown and not saved.
 
     Raises
@@ -100,10 +108,11 @@ def fit(found: Any, axes: Any = None) -> "Figure":
     """
     draws = {"SeriesFit": restitutions, "Fit": fitted, "Comparison": compared, "Posterior": corner}
     check_kind(found, "found", *draws)
-    return draws[type(found).__name__](found, axes)
+    return draws[type(found).__name__](found, axes=axes)
 
 
-def fitted(fit: Any, axes: Any = None) -> "Figure":
+@into_axes
+def fitted(fit: Any, *, axes: Any = None) -> "Figure":
     """Draw what was measured with the fitted curves, and chi squared around the minimum.
 
     Parameters
@@ -117,7 +126,7 @@ def fitted(fit: Any, axes: Any = None) -> "Figure":
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or `axes` if given
         Not shown and not saved. If the drops differ in one number, such as the height: what was
         measured against it, the fitted curve with a band of one standard deviation, and the pulls,
         fitted minus measured numbers in standard errors; else the pulls alone. Force
@@ -192,7 +201,8 @@ def _draw_record(axes: "Axes", record: Any) -> None:
     axes.legend(frameon=False, loc="upper right", borderpad=0.0, fontsize=9)
 
 
-def corner(posterior: Any, axes: Any = None) -> "Figure":
+@into_axes
+def corner(posterior: Any, *, axes: Any = None) -> "Figure":
     """Draw the posterior distribution of each parameter and of each pair.
 
     Parameters
@@ -205,7 +215,7 @@ def corner(posterior: Any, axes: Any = None) -> "Figure":
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or `axes` if given
         Not shown and not saved. The title of each column gives the median and the limits of the
         central 68 % of the draws. The contours contain 39 % and 86 % of the draws, as the contours
         of one and two standard deviations of a two-dimensional Gaussian do.

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.plots.style import WIDTH, check_kind, color_of, panels, written
+from stackbounce.model.drawing import meeting
+from stackbounce.plots.style import WIDTH, check_kind, color_of, into_axes, panels, written
 from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
@@ -61,7 +62,8 @@ def sample_with_approach(result: Result, times: NDArray[np.float64]) -> "xr.Data
     return sample.assign_coords(time=("time", times, sample.time.attrs))
 
 
-def bounce(result: "Result | Prediction", axes: Any = None) -> "Figure":
+@into_axes
+def bounce(result: "Result | Prediction", *, axes: Any = None) -> "Figure":
     """Draw the impact: the position of each ball and the force at each contact against time.
 
     Parameters
@@ -74,7 +76,7 @@ def bounce(result: "Result | Prediction", axes: Any = None) -> "Figure":
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or `axes` if given
         Not shown and not saved: ``figure.savefig("bounce.svg")`` does.
 
     Raises
@@ -170,7 +172,7 @@ def _draw_contacts(
     for i, law in enumerate(result.drop.contacts):
         if law is None:
             continue
-        color, name = color_of(i), _between(result, i)
+        color, name = color_of(i), written(meeting(result.drop.balls, i))
         if law.rigid:
             rows = result.intervals[result.intervals["contact"] == i]
             name += f" ({_count(int(result.collisions[i]))})"
@@ -189,13 +191,6 @@ def _count(collisions: int) -> str:
     if collisions < 0:
         return "infinitely many"
     return "once" if collisions == 1 else f"{collisions} times"
-
-
-def _between(result: Result, contact: int) -> str:
-    """Return the words for a contact, such as ``floor and basketball``."""
-    names = [written(ball.name or f"ball {b}") for b, ball in enumerate(result.drop.balls)]
-    lower = "floor" if contact == 0 else names[contact - 1]
-    return f"{lower} and {names[contact]}"
 
 
 def _summary(result: Result) -> str:

@@ -4,13 +4,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.errors import InvalidType
-from stackbounce.plots.style import drawn_by
+from stackbounce.plots.style import drawn_by, into_axes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def measured(data: Any, found: Any, axes: Any = None) -> "Figure":
+@into_axes
+def measured(data: Any, found: Any, *, axes: Any = None) -> "Figure":
     """Draw the result of a measurement analysis together with the data.
 
     Parameters
@@ -24,7 +25,7 @@ def measured(data: Any, found: Any, axes: Any = None) -> "Figure":
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or `axes` if given
 
     Raises
     ------

@@ -12,7 +12,14 @@ from stackbounce.plots.by_number import (
     list_quantities,
     panels_of,
 )
-from stackbounce.plots.style import COLORS, check_kind, figure_of, list_axes, styled_figure
+from stackbounce.plots.style import (
+    COLORS,
+    check_kind,
+    figure_of,
+    into_axes,
+    list_axes,
+    styled_figure,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,7 +32,8 @@ _SCORES, _PANEL = 5.8, 4.6  # inches: the width of the scores, and of a measured
 _WIDEST = 40  # for more data, the pulls are not written into the cells
 
 
-def compared(comparison: Any, axes: Any = None) -> "Figure":
+@into_axes
+def compared(comparison: Any, *, axes: Any = None) -> "Figure":
     """Draw the information criterion and the pulls of each model, the best model on top.
 
     Parameters
@@ -38,7 +46,7 @@ def compared(comparison: Any, axes: Any = None) -> "Figure":
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or `axes` if given
         Not shown and not saved. On the left the AICc or BIC of each model minus that of the best
         one. On the right what was measured with the curves of the best models, if the drops differ
         in one number, as `fitted` draws it; else the pulls: fitted minus measured value of each

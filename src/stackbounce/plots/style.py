@@ -1,9 +1,10 @@
 """The style of all plots."""
 
+import functools
 import io
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numpy as np
 
@@ -12,6 +13,8 @@ from stackbounce.errors import InvalidType, InvalidValue, a_or_an, shown
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+_Plot = TypeVar("_Plot", bound=Callable[..., Any])
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """The palette of Okabe and Ito, which colour-blind readers can tell apart."""
@@ -62,12 +65,7 @@ def styled_figure(width: float, height: float, style: Any = None) -> "Iterator[F
 
 @contextmanager
 def panels(
-    size: tuple[float, float],
-    axes: Any = None,
-    ratios: Sequence[float] = (1.0,),
-    *,
-    sharex: bool = True,
-    style: Any = None,
+    size: tuple[float, float], axes: Any = None, ratios: Any = (1.0,), *, sharex: bool = True
 ) -> "Iterator[tuple[Figure, list[Axes]]]":
     """Yield a figure, as `styled_figure`, and its panels from top to bottom.
 
@@ -81,8 +79,6 @@ def panels(
         The heights of the panels of a new figure, over each other.
     sharex : bool, optional
         Whether the panels of a new figure have one horizontal axis.
-    style : dict, optional
-        As in `styled_figure`.
 
     Raises
     ------
@@ -96,14 +92,28 @@ def panels(
     >>> above.get_xlim() == (0.0, 2.0)
     True
     """
-    with styled_figure(*size, style) as figure:
+    with styled_figure(*size) as figure:
         if axes is not None:
             own = list_axes(axes, len(ratios))
             yield figure_of(own), own
             return
-        look: Any = {"sharex": sharex, "squeeze": False, "height_ratios": list(ratios)}
+        look: Any = {"sharex": sharex, "squeeze": False, "height_ratios": ratios}
         yield figure, figure.subplots(len(ratios), 1, **look)[:, 0].tolist()
         figure.align_ylabels()
+
+
+def into_axes(plot: _Plot) -> _Plot:
+    """Let a plot return the axes that it was given: a notebook shows their figure by itself.
+
+    Used as a decorator; without axes the plot returns its figure.
+    """
+
+    @functools.wraps(plot)
+    def drawn(*args: Any, **options: Any) -> Any:
+        figure, axes = plot(*args, **options), options.get("axes")
+        return figure if axes is None else axes
+
+    return cast("_Plot", drawn)
 
 
 def list_axes(axes: Any, *counts: int) -> "list[Axes]":
@@ -117,12 +127,11 @@ def list_axes(axes: Any, *counts: int) -> "list[Axes]":
     """
     from matplotlib.axes import Axes
 
-    given = np.ravel(np.asarray(axes, dtype=object)).tolist()
+    given = np.ravel(np.asarray(axes, dtype=object))
     own = [panel for panel in given if isinstance(panel, Axes)]
-    if len(own) not in counts or len(own) < len(given):
-        got = shown(axes) if len(own) < len(given) else len(own)
+    if len(own) not in counts:
         most = " or ".join(map(str, counts))
-        raise InvalidValue(f"axes must be {most} Axes of matplotlib, got {got}")
+        raise InvalidValue(f"axes must be {most} Axes of matplotlib, got {len(own)}")
     return own
 
 
@@ -131,16 +140,9 @@ def figure_of(axes: "Sequence[Axes]") -> "Figure":
     return cast("Figure", axes[0].figure)  # or a part of one, if the user has parts
 
 
-_DRAWN_BY = {
-    "Comparison": "compared",
-    "Dataset": "lines, heatmap or highest",
-    "Drop": "bounce(simulate(drop))",
-    "Fit": "fitted",
-    "Posterior": "corner",
-    "Prediction": "bounce",
-    "Result": "bounce",
-    "SeriesFit": "restitutions",
-}
+_DRAWN_BY = dict.fromkeys(("Comparison", "Fit", "Posterior", "SeriesFit"), "fit")
+_DRAWN_BY |= {"Prediction": "bounce", "Result": "bounce", "Drop": "bounce(simulate(drop))"}
+_DRAWN_BY |= {"Dataset": "lines, heatmap or highest"}
 
 
 def drawn_by(value: Any) -> str:

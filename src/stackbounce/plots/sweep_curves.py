@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.plots.maps import draw_counts, draw_levels, hatch
 from stackbounce.plots.scales import is_flat, label, path_of, read_scale, show_in_handy_unit
-from stackbounce.plots.style import COLORS, WIDTH, color_of, drawn_by, panels
+from stackbounce.plots.style import COLORS, WIDTH, color_of, drawn_by, into_axes, panels
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,11 +29,9 @@ _BARS = 12  # stacks that are drawn at most
 _MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 
 
+@into_axes
 def lines(
-    data: "xr.Dataset",
-    show: str = "rebound_ratio",
-    index: int | None = None,
-    axes: "Axes | None" = None,
+    data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = None, *, axes: Any = None
 ) -> "Figure":
     """Draw a sweep of one parameter: a line for each ball or each contact.
 
@@ -51,7 +49,7 @@ def lines(
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or `axes` if given
         Not shown and not saved. Unfinished drops are left out; the title has their number.
 
     Raises
@@ -90,11 +88,9 @@ def lines(
     return figure
 
 
+@into_axes
 def heatmap(
-    data: "xr.Dataset",
-    show: str = "rebound_ratio",
-    index: int = -1,
-    axes: "Axes | None" = None,
+    data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1, *, axes: Any = None
 ) -> "Figure":
     """Draw a sweep of two parameters as a map: contours, or discrete colors for counts.
 
@@ -111,7 +107,7 @@ def heatmap(
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or `axes` if given
         Not shown and not saved. Cells without a value are hatched: unfinished drops, whose number
         is in the title, and times of contacts that never close.
 
@@ -136,7 +132,7 @@ def heatmap(
     if part:
         title += f" of {name_of(data, part, _index(own, part, index))}"
         own = own.isel({part: index})
-    with panels((6.4, 4.8), axes, style={"axes.grid": False}) as (figure, (axes,)):
+    with panels((6.4, 4.8), axes) as (figure, (axes,)):
         axes.grid(visible=False)
         x, y = read_scale(data, across), read_scale(data, up)
         label(axes, "x", path_of(data, across), x)
@@ -239,9 +235,8 @@ def _prepared(
     if len(dims) != count:
         right = "one dimension" if count == 1 else "two dimensions"
         got = ", ".join(map(str, dims)) or "none"
-        plot = {1: "lines", 2: "highest" if "height_ratio" in data else "heatmap"}.get(len(dims))
-        or_draw = f", or draw it by plots.{plot}" if plot else ""
-        choose = "choose with data.sel or data.isel" + or_draw
+        plots = {1: "lines", 2: "highest" if "height_ratio" in data else "heatmap"}
+        choose = f"choose with data.sel or data.isel, or see plots.{plots.get(len(dims), 'lines')}"
         raise InvalidValue(f"data must have {right}, got {got}: {choose}")
     numeric = [dim for dim in dims if dim in data.coords and data[dim].dtype.kind in "iuf"]
     data = data.sortby(numeric)
@@ -268,7 +263,8 @@ def name_of(data: "xr.Dataset", part: str, index: int) -> str:
     return f"{part} {index}" + (f" ({own})" if own else "")
 
 
-def highest(data: "xr.Dataset", axes: "Axes | None" = None) -> "Figure":
+@into_axes
+def highest(data: "xr.Dataset", *, axes: Any = None) -> "Figure":
     """Draw the rebound height of the top ball for the best stacks, for each gap.
 
     Parameters
@@ -280,7 +276,7 @@ def highest(data: "xr.Dataset", axes: "Axes | None" = None) -> "Figure":
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or `axes` if given
         The first stacks in order, at most 12, the best one above; a mark for each gap. Not shown
         and not saved.
 

@@ -20,7 +20,7 @@ from stackbounce.run.options import Options
 from stackbounce.run.paths import Number, check, drop_at, number_at, value_in
 from stackbounce.run.quantities import Array, Solved, solve_quantities
 from stackbounce.sweeps.dataset import check_together
-from stackbounce.units import quantity
+from stackbounce.units import magnitude, quantity
 
 FEWEST = 100
 """The least number of draws."""
@@ -214,6 +214,7 @@ def read_inputs(drop: Drop, errors: object) -> Inputs:
         )
     numbers = tuple(number_at(drop, path) for path in errors)
     check_together(numbers)
+    errors = {one.path: magnitude(errors[one.path], one.unit, one.path) for one in numbers}
     given = {
         k: _draws(number.path, errors[number.path])
         for k, number in enumerate(numbers)

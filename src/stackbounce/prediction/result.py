@@ -2,7 +2,7 @@
 
 import functools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,6 +18,7 @@ from stackbounce.run.options import Options
 from stackbounce.run.paths import identifier
 from stackbounce.run.quantities import QUANTITIES, Array, Solved
 from stackbounce.run.result import Result, Status
+from stackbounce.shown import Shown, Table
 from stackbounce.units import rounded
 from stackbounce.version import __version__
 
@@ -55,7 +56,7 @@ class Apex(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Prediction:
+class Prediction(Shown):
     """What follows of a drop whose numbers have errors, with errors; made by `predict`.
 
     ``prediction["rebound_speeds.1"]`` is a value with its error; the names are those that `fit`
@@ -103,9 +104,21 @@ class Prediction:
     refused: str
     asked: int
 
-    def __repr__(self) -> str:
-        """All numbers with their errors, and how these were found."""
-        return f"{self.table()}\n{self.how}"
+    def _tables(self) -> Sequence[Table]:
+        rows = []
+        for name, number in self._all.items():
+            value, error = rounded((number.nominal_value, number.std_dev), number.std_dev)
+            unit = QUANTITIES[name.partition(".")[0]].unit
+            rows.append((name, value, f"± {error}", unit))
+        return (Table(f"Prediction of a drop {self.drop.incidence}", ("", "", "", ""), rows),)
+
+    def _drawing(self) -> str:
+        return self.result._drawing()
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """How the errors were found, and what limits them."""
+        return (self.how, *self.notes)
 
     @property
     def drop(self) -> Drop:
@@ -325,12 +338,7 @@ class Prediction:
 
     def table(self) -> str:
         """Return all numbers with their errors as a text, a line each."""
-        lines = []
-        for name, number in self._all.items():
-            value, error = rounded((number.nominal_value, number.std_dev), number.std_dev)
-            unit = QUANTITIES[name.partition(".")[0]].unit
-            lines.append(f"{name:<20} {value:>10} ± {error:<8} {unit}".rstrip())
-        return "\n".join(lines)
+        return self._tables()[0]._replace(caption="").text()
 
     @functools.cached_property
     def apexes(self) -> list[Apex]:

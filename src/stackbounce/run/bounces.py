@@ -1,6 +1,5 @@
 """One ball that bounces on and on in air: impacts by the engine, flights in closed form."""
 
-import dataclasses
 import math
 from typing import Any
 
@@ -75,13 +74,7 @@ def bounces_in_air(drop: Drop, count: int, air: Air | None = None) -> NDArray[An
     ball, gravity = drop.balls[0], drop.gravity or STANDARD_GRAVITY
     time, rows = 0.0, []
     for number in range(count):
-        contact = dataclasses.replace(
-            drop,
-            contacts=[law.of_collision(number)],
-            height=None,
-            velocities=None,
-            impact_speed=speed,
-        )
+        contact = drop.replace(contacts=[law.of_collision(number)], impact_speed=speed)
         rebound, lasting, depth = _impact(contact)
         row, released = (time, speed, rebound, lasting), time + lasting
         # what is released while it is still flattened rises to its shape first

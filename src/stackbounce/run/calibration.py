@@ -6,6 +6,7 @@ from stackbounce.errors import InvalidType, InvalidValue, between, fraction, pos
 from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw
 from stackbounce.model.laws.registry import UNLISTED
 from stackbounce.run.collision import Mass, reduced
+from stackbounce.units import checked, in_unit
 
 _UNITS = {
     "contact_time": "seconds",
@@ -100,7 +101,7 @@ def calibrate(
     Examples
     --------
     >>> from stackbounce.model import HuntCrossley, Spring
-    >>> round(calibrate(Spring, mass=0.057, contact_time=5e-3).stiffness)
+    >>> round(calibrate(Spring, mass="57 g", contact_time="5 ms").stiffness)
     22503
     >>> measured = {"mass": 0.0567, "contact_time": 5e-3, "restitution": 0.75, "impact_speed": 3.0}
     >>> round(calibrate(HuntCrossley, **measured).dissipation, 4)
@@ -155,12 +156,13 @@ def _checked(kind: type[ContactLaw], name: str, value: object) -> float:
     """Return an argument, validated."""
     if name == "mass":
         return reduced(value)
+    if name in _UNITS:
+        return checked(positive, name, value, _UNITS[name])
+    value = in_unit(value, "", name)
     if name == "restitution":
         return fraction(name, value, zero=kind.rigid)
     if name == "exponent":
         return between(name, value, 1.0, STEEPEST)
-    if name != "buckling_share":
-        return positive(name, value, _UNITS[name])
     share = fraction(name, value, zero=False)
     if share == 1.0:
         raise InvalidValue("buckling_share must be below 1: the force rises on, got 1")

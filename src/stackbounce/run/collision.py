@@ -3,12 +3,12 @@
 import math
 import sys
 from collections.abc import Mapping, Sequence, Set
-from dataclasses import replace
 from typing import Any, TypeAlias
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw, Rigid
+from stackbounce.units import checked, in_unit
 
 Mass: TypeAlias = float | Sequence[float]
 """In kg: the mass of a ball on a floor, or the reduced mass or both masses of a pair."""
@@ -127,13 +127,13 @@ def reduced(mass: object) -> float:
     >>> reduced((1.0, 1.0)), reduced(0.5)
     (0.5, 0.5)
     """
-    given: Any = mass
+    given: Any = in_unit(mass, "kg", "mass")
     try:
-        pair = () if isinstance(mass, str | bytes | Mapping | Set) else tuple(given)
+        pair = () if isinstance(given, bytes | Mapping | Set) else tuple(given)
     except TypeError:  # one number
         pair = ()
     if not pair:
-        return positive("mass", mass, "kilograms")
+        return positive("mass", given, "kilograms")
     if len(pair) != 2:
         raise InvalidValue(f"mass must be a number or a pair of numbers, got {shown(mass)}")
     low, high = sorted(positive(f"mass.{i}", pair[i], "kilograms") for i in (0, 1))
@@ -156,7 +156,7 @@ def _measured(what: str, law: object, mass: object, impact_speed: object) -> flo
             "depends on it, got None"
         )
     m = 1.0 if mass is None else reduced(mass)
-    v = 1.0 if impact_speed is None else positive("impact_speed", impact_speed, "m/s")
+    v = 1.0 if impact_speed is None else checked(positive, "impact_speed", impact_speed, "m/s")
     try:
         value = compute(m, v)
     except ArithmeticError:
@@ -210,12 +210,10 @@ def separate(drop: Drop) -> Drop:
     """
     if not isinstance(drop, Drop):
         raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
-    rigid = replace(drop, contacts=_collisions(drop))
-    if drop.gravity == 0.0:
-        return rigid
-    if drop.height is None:
-        return replace(rigid, gravity=0.0)
-    return replace(rigid, gravity=0.0, height=None, impact_speed=drop.reference_speed)
+    rigid = drop.replace(contacts=_collisions(drop))
+    if drop.gravity == 0.0 or drop.height is None:
+        return rigid.replace(gravity=0.0)
+    return rigid.replace(gravity=0.0, impact_speed=drop.reference_speed)
 
 
 def _collisions(drop: Drop) -> list[Rigid | None]:

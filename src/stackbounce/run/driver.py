@@ -7,14 +7,15 @@ one call for a stack of few balls. The log, in SI units, becomes a `Result`.
 
 import functools
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Never
 
 from stackbounce.engine import codes
 from stackbounce.engine.memory import RIGID, memory
 from stackbounce.engine.records import AFTER, BEGIN_WITH_PEAKS, END
 from stackbounce.engine.slots import CAUSE, NONLINEAR, WORK
 from stackbounce.engine.stack import Samples
-from stackbounce.model import Drop
+from stackbounce.errors import InvalidType, nearest
+from stackbounce.model import LAWS, Ball, Drop
 from stackbounce.run.conditioning import disturbed
 from stackbounce.run.engines import choose_compiled, choose_engine
 from stackbounce.run.options import Options, run_options
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+_KINDS: list[Any] = [Drop, Ball, *LAWS.values()]
+_ARGUMENTS = ("drop", "until", "rtol", "event_limit", "compiled")
+
 
 def simulate(
     drop: Drop,
@@ -33,6 +37,7 @@ def simulate(
     rtol: float = 1e-12,
     event_limit: int = 1_000_000,
     compiled: bool | None = None,
+    **misplaced: Never,
 ) -> Result:
     """Run a drop from the lowest ball's first touch of the floor; return the result.
 
@@ -57,6 +62,8 @@ def simulate(
     compiled : bool, optional
         Whether to run compiled code rather than plain Python; by default wherever there is some for
         this machine. Both give the same bits.
+    **misplaced
+        None is taken: the numbers of a drop are its own.
 
     Returns
     -------
@@ -83,6 +90,11 @@ def simulate(
     >>> sb.simulate(sb.Drop(balls, springs, impact_speed=1.0)).rebound_ratios.round(4)
     array([0.7664, 1.1886])
     """
+    for name in misplaced:
+        fits = [kind.__name__ for kind in _KINDS if {name, f"{name}s"} & {*kind.__match_args__}]
+        right = f"give it to {fits[0]}(…), or see Drop.replace" if fits else ""
+        right = right or nearest(name, _ARGUMENTS)
+        raise InvalidType(f"{name} is no argument of simulate; {right}")
     return solve_one(drop, run_options(drop, until, rtol, event_limit), compiled)
 
 

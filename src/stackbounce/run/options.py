@@ -10,6 +10,7 @@ import numpy as np
 from stackbounce.engine.work import EVENT_LIMIT, WORK_LIMIT
 from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown, whole
 from stackbounce.model import Drop
+from stackbounce.units import checked
 
 _SEEDS = 2**32
 _MOST_BALLS = 2000  # the arrays for normal modes and queues grow with the number of balls
@@ -34,7 +35,7 @@ def run_options(drop: object, until: object, rtol: object, event_limit: object) 
         raise InvalidValue(f"balls must be at most {_MOST_BALLS} for a run, got {len(drop.balls)}")
     events = whole("event_limit", event_limit, 1, _MOST_EVENTS)
     return Options(
-        until=math.inf if until is None else positive("until", until, "seconds"),
+        until=math.inf if until is None else checked(positive, "until", until, "seconds"),
         rtol=between("rtol", rtol, 1e-14, 1e-3),
         event_limit=events,
         work_limit=min(WORK_LIMIT * max(events, EVENT_LIMIT) // EVENT_LIMIT, _MOST_EVENTS),

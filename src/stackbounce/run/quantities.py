@@ -7,11 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.engine.records import Outcomes
-from stackbounce.model import STANDARD_GRAVITY, Drop
+from stackbounce.model import Drop
 from stackbounce.run.batch import solve
 from stackbounce.run.options import Options
 from stackbounce.run.paths import Rows, incidence
-from stackbounce.run.result import Status
+from stackbounce.run.result import Status, heights_of
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -45,9 +45,7 @@ def _speeds(out: Outcomes, speed: Array, _: Array) -> Any:
 
 def _heights(out: Outcomes, speed: Array, gravity: Array) -> Any:
     """Return how far each ball rises at its speed; with a minus sign if it moves down."""
-    velocity = _speeds(out, speed, gravity)
-    pull = np.where(gravity > 0.0, gravity, STANDARD_GRAVITY)
-    return velocity * np.abs(velocity) / (2.0 * pull[:, None])
+    return heights_of(_speeds(out, speed, gravity), gravity[:, None])
 
 
 QUANTITIES: dict[str, Quantity] = {

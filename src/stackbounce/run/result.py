@@ -12,9 +12,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from stackbounce.engine import codes
 from stackbounce.engine.ratios import energy_kept
-from stackbounce.errors import InvalidType, InvalidValue, finite, shown, unmasked
-from stackbounce.model import Drop
+from stackbounce.errors import InvalidType, InvalidValue, finite, no_attribute, shown, unmasked
+from stackbounce.model import STANDARD_GRAVITY, Drop
+from stackbounce.model.drawing import label, meeting
 from stackbounce.run.conditioning import amplification, known_until
+from stackbounce.shown import Shown, Table
+from stackbounce.units import in_unit
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
@@ -39,9 +42,19 @@ EVENT = np.dtype(
     ]
 )
 APEX = np.dtype([("ball", "i8"), ("time", "f8"), ("height", "f8")])
+_PER_BALL = ("rebound_speed", "rebound_ratio", "rebound_height")
+_PER_CONTACT = ("collisions", "first_touch", "last_release")
 ROUND_OFF = 1e-15
 """Relative error that a step without a tolerance adds to a speed."""
 
+_UNITS = {  # of the variables of `Result.to_dataset`
+    "m/s": "rebound_speed lower_velocity upper_velocity",
+    "m": "rebound_height peak_compression height",
+    "s": "first_touch last_release start end peak_time time",
+    "N": "peak_force",
+    "N s": "impulse",
+    "1": "rebound_ratio collisions energy_retained status contact ball",
+}
 _KINDS = {codes.TOUCH: "touch", codes.RELEASE: "release", codes.COLLISION: "collision"}
 
 
@@ -102,8 +115,8 @@ _ADVICE = {
 }
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Result:
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
+class Result(Shown):
     """The result of a run; made by `simulate`.
 
     It holds the log of events, not the motion between them: `sample`, and `apexes` by it, repeat
@@ -154,6 +167,11 @@ class Result:
     work: int = dataclasses.field(repr=False, default=0)
     cause: Cause | None = dataclasses.field(repr=False, default=None)
 
+    if not TYPE_CHECKING:  # checkers know which attributes there are
+
+        def __getattr__(self, name: str) -> Any:
+            raise no_attribute(Result, name)
+
     def __getstate__(self) -> dict[str, Any]:
         """Return the fields only. Cached arrays are left out: unpickled ones would be writeable."""
         return {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
@@ -171,6 +189,33 @@ class Result:
         """
         return self.cause.advice if self.cause else self.status.advice
 
+    def _tables(self) -> Sequence[Table]:
+        drop, speed = self.drop, self.rebound_speeds
+        numbers = (drop.start_velocities, speed, self.rebound_ratios, self.rebound_heights)
+        times_ms = (1e3 * self.first_touch, 1e3 * self.last_release)
+        balls = [
+            (label(drop.balls[i].name, i), *map(_short, own))
+            for i, own in enumerate(zip(*numbers, strict=True))
+        ]
+        contacts = [
+            (meeting(drop.balls, i), "∞" if count < 0 else str(count), *map(_short, own))
+            for i, (count, *own) in enumerate(zip(self.collisions, *times_ms, strict=True))
+        ]
+        speeds = ("upward speeds", "before m/s", "after m/s", "after/v0", "height m")
+        times = ("contact", "collisions", "first touch ms", "last release ms")
+        first = Table(f"Result of a drop {drop.incidence}", speeds, balls[::-1])
+        return first, Table("", times, contacts[::-1])
+
+    def _drawing(self) -> str:
+        return self.drop._drawing()
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """The share of the energy that is left, and what the status means unless all is well."""
+        kept = f"energy retained: {100.0 * self.energy_retained:.4g} %"
+        well = self.status is Status.FINISHED
+        return (kept,) if well else (kept, f"{self.status.name}: {self.advice}")
+
     @functools.cached_property
     def rebound_speeds(self) -> NDArray[np.float64]:
         """(N,) velocity of each ball after the impact, m/s, up-positive; nan if INVALID.
@@ -184,6 +229,20 @@ class Result:
         """(N,) rebound speed of each ball over the impact speed v0."""
         speed = self.drop.reference_speed
         return _frozen(np.array([after / speed for after in self.final_velocities], dtype=float))
+
+    @functools.cached_property
+    def rebound_heights(self) -> NDArray[np.float64]:
+        """(N,) how far each ball rises in m, without air; with a minus sign if it moves down.
+
+        It is v²/(2 g) at the gravity of the drop, or 9.80665 m/s**2 if that is 0.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> sb.simulate(sb.stack("basketball", "tennis", height="1 m")).rebound_heights.round(3)
+        array([0.144, 3.252])
+        """
+        return _frozen(heights_of(self.rebound_speeds, self.drop.gravity))
 
     @functools.cached_property
     def collisions(self) -> NDArray[np.int64]:
@@ -306,6 +365,50 @@ class Result:
             for row, (top, ball, _, rise) in enumerate(rising)
         ]
         return _frozen(np.array(rows, dtype=APEX))
+
+    def to_dataset(self) -> "xarray.Dataset":
+        """Return all numbers of the result as a Dataset, with units and names in attributes.
+
+        Returns
+        -------
+        xarray.Dataset
+            `rebound_speed`, `rebound_ratio` and `rebound_height` by ball; `collisions`,
+            `first_touch` and `last_release` by contact; `energy_retained` and `status`. The rows of
+            `intervals`, `events` and `apexes` have dimensions of their own, as in
+            `interval_contact`, `interval_start` and `event_kind`. Those of `ball` alone are a table
+            by ``ds[["rebound_speed", "rebound_height"]].to_dataframe()``.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> ds = sb.simulate(sb.stack("basketball", "tennis", height="1 m")).to_dataset()
+        >>> ds[["rebound_speed", "rebound_height"]].to_dataframe().round(2)
+              rebound_speed  rebound_height        name
+        ball
+        0              1.68            0.14  basketball
+        1              7.99            3.25      tennis
+        >>> ds.interval_peak_force.attrs
+        {'long_name': 'interval peak force', 'units': 'N'}
+        """
+        import xarray as xr
+
+        columns: dict[Any, Any] = {("ball", name): getattr(self, f"{name}s") for name in _PER_BALL}
+        columns |= {("contact", name): getattr(self, name) for name in _PER_CONTACT}
+        columns |= {("", "energy_retained"): self.energy_retained, ("", "status"): self.status}
+        parts = {"interval": self.intervals, "event": self.events, "apex": self.apexes}
+        for dim, rows in parts.items():
+            columns |= {(dim, f"{dim}_{name}"): rows[name] for name in rows.dtype.names or ()}
+        units = {name: unit for unit, names in _UNITS.items() for name in names.split()}
+        variables = {}
+        for (dim, name), values in columns.items():
+            unit = units.get(name) or units.get(name.removeprefix(f"{dim}_"))
+            attrs = {"long_name": name.replace("_", " ")} | ({"units": unit} if unit else {})
+            variables[name] = (dim or (), values, attrs)
+        places = np.arange(len(self.drop.balls))
+        names = ("ball", [ball.name or "" for ball in self.drop.balls])
+        coords: Any = {"ball": places, "contact": places, "name": names}
+        attrs = {"stackbounce": __version__, "drop": self.drop.to_toml()}
+        return xr.Dataset(variables, coords, attrs)
 
     def to_mapping(self) -> dict[str, Any]:
         """Return the result as a dict: status, speeds, ratios, collisions, energy.
@@ -441,9 +544,25 @@ class Result:
                 yield (ball, *under_way[ball], math.inf)
 
 
+def heights_of(velocities: Any, gravity: Any) -> NDArray[np.float64]:
+    """Return how far in m balls rise at velocities in m/s; with a minus sign if they move down.
+
+    Where gravity in m/s**2 is 0, it is 9.80665 m/s**2.
+
+    Examples
+    --------
+    >>> heights_of(np.array([2.0, -2.0]), np.array([10.0, 0.0])).round(3)
+    array([ 0.2  , -0.204])
+    """
+    pull = np.where(np.greater(gravity, 0.0), gravity, STANDARD_GRAVITY)
+    with np.errstate(all="ignore"):
+        return np.asarray(velocities * np.abs(velocities) / (2.0 * pull))
+
+
 def _numbers(times: object) -> NDArray[np.float64]:
     """Return times as an array of floats; raise if one is not a real number."""
     unmasked("times", times)
+    times = in_unit(times, "s", "times")
     try:
         # Without an array's type, numpy would make one of [1.0, True] and of [1.0, "2"].
         table = np.asarray(times, dtype=None if hasattr(times, "dtype") else object)
@@ -461,3 +580,7 @@ def _numbers(times: object) -> NDArray[np.float64]:
 def _frozen(array: NDArray[Any]) -> NDArray[Any]:
     array.flags.writeable = False
     return array
+
+
+def _short(number: float) -> str:
+    return "–" if math.isnan(number) else f"{number:.4g}".replace("inf", "∞")

@@ -13,14 +13,14 @@ from stackbounce.run.batch import solve
 from stackbounce.run.options import Options, run_options
 from stackbounce.run.paths import Number, check, identifier, number_at
 from stackbounce.run.result import Status
-from stackbounce.units import count_written, factor, quantity
+from stackbounce.units import count_written, factor, in_unit, quantity
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _MOST = 10**9
-_RIGHT = "PATH=START:STOP:COUNT, with :log for logarithmic spacing, or PATH=VALUE,VALUE,…"
+_RIGHT = "START:STOP:COUNT, with :log for logarithmic spacing, or VALUE,VALUE,…"
 _OUTPUTS = {  # name in `Outcomes`: (dimension of its own, type, unit, meaning)
     "rebound_ratio": ("ball", float, "1", "velocity after the impact over the impact speed v0"),
     "collisions": ("contact", np.int64, "1", "contact intervals; -1 where infinitely many"),
@@ -88,29 +88,31 @@ def axis(drop: Drop, text: str) -> tuple[str, NDArray[np.float64]]:
     """
     path, equals, written = text.partition("=")
     if not equals or not written:
-        raise InvalidValue(f"--over must be {_RIGHT}, got {shown(text)}")
-    path, written = path.strip(), written.strip()
-    number = number_at(drop, path)
-    parts = written.split(":")
+        raise InvalidValue(f"--over must be PATH={_RIGHT}, got {shown(text)}")
+    number = number_at(drop, path.strip())
+    return number.path, _spaced(number, written.strip())
+
+
+def _spaced(number: Number, written: str) -> NDArray[np.float64]:
+    """Return the values of a parameter that a text describes, see `axis`."""
+    path, parts = number.path, written.split(":")
     if len(parts) == 1:
-        values = [quantity(text, number.unit, path) for text in written.split(",")]
-        return path, np.array(values)
+        return np.array([quantity(text, number.unit, path) for text in written.split(",")])
     spacing = parts[3:]
     if len(parts) < 3 or not parts[2].isdecimal() or spacing not in ([], ["log"], ["lin"]):
-        raise InvalidValue(f"--over must be {_RIGHT}, got {shown(text)}")
+        raise InvalidValue(f"{path} must be {_RIGHT}, got {shown(written)}")
     start, stop = (quantity(text, number.unit, path) for text in parts[:2])
     count = count_written(parts[2])
     if count is None or not 1 <= count <= _MOST:
         many = shown(parts[2]).strip("'")
-        raise InvalidValue(f"--over {path} must have from 1 to {_MOST} values, got {many}")
+        raise InvalidValue(f"{path} must have from 1 to {_MOST} values, got {many}")
     if spacing != ["log"]:
-        return path, np.linspace(start, stop, count)
+        return np.linspace(start, stop, count)
     if not start * stop > 0.0:
         raise InvalidValue(
-            f"--over {path} must run between numbers of one sign for :log, not from or to 0, "
-            f"got {written}"
+            f"{path} must run between numbers of one sign for :log, not from or to 0, got {written}"
         )
-    return path, np.geomspace(start, stop, count)
+    return np.geomspace(start, stop, count)
 
 
 def sweep(
@@ -133,8 +135,9 @@ def sweep(
         DataArray, broadcast by the names of its dimensions; or a number or 1-D array_like, which
         gets a dimension of its own, ``balls_0_mass`` for the path ``balls.0.mass``; or a pair of a
         dimension's name and a 1-D array_like. Numbers that share a dimension vary together: 300
-        values of each are 300 drops. SI units, or those of a DataArray's attribute `units`. Arrays
-        of dask make the Dataset lazy, with their chunks.
+        values of each are 300 drops. SI units, or those of a DataArray's attribute `units`, of
+        pint, or of texts: a list of them, or ``"10 g:200 g:50"``, also with ``:log``, as after
+        ``--over``. Arrays of dask make the Dataset lazy, with their chunks.
     until, rtol, event_limit
         As in `simulate`, for every drop.
 
@@ -225,11 +228,15 @@ def _named(number: Number, value: Any) -> "xr.DataArray":
     import xarray as xr
 
     own = identifier(number.path)
-    if isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], str):
+    if isinstance(value, tuple) and [isinstance(part, str) for part in value] == [True, False]:
         own, value = value
     unmasked(number.path, value)
+    if isinstance(value, str) and {*value} & {*":,"}:
+        value = _spaced(number, value)
+    value = in_unit(value, number.unit, number.path)
     if isinstance(value, xr.DataArray):
-        array = value
+        data = in_unit(value.data, number.unit, number.path)
+        array = value if data is value.data else value.copy(data=data)
     else:
         try:
             plain = np.asarray(value) if not hasattr(value, "dask") else value

@@ -14,6 +14,7 @@ from stackbounce.model.laws import contact_numbers
 from stackbounce.run.options import run_options
 from stackbounce.run.paths import identifier, numbers_of
 from stackbounce.sweeps import sweep
+from stackbounce.units import checked
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -221,10 +222,10 @@ def mass_range(drop: Drop, within: object) -> tuple[float, float]:
         low, high = outer
         right = "balls must have outer masses that differ, unless within is given"
     else:
-        given = listed("within", within, 2)
-        if len(given) != 2:
+        ends = listed("within", within, 2)
+        if len(ends) != 2:
             raise InvalidType(f"within must be two masses, got {shown(within)}")
-        low, high = (positive("within", mass, "kilograms") for mass in given)
+        low, high = (checked(positive, "within", mass, "kilograms") for mass in ends)
         right = "within must be two masses, the smaller first"
     if not low < high:
         raise InvalidValue(f"{right}, got {low!r} and {high!r}")

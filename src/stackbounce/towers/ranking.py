@@ -24,6 +24,7 @@ from stackbounce.model.laws.series import between
 from stackbounce.run.calibration import calibrate
 from stackbounce.towers.masses import best_masses, geometric_means, mass_range, solve_drops
 from stackbounce.towers.separation import replace_gaps
+from stackbounce.units import checked
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
@@ -139,7 +140,8 @@ def highest(
         widths = None if gaps is None else _checked_gaps(gaps)
     else:
         speed = math.sqrt(2.0 * STANDARD_GRAVITY * _HEIGHT)
-        speed = speed if impact_speed is None else positive("impact_speed", impact_speed, "m/s")
+        if impact_speed is not None:
+            speed = checked(positive, "impact_speed", impact_speed, "m/s")
         chosen = _list_candidates(balls, law, speed)
         widths = _checked_gaps(_GAPS if gaps is None else gaps)
         size = (3 if repeat else min(3, len(chosen))) if count is None else count
@@ -244,8 +246,8 @@ _pressed = functools.lru_cache(between)
 
 
 def _checked_gaps(gaps: Any) -> list[float]:
-    given = listed("gaps", gaps, _MOST)
-    found = [non_negative(f"gaps.{i}", gap, "metres") for i, gap in enumerate(given)]
+    many = enumerate(listed("gaps", gaps, _MOST))
+    found = [checked(non_negative, f"gaps.{i}", gap, "metres") for i, gap in many]
     if not found or len(set(found)) < len(found):
         raise InvalidValue(f"gaps must be different ones, at least one, got {shown(gaps)}")
     return found

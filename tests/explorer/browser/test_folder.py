@@ -111,12 +111,7 @@ def test_a_folder_that_is_opened_from_a_disk_says_what_it_needs(visit, tmp_path)
     visit.complaints.clear()  # it asks for files that a page from a disk must not read
 
 
-def test_a_folder_of_somebody_elses_is_left_as_it_is(tmp_path, capsys):
-    (tmp_path / "index.html").write_text("mine")
-    assert main(["app", "--export", str(tmp_path)]) == 2
-    assert "index.html is there, and is not as this command writes it" in capsys.readouterr().err
-    assert (tmp_path / "index.html").read_text() == "mine"
-    assert not (tmp_path / "explorer.js").exists()
+def test_a_folder_is_written_whole_and_again(tmp_path, capsys):
     place = tmp_path / "new" / "explorer"
     for _ in range(2):
         assert main(["app", "--export", str(place)]) == 0

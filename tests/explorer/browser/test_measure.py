@@ -126,7 +126,7 @@ def test_a_law_that_is_new_is_offered_with_its_loss(visit):
 
 def test_the_form_has_a_field_for_every_option(page, server):
     form = page.locator("form.measure-options")
-    for option in server.get("/api/measure/options").json()["options"]:
+    for option in server.get("/made/options.json").json()["options"]:
         name = option["name"]
         assert form.locator(f'[name="{name}"], [data-key="option-{name}"]').count() == 1
         assert option["label"] in form.text_content()

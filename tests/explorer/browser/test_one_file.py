@@ -35,6 +35,24 @@ def test_its_policy_lets_nothing_out(visit, page):
     assert visit.script_is_refused()
 
 
+def test_two_cells_of_a_notebook_are_two_explorers(visit, tmp_path):
+    drop = sb.Drop([sb.Ball(0.6, name='"ä" & +'), sb.Ball(0.05)], [sb.Hertz(1e7)] * 2, height=1.0)
+    cells = [drop.explore(height=700)._repr_html_(), sb.explore()._repr_html_()]
+    notebook = tmp_path / "notebook.html"
+    notebook.write_text(f'<!doctype html><meta charset="utf-8">{"".join(cells)}', "utf-8")
+    visit.address = notebook.as_uri()
+    visit.page.goto(visit.address)
+    for frame, name in zip(visit.page.frames[1:], ('"ä" & +', "basketball"), strict=True):
+        frame.wait_for_function("() => state?.result && !state.busy")
+        assert frame.evaluate("() => state.drop.balls[0].name") == name
+    first = visit.page.frames[1]
+    first.locator("#language select").select_option("de")
+    first.locator("#tab-line").get_by_text("Kurve").click()
+    first.locator("#line").get_by_text("Rückprall").first.wait_for()
+    assert sb.Drop.from_mapping(first.evaluate("() => state.drop")) == drop
+    assert first.url == "about:srcdoc"  # Firefox would lose a frame that has written an address
+
+
 def test_what_it_cannot_do_is_said(visit):
     page = visit.open("#view=measure")
     assert "stackbounce app" in page.locator("#measure").inner_text()

@@ -8,13 +8,12 @@ from importlib.resources import files
 from pathlib import Path
 
 import pytest
-from page_build.data import model_json
+from page_build.data import model_json, options_json
 
 from explorer.page.asking import run_node
 from refusals import refusal
 from stackbounce import StackbounceError, units
 from stackbounce.errors import between, finite, non_negative, positive
-from stackbounce.explorer.answers.records import list_options
 
 STATIC = files("stackbounce.explorer") / "static"
 CODES = tuple(sorted(path.stem for path in Path(str(STATIC)).glob("js/languages/*.json")))
@@ -76,7 +75,7 @@ def patterns():
 def served():
     """Return the English words and sentences that the package gives the page to show."""
     model = json.loads(model_json())
-    options = json.loads(list_options())["options"]
+    options = json.loads(options_json())["options"]
     laws = [law["law"] for law in model["laws"]]
     names = [ball["name"] for ball in model["balls"]]
     said = [

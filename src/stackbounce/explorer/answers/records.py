@@ -13,11 +13,10 @@ from stackbounce.fitting import Fit, fit
 from stackbounce.fitting.series import fit_series
 from stackbounce.json_values import as_json
 from stackbounce.measure.finding import Branch
-from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.measurement import Measurement, measure_file
 from stackbounce.measure.messages import OptionHint
 from stackbounce.measure.option_values import read_options
-from stackbounce.measure.options import OPTIONS, Option, options_for
+from stackbounce.measure.options import OPTIONS, Option
 from stackbounce.model import Drop
 from stackbounce.version import __version__
 
@@ -32,17 +31,6 @@ _Series = dict[str, Any]
 _POINTS = 500  # about so many points of a branch that a page draws
 _SHOWN = 4000  # most points of a curve that a page draws
 _AFTER = 1.5  # part of a record that is kept, in durations of the simulated impact
-
-
-def list_options() -> str:
-    """List the kinds of measurement and the options of the page's form, as JSON."""
-    offered = options_for("read", "analyse").values()
-    return as_json(
-        {
-            "kinds": [{"name": kind.name, "says": kind.says} for kind in KINDS.values()],
-            "options": [option.to_mapping() for option in offered],
-        }
-    )
 
 
 def measure_record(

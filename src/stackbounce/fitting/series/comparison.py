@@ -1,7 +1,7 @@
 """How well each law follows a series: calibrated at one speed, and fitted to all."""
 
 import math
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -12,7 +12,7 @@ from stackbounce.fitting.series.family import Family, families, reason_to_skip
 from stackbounce.fitting.series.series import Series
 from stackbounce.model.laws import LAWS
 from stackbounce.run.quantities import Array
-from stackbounce.shown import Shown
+from stackbounce.shown import Shown, Table, table_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -138,6 +138,10 @@ class Comparison(Shown):
         columns = ["restitution", "from", "to", "χ²", "degrees", "p", "verdict"]
         return pd.DataFrame(rows, names, columns)
 
+    def _tables(self) -> Sequence[Table]:
+        narrow = table_of(self.table.drop(columns="degrees"))
+        return (narrow._replace(caption=self.series.title),)
+
     @property
     def tells_apart(self) -> bool:
         """Return whether one law agrees and another one is refuted."""
@@ -199,7 +203,7 @@ def format_p(value: float) -> str:
 
 
 def compare_laws(
-    series: Series, without_air: Series | None = None, laws: Collection[str] = tuple(LAWS)
+    series: Series, without_air: Series | None = None, laws: Collection[str] = LAWS
 ) -> Comparison:
     """Return how well laws follow a series.
 

@@ -59,7 +59,7 @@ def restitutions(law: ContactLaw, speeds: Array) -> Array:
     return np.array([restitution(law, _MASS, float(speed)) for speed in speeds])
 
 
-def families(series: Series, laws: Collection[str] = tuple(LAWS)) -> Iterator[tuple[str, Family]]:
+def families(series: Series, laws: Collection[str] = LAWS) -> Iterator[tuple[str, Family]]:
     """Yield the name and the family of some laws, calibrated at the series' highest speed."""
     speed = float(series.speeds.max())
     for name, law_class in LAWS.items():

@@ -27,7 +27,7 @@ from stackbounce.fitting.series.series import make_series, why_not
 from stackbounce.fitting.series.table import read_table
 from stackbounce.json_values import plain
 from stackbounce.model.laws import LAWS, law_named
-from stackbounce.shown import Shown
+from stackbounce.shown import Shown, Table
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
@@ -81,6 +81,9 @@ class SeriesFit(Shown):
         tables = {found.series.title: found.table for found in self.comparisons}
         return pd.concat(tables, names=["ball"]) if tables else pd.DataFrame()
 
+    def _tables(self) -> Sequence[Table]:
+        return [table for found in self.comparisons for table in found._tables()]
+
     def as_dict(self) -> dict[str, Any]:
         """Return everything as plain values, for JSON."""
         return {
@@ -95,7 +98,7 @@ class SeriesFit(Shown):
 def fit_series(
     source: File,
     *,
-    laws: Collection[str] = tuple(LAWS),
+    laws: Collection[str] | None = None,
     errors: Sequence[str] = (),
     mass: float | None = None,
     diameter: float | None = None,
@@ -112,7 +115,7 @@ def fit_series(
         A table, as `read_table` reads it, or its name and content; or ``dataset:NAME``, a published
         data set, or ``dataset:all``.
     laws : collection of str, optional
-        The names of the laws; by default all.
+        The names of the laws; by default all, your own with them.
     errors : sequence of str, optional
         Errors of numbers that have none, such as ``"5 mm"`` or ``"drop height = 2 mm"``.
     mass, diameter : float, optional
@@ -139,7 +142,7 @@ def fit_series(
     >>> [f"{limit:.3f}" for limit in found.outcomes[0].interval()]
     ['0.734', '0.738']
     """
-    laws = [law_named(law).__name__ for law in laws]
+    laws = [law_named(law).__name__ for law in (LAWS if laws is None else laws)]
     name = str(source)
     if not name.startswith(PREFIX):
         table = read_table(source, errors, mass=mass, diameter=diameter)

@@ -12,7 +12,7 @@ the contact time π c.
 
 import csv
 import itertools
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from importlib.resources import files
 from operator import itemgetter
@@ -20,14 +20,19 @@ from typing import Annotated, Any
 
 from stackbounce.model.ball import Ball
 from stackbounce.model.laws import ContactLaw, Hysteretic, Spring
-from stackbounce.units import Unit
+from stackbounce.shown import Shown, Table
+from stackbounce.units import Unit, handy_text
 
 MEASURED, RULE, ESTIMATE = KINDS = ("measured", "rule", "estimate")
 """What a figure is: measured, set by the rules of a game, or estimated."""
 
+UNITS = {"mass": "kg", "diameter": "m", "restitution": "", "contact_time": "s"}
+UNITS |= dict.fromkeys(("stiffness", "static_stiffness"), "N/m")
+"""The unit of each figure of a ball."""
 
-@dataclass(frozen=True)
-class CatalogueBall:
+
+@dataclass(frozen=True, repr=False)
+class CatalogueBall(Shown):
     """A ball of the catalogue with its numbers, and their sources.
 
     Parameters
@@ -65,6 +70,13 @@ class CatalogueBall:
     sources: tuple[tuple[str, str], ...]
     kinds: tuple[tuple[str, str], ...] = ()
     lossy: bool = False
+
+    def _tables(self) -> Sequence[Table]:
+        numbers, rows = self.to_mapping(), []
+        for name, source in self.sources:
+            value = handy_text(numbers[name], UNITS[name], 4)
+            rows.append((name.replace("_", " "), value, self.kind_of(name), source))
+        return (Table(str(self.ball.name), ("", "value", "kind", "source"), rows),)
 
     @property
     def contact(self) -> ContactLaw:

@@ -1,15 +1,14 @@
 """The balls of the catalogue by name, as a table that shows itself."""
 
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping, Sequence
 
 from stackbounce.model.ball import Ball
-from stackbounce.model.catalogue.balls import BALLS, CLASS_BALLS
+from stackbounce.model.catalogue.balls import BALLS, CLASS_BALLS, UNITS
 from stackbounce.model.catalogue.stacking import catalogue_ball
-from stackbounce.shown import Shown
+from stackbounce.shown import Shown, Table
+from stackbounce.units import handy_text
 
-if TYPE_CHECKING:
-    import pandas as pd
+_FIGURES = ("mass", "diameter", "restitution", "contact_time", "stiffness")
 
 
 class Balls(Shown, Mapping[str, Ball]):
@@ -33,21 +32,15 @@ class Balls(Shown, Mapping[str, Ball]):
     def __len__(self) -> int:
         return len(BALLS) + len(CLASS_BALLS)
 
-    @property
-    def table(self) -> "pd.DataFrame":
-        """The figures of all balls, a row each; ``stackbounce balls`` prints their sources."""
-        import pandas as pd
-
-        entries = [catalogue_ball(name) for name in self]
-        times = [entry.contact_time for entry in entries]
-        figures = {
-            "mass/g": [1e3 * entry.ball.mass for entry in entries],
-            "diameter/mm": [1e3 * (entry.ball.diameter or float("nan")) for entry in entries],
-            "restitution": [entry.restitution for entry in entries],
-            "contact time/ms": [float("nan") if time is None else 1e3 * time for time in times],
-            "stiffness/(N/m)": [entry.stiffness for entry in entries],
-        }
-        return pd.DataFrame(figures, index=list(self))
+    def _tables(self) -> Sequence[Table]:
+        rows = []
+        for name in self:
+            numbers = catalogue_ball(name).to_mapping()
+            known = (numbers.get(figure) for figure in _FIGURES)
+            cells = zip(known, (UNITS[figure] for figure in _FIGURES), strict=True)
+            rows.append((name, *("" if x is None else handy_text(x, unit, 4) for x, unit in cells)))
+        columns = ("", *(figure.replace("_", " ") for figure in _FIGURES))
+        return (Table("Balls of the catalogue", columns, rows),)
 
 
 balls = Balls()

@@ -3,7 +3,6 @@
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from stackbounce.errors import InvalidValue, UnknownName, nearest, shown
 from stackbounce.model.ball import Ball
@@ -11,7 +10,6 @@ from stackbounce.model.catalogue.balls import BALLS, CLASS_BALLS, PAIRS, Catalog
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw, Spring
 from stackbounce.model.laws.series import between
-from stackbounce.units import in_unit
 
 DEFAULT_HEIGHT = 1.0
 """In m: the height of a fall of which nothing is said."""
@@ -93,9 +91,9 @@ def stack(
     height: float | str | None = None,
     impact_speed: float | str | None = None,
     velocities: Sequence[float | str] | None = None,
+    gravity: float | str = 0.0,
     gap: float | str | None = None,
     gaps: Sequence[float | str] | None = None,
-    gravity: float | str = 0.0,
 ) -> Drop:
     """Return a drop of balls of the catalogue, on the contacts that it has for them.
 
@@ -103,12 +101,14 @@ def stack(
     ----------
     *balls : str
         Their names, the lowest first, as `catalogue_ball` reads them; `stackbounce.balls` has all.
-    height, impact_speed, velocities, gravity : optional
+    height, impact_speed, velocities : optional
         As of `Drop`. By default the stack falls from 1 m, as in ``stackbounce simulate``.
     gap : float, optional
         In m, 0 or above: one gap between all neighbours.
     gaps : sequence of float, optional
         In m, 0 or above: the N - 1 gaps. By default those that the paper fitted to the pair, or 0.
+    gravity : float, optional
+        As of `Drop`.
 
     Returns
     -------
@@ -132,15 +132,11 @@ def stack(
         raise InvalidValue("gap and gaps: only one of the two can be given, got both")
     chosen = stacked(balls)
     if gap is not None:
-        gaps = [in_unit(gap, "m", "gap")] * (len(balls) - 1)
-    numbers: dict[str, Any] = {
-        "gaps": chosen.gaps if gaps is None else gaps,
-        "height": DEFAULT_HEIGHT if height is impact_speed is velocities is None else height,
-        "impact_speed": impact_speed,
-        "velocities": velocities,
-        "gravity": gravity,
-    }
-    return Drop(chosen.balls, chosen.contacts, **numbers)
+        gaps = [gap] * (len(balls) - 1)
+    drop = Drop(chosen.balls, chosen.contacts, chosen.gaps, height=DEFAULT_HEIGHT)
+    fall = {"height": height, "impact_speed": impact_speed, "velocities": velocities}
+    numbers = fall | {"gaps": gaps, "gravity": gravity}
+    return drop.replace(**{name: value for name, value in numbers.items() if value is not None})
 
 
 def stacked(names: Sequence[str]) -> Stack:

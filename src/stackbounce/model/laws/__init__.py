@@ -22,7 +22,14 @@ from stackbounce.model.laws.tabulated import Tabulated
 from stackbounce.model.laws.bond import Bond
 
 # isort: on
-from stackbounce.model.laws.law import STEEPEST, ContactLaw, contact_numbers
+from stackbounce.engine import codes
+from stackbounce.model.laws.law import (
+    STEEPEST,
+    ContactLaw,
+    Quantity,
+    contact_numbers,
+    stiffness_in,
+)
 from stackbounce.model.laws.registry import LAWS, law_named, register, usual_laws
 from stackbounce.model.laws.series import series
 
@@ -37,6 +44,7 @@ __all__ = [
     "HuntCrossley",
     "Hysteretic",
     "PowerLaw",
+    "Quantity",
     "Rigid",
     "RigidBySpeed",
     "RigidLossBySpeed",
@@ -44,9 +52,11 @@ __all__ = [
     "StandardLinearSolid",
     "Tabulated",
     "Viscoelastic",
+    "codes",
     "contact_numbers",
     "law_named",
     "register",
     "series",
+    "stiffness_in",
     "usual_laws",
 ]

@@ -26,7 +26,7 @@ _SOFTEST, _STEEPEST_FLANK = 6.0, 100.0  # exponents of a release that is not kno
 
 
 @register
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Hysteretic(ContactLaw):
     """A lossy spring with hysteresis: it unloads along another curve than it loads.
 
@@ -103,13 +103,6 @@ class Hysteretic(ContactLaw):
         names = ("stiffness", "exponent", "restitution", "unloading_exponent", "derived")
         for name, value in zip(names, (k, p, e, n, derived), strict=True):
             object.__setattr__(self, name, value)
-
-    def __repr__(self) -> str:
-        given = next(name for name in _ONE_OF if name != self.derived)
-        return (
-            f"Hysteretic(stiffness={self.stiffness!r}, exponent={self.exponent!r}, "
-            f"{given}={getattr(self, given)!r})"
-        )
 
     @classmethod
     def loss_fields(cls) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 import functools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from numbers import Real
 from types import MappingProxyType
@@ -22,6 +22,7 @@ from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, between, positive
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import rising_root
+from stackbounce.shown import Shown, Table, call_of
 from stackbounce.units import Unit, in_unit, unit_of
 
 STEEPEST = 1e6
@@ -36,6 +37,7 @@ EngineNumbers: TypeAlias = tuple[int, Any, Any, Any, Any]
 _MEASURED = ("mass", "impact_speed", "contact_time", "exponent")
 _LOSSLESS = 1.0 - 1e-11  # a smaller loss is not told from round-off in a simulation
 _FAR = 1e6  # times the largest one of its slider: the largest loss that a calibration tries
+_LEAST = 1e-3  # times the same: where the search begins if the slider begins at 0
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
@@ -59,7 +61,18 @@ class Quantity(Unit):
 
 
 def stiffness_in(unit: str) -> Quantity:
-    """Return the `Quantity` of a stiffness in ``unit``: N/m, or N/m**p of a power law."""
+    """Return the `Quantity` of a stiffness.
+
+    Parameters
+    ----------
+    unit : str
+        ``N/m``, or such as ``N/m**1.5`` of a power law.
+
+    Examples
+    --------
+    >>> stiffness_in("N/m**2").symbol
+    'N/m**2'
+    """
     slider = (5e3, 1e2, 1e6) if unit == "N/m" else (2e5, 1e3, 1e10)
     return Quantity(unit, lambda name, value: positive(name, value, unit), slider)
 
@@ -95,7 +108,7 @@ Flanks: TypeAlias = tuple[Flank, Flank]
 _Law = TypeVar("_Law", bound="ContactLaw")
 
 
-class ContactLaw:
+class ContactLaw(Shown):
     """The base class of all contact laws: the attributes and methods that the package uses.
 
     A law is a frozen dataclass; the hint of each parameter holds a `Quantity`. The class must set
@@ -147,6 +160,9 @@ class ContactLaw:
     if TYPE_CHECKING:  # fields differ from law to law
 
         def __getattr__(self, name: str) -> Any: ...
+
+    def __repr__(self) -> str:
+        return call_of(self, self.derived_field())
 
     def __post_init__(self) -> None:
         for name, number in self.quantities().items():
@@ -223,12 +239,25 @@ class ContactLaw:
         >>> HuntCrossley(3e6, 1.5, dissipation=0.15).described()
         'HuntCrossley, stiffness 3e+06 N/m^1.5, exponent 1.5, dissipation 0.15 s/m'
         """
-        words = [type(self).__name__]
+        return ", ".join([type(self).__name__, *map(" ".join, self._described_numbers())])
+
+    def _described_numbers(self) -> list[tuple[str, str]]:
+        """Return the name of each number in words, and the number with its unit."""
+        found = []
         for name in self._described_fields():
             digits = ".4g" if name == "restitution" else ".6g"
             unit = self.units()[name].replace("**", "^")
-            words.append(f"{name.replace('_', ' ')} {getattr(self, name):{digits}} {unit}".strip())
-        return ", ".join(words)
+            found.append((name.replace("_", " "), f"{getattr(self, name):{digits}} {unit}".strip()))
+        return found
+
+    def _tables(self) -> Sequence[Table]:
+        numbers = self._described_numbers()
+        return (Table(type(self).__name__ if numbers else self.described(), ("", ""), numbers),)
+
+    @property
+    def remarks(self) -> Sequence[str]:
+        """The formula of the law, for a notebook."""
+        return (self.formula,)
 
     def _described_fields(self) -> list[str]:
         return list(self.quantities())
@@ -438,7 +467,7 @@ def _found(cls: type[_Law], numbers: dict[str, float], given: Given) -> _Law:
             raise ArithmeticError
         return math.log(kept / lasting({cls.loss: loss}).restitution_at(mass, speed))
 
-    return lasting({cls.loss: rising_root(excess, least)})
+    return lasting({cls.loss: rising_root(excess, least or _LEAST * most)})
 
 
 def contact_numbers(law: ContactLaw | None, varied: Mapping[str, Any] = _NOTHING) -> EngineNumbers:

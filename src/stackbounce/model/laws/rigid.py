@@ -19,7 +19,7 @@ _SEED = Quantity("", lambda n, v: between(n, v, 0.0, _SEEDS), (0.0, 0.0, 100.0))
 
 
 @register
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Rigid(ContactLaw):
     """An instantaneous collision with Newton's restitution.
 
@@ -80,7 +80,7 @@ class Rigid(ContactLaw):
 
 
 @register
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RigidBySpeed(Rigid):
     """An instantaneous collision whose restitution falls with a power of the speed.
 
@@ -172,7 +172,7 @@ class RigidBySpeed(Rigid):
 
 
 @register
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RigidLossBySpeed(RigidBySpeed):
     """An instantaneous collision whose loss grows with a power of the speed.
 

@@ -19,7 +19,7 @@ from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, finite, listed
 from stackbounce.model.laws.law import RESTITUTION, ContactLaw, EngineNumbers, Flank, Flanks, Given
 from stackbounce.model.laws.registry import register
-from stackbounce.units import Unit, in_unit
+from stackbounce.units import Unit, checked
 
 MOST_POINTS = 16
 """The largest number of points of a curve, with the one at 0: two pieces for each interval."""
@@ -35,7 +35,7 @@ Piece = tuple[float, float, float, float]
 
 
 @register
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Tabulated(ContactLaw):
     """A law from measured points, such as those of a press curve: force over compression.
 
@@ -97,7 +97,7 @@ class Tabulated(ContactLaw):
     compression: Annotated[Sequence[float], Unit("m")]
     force: Annotated[Sequence[float], Unit("N")]
     unloading: Annotated[Sequence[float], Unit("N")] | None = None
-    restitution: Annotated[float, Unit()] | None = None
+    restitution: float | None = None
 
     def __post_init__(self) -> None:
         lengths = _points("compression", self.compression, "m")
@@ -120,8 +120,7 @@ class Tabulated(ContactLaw):
         if self.restitution is not None:
             if self.unloading is not None:
                 raise InvalidValue("unloading and restitution must not both be given, got both")
-            e = in_unit(self.restitution, "", "restitution")
-            e = RESTITUTION.check("restitution", e)
+            e = checked(RESTITUTION.check, "restitution", self.restitution)
             object.__setattr__(self, "restitution", e)
 
     def to_mapping(self) -> dict[str, Any]:
@@ -199,10 +198,7 @@ def _points(
 ) -> tuple[float, ...]:
     """Return the points of a curve from 0 on; raise if they do not rise."""
     given = listed(name, values, MOST_POINTS)  # of more, `press(...).table()` makes a law
-    points = tuple(
-        finite(f"{name}.{i}", in_unit(value, unit, f"{name}.{i}"), unit)
-        for i, value in enumerate(given)
-    )
+    points = tuple(checked(finite, f"{name}.{i}", value, unit) for i, value in enumerate(given))
     if len(points) < 2:
         raise InvalidValue(f"{name} must have from 2 to {MOST_POINTS} points, got {len(points)}")
     if like is not None and len(points) != len(like):

@@ -2,7 +2,8 @@
 
 from typing import TYPE_CHECKING, Any
 
-from stackbounce.plots.style import file_of, panels, with_error
+from stackbounce.plots.style import file_of, panels
+from stackbounce.shown import table_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -27,16 +28,10 @@ def draw(data: Any, found: Any, axes: Any = None) -> "Figure":
     matplotlib.figure.Figure
         Not shown and not saved.
     """
-    cells = [[row.name, _written(row.value), row.unit] for row in found.rows()[:_MOST]]
+    cells = table_of(found.table).rows[:_MOST]
     with panels((7.2, 1.0 + 0.28 * len(cells)), axes) as (figure, (axes,)):
         axes.axis("off")
         if cells:
             axes.table(cells, colLabels=["", "value", "unit"], loc="upper center", edges="open")
         axes.set_title(file_of(data), loc="left", fontsize=10)
     return figure
-
-
-def _written(value: Any) -> str:
-    if hasattr(value, "std_dev"):
-        return with_error(value, ".4g")
-    return f"{value:.4g}" if isinstance(value, float) else str(value)

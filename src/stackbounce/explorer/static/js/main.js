@@ -36,7 +36,7 @@ const place = (id) => document.getElementById(id);
 const LATE = 5000; // ms, after which the page is shown without its first drop
 const reduced = matchMedia("(prefers-reduced-motion: reduce)");
 
-const store = createStore(address.read(location.hash));
+const store = createStore(address.read());
 const clock = new Clock(() => reduced.matches);
 window.stackbounce = { store, clock };
 if (typeof WebAssembly === "object" && typeof Worker === "function") place("old").remove();

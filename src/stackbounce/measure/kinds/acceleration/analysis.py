@@ -12,6 +12,7 @@ from stackbounce.measure.finding import Finding, rigid_contact
 from stackbounce.measure.kinds.acceleration.series import is_held, record_of, refuse_gain, series_of
 from stackbounce.measure.quantities import Array, Number, Row, known_rows, nominal
 from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.units import checked
 
 _CONTACT_SAMPLES = 6  # of a contact whose duration is given
 
@@ -149,7 +150,7 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
     >>> print(f"{found.drop_height:.1uS} m, e = {found.mean:.1uS}")
     0.775(4) m, e = 0.748(2)
     """
-    g = positive("gravity", gravity, "m/s^2")
+    g = checked(positive, "gravity", gravity, "m/s^2")
     record = record_of(data, g)
     times, values, notes = record.times, record.felt, record.notes
     series = series_of(record, g)

@@ -12,10 +12,11 @@ from stackbounce.measure.kinds.bounces.knocks import Knocks, missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import fit_line, laws_of
 from stackbounce.measure.kinds.bounces.result import Bounces
 from stackbounce.measure.kinds.bounces.scatter import meaning_of, scatter_of
-from stackbounce.measure.quantities import Number, nominal
+from stackbounce.measure.quantities import Number, measured, nominal
 from stackbounce.measure.samples import columns
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.units import checked, magnitude
 
 _MOST_BOUNCES = 200  # of one drop
 _ROUNDING = 5e-3  # of an interval: rounding makes equal ones differ by less, and a ball loses more
@@ -82,10 +83,12 @@ def bounces(
     >>> f"{found.drop_height:.2f}", found.inferred
     ('1.23+/-0.01', True)
     """
-    gravity = positive("gravity", gravity, "m/s^2")
-    contact_time = non_negative("contact_time", contact_time, "seconds")
+    times = magnitude(times, "s", "times")
+    gravity = checked(positive, "gravity", gravity, "m/s^2")
+    contact_time = checked(non_negative, "contact_time", contact_time, "seconds")
     if drop_height is not None:
-        positive("drop_height", nominal(drop_height), "metres")
+        known = measured("drop_height", drop_height, "metres")
+        drop_height = known if known.std_dev > 0.0 else known.nominal_value
     if isinstance(times, Knocks) and times.against:
         raise InvalidValue(f"times must be those of a bouncing ball, got {times.against}")
     notes: list[str] = []

@@ -11,7 +11,7 @@ from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.measure.drag import Drag, speed_after_fall
 from stackbounce.measure.finding import Finding, rigid_contact
 from stackbounce.measure.messages import Message, OptionHint
-from stackbounce.measure.quantities import Number, Row, deviation, nominal
+from stackbounce.measure.quantities import Number, Row, deviation, measured, nominal
 from stackbounce.measure.setup import Place, lowest_point, places
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
@@ -183,7 +183,10 @@ def _listed(values: Any) -> list[Any]:
 def _with_error(name: str, value: Any, error: float) -> Number:
     from uncertainties import UFloat, ufloat
 
-    return value if isinstance(value, UFloat) else ufloat(positive(name, value, "metres"), error)
+    if isinstance(value, UFloat):
+        return value
+    found = measured(name, value, "metres")
+    return found if found.std_dev > 0.0 else ufloat(found.nominal_value, error)
 
 
 def _kept(first: Any, after: Any, drag: Drag | None) -> Any:

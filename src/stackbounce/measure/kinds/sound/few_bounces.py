@@ -8,6 +8,7 @@ from stackbounce.measure.finding import Finding
 from stackbounce.measure.kinds.bounces.knocks import Knocks
 from stackbounce.measure.quantities import Number, Row
 from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.units import checked
 
 
 @dataclass(frozen=True, repr=False)
@@ -82,7 +83,7 @@ def few_bounces(
     >>> print(found.notes[0])
     No restitution was found: it needs 3 bounces in a row, or 2 and the drop height; 2 were heard.
     """
-    gravity = positive("gravity", gravity, "m/s^2")
+    gravity = checked(positive, "gravity", gravity, "m/s^2")
     pairs = zip(heard.times[:-1], heard.times[1:], heard.missed, strict=True)
     flights = tuple(None if lost else later - first for first, later, lost in pairs)
     heights = tuple(None if flight is None else _apex(flight, gravity, drag) for flight in flights)

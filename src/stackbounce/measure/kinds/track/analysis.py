@@ -28,6 +28,7 @@ from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, known_to, nominal
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.units import checked
 
 _TOGETHER = 0.15  # of the time of fall, within which two balls' impacts are one drop's
 _RESTITUTION_OFF = 0.07  # of the change within a flight: restitutions in simulated distortions
@@ -115,7 +116,7 @@ def track(
     """
     from uncertainties import ufloat
 
-    gravity = positive("gravity", gravity, "m/s^2")
+    gravity = checked(positive, "gravity", gravity, "m/s^2")
     found = positions_of(data)
     notes: list[str] = []
     if found.many > 1:

@@ -75,7 +75,7 @@ async function ask(path, options) {
 
 /** Return the addresses of the page that others can type, with their QR codes; none without a server. */
 export const places = async () => (hasServer ? (await ask("api/places")).places : []);
-export const measureOptions = () => ask("api/measure/options");
+export const measureOptions = () => ask("made/options.json");
 export const measure = (form) => ask("api/measure", { method: "POST", body: form });
 export const fit = (form) => ask("api/fit", { method: "POST", body: form });
 

@@ -2,7 +2,7 @@
 
 import { complete, isDrop } from "../set_up/drops.js";
 import { t } from "../words/language.js";
-import { isLanguage } from "../words/language_choice.js";
+import { framed, isLanguage } from "../words/language_choice.js";
 import { FIRST, VIEWS } from "./store.js";
 
 const DROP = ["balls", "contacts", "gaps", "velocities", "impact_speed", "height", "gravity"];
@@ -33,7 +33,7 @@ export function write(state) {
 }
 
 /** Return the patch of the state that a fragment describes; what it does not know is named in `notice`. */
-export function read(fragment) {
+export function read(fragment = framed ? window.name : location.hash) {
   const patch = {};
   const drop = {};
   const settings = {};
@@ -78,7 +78,8 @@ export function follow(store) {
     clearTimeout(timer); // not while numbers change
     timer = 0;
     written = `#${write(state)}`;
-    history[how]({ way }, "", written);
+    if (framed) window.name = written;
+    else history[how]({ way }, "", written);
   };
   store.subscribe((state, before) => {
     const beside = state.view !== before.view || state.lesson !== before.lesson;
@@ -87,7 +88,8 @@ export function follow(store) {
       put(before);
       way += step;
       put(state, "pushState");
-    } else {
+    } else if (state.lang !== before.lang) put(state); // the page is shown anew
+    else {
       clearTimeout(timer);
       timer = setTimeout(() => put(store.get()), REST);
     }
@@ -118,7 +120,7 @@ export function follow(store) {
     way += EXAMPLE;
     show({ ...FIRST_SHOWN, ...read(hash), replay: store.get().replay + 1 }); // a lesson stays open
   });
-  if (!history.state) history.replaceState({ way }, "");
+  if (!framed && !history.state) history.replaceState({ way }, "");
 }
 
 const EXAMPLE = "e"; // an example was loaded, or a link followed

@@ -10,7 +10,7 @@ const STATE_COPIED = t("The state is copied: whoever has this file puts it behin
 /** Let the share menu in `root` do what it says. */
 export function mountShare(root, store, api) {
   const { box, opener, copy, printer, said, places } = partsOf(root);
-  const shared = location.protocol !== "file:"; // an address that others can open
+  const shared = location.protocol.startsWith("http"); // an address that others can open
   if (!shared) write(copy, t("Copy state"));
   copy.addEventListener("click", async () => {
     const state = `#${addressOf(store.get())}`;
@@ -18,7 +18,6 @@ export function mountShare(root, store, api) {
       await navigator.clipboard.writeText(shared ? location.href.split("#")[0] + state : state);
       write(said, shared ? t("The link is copied: it opens this view again.") : STATE_COPIED);
     } catch {
-      location.hash = state;
       write(said, t("Copying is not allowed here; the address of this page is the link."));
     }
   });

@@ -20,5 +20,11 @@ export function chosen(fragment, browser) {
   return browser.map((name) => name.slice(0, 2).toLowerCase()).find(isLanguage) ?? "en";
 }
 
+/**
+ * Whether the page is the text of a frame, as in a notebook. It has no address of its own there, and its name keeps its state:
+ * Firefox shows nothing when such a frame is loaded anew after its history was written to.
+ */
+export const framed = globalThis.location?.protocol === "about:";
+
 /** The code of the page's language; a worker and node speak English. */
-export const language = typeof document === "undefined" ? "en" : chosen(location.hash, navigator.languages ?? []);
+export const language = typeof document === "undefined" ? "en" : chosen(framed ? window.name : location.hash, navigator.languages ?? []);

@@ -1,6 +1,5 @@
 /** The choice of the page's language, in its header. */
 
-import { write as addressOf } from "../state/address.js";
 import { h } from "../dom.js";
 import { t } from "./language.js";
 import { LANGUAGES, language } from "./language_choice.js";
@@ -12,8 +11,6 @@ export function mountLanguage(root, store) {
   const select = h("select", { "aria-label": t("Language"), "data-key": "language", onchange: set }, options);
   root.replaceChildren(h("span", { class: "language-code", "aria-hidden": "true", text: language.toUpperCase() }), select);
   store.watch(["lang"], ({ lang }) => {
-    if (lang === language) return;
-    history.replaceState(history.state, "", `#${addressOf(store.get())}`);
-    location.reload();
+    if (lang !== language) location.reload();
   });
 }

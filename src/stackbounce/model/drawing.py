@@ -1,0 +1,78 @@
+"""A stack as a small drawing for a notebook, and the names of its balls."""
+
+from collections.abc import Sequence
+from html import escape
+
+from stackbounce.model.ball import Ball
+
+_MOST = 12  # balls that are drawn
+_HIGH = 70.0  # pixels of all radii
+_LEAST = 7.0  # pixels of a radius: a line of text fits beside each ball
+_GAP = 6.0  # pixels
+_LETTER = 8.0  # pixels
+_LOOK = 'stroke="currentColor" fill="currentColor" font-family="sans-serif" font-size="12"'
+
+
+def label(name: str | None, i: int) -> str:
+    """Return the name of ball `i` in tables: printable, and at most 16 characters.
+
+    Examples
+    --------
+    >>> label(None, 1), label("B1", 0)
+    ('ball 1', 'B1')
+    """
+    text = "".join(c if c.isprintable() else "?" for c in name or f"ball {i}")
+    return text if len(text) <= 16 else text[:15] + "…"
+
+
+def draw_stack(balls: Sequence[Ball], gaps: Sequence[float], *, floor: bool) -> str:
+    """Return a stack as SVG, in the color of the text around it; empty if it is too high.
+
+    Parameters
+    ----------
+    balls : sequence of Ball
+        The lowest first. They are to scale, by their diameters, or if one has none, by the cube
+        roots of their masses.
+    gaps : sequence of float
+        In m. All have the same height in the drawing.
+    floor : bool
+        Whether there is a floor.
+
+    Examples
+    --------
+    >>> draw_stack([Ball(0.6), Ball(0.057, name="tennis")], [0.0], floor=True)[:62]
+    '<svg role="img" aria-label="tennis on ball 0 on the floor" wid'
+    """
+    if len(balls) > _MOST:
+        return ""
+    sizes = [ball.diameter or 0.0 for ball in balls]
+    if not all(sizes):
+        sizes = [ball.mass ** (1.0 / 3.0) for ball in balls]
+    radii = [max(_LEAST, _HIGH * size / sum(sizes)) for size in sizes]
+    names = [label(ball.name, i) for i, ball in enumerate(balls)]
+    middle, top, parts = max(radii) + 2.0, 0.0, []
+    for name, radius, gap in zip(names, radii, (0.0, *gaps), strict=True):
+        top += radius + _GAP * (gap > 0.0)
+        circle = f'<circle cx="{middle:.1f}" cy="{-top:.1f}" r="{radius:.1f}" fill-opacity="0.12"/>'
+        place = f'x="{2.0 * middle + 6.0:.1f}" y="{4.0 - top:.1f}" stroke="none"'
+        parts.append(f"{circle}<text {place}>{escape(name)}</text>")
+        top += radius
+    wide, high = 2.0 * middle + 6.0 + _LETTER * max(map(len, names)), top + 4.0
+    line = f'<path d="M0 1H{2.0 * middle:.1f}"/>' if floor else ""
+    said = escape(" on ".join([*reversed(names), *["the floor"] * floor]))
+    box = f"0 {2.0 - high:.1f} {wide:.1f} {high:.1f}"
+    size = f'width="{wide:.0f}" height="{high:.0f}" viewBox="{box}"'
+    drawn = f"<title>{said}</title><g {_LOOK}>{''.join(parts)}{line}</g>"
+    return f'<svg role="img" aria-label="{said}" {size}>{drawn}</svg>'
+
+
+def meeting(balls: Sequence[Ball], contact: int) -> str:
+    """Return the two sides of a contact: the floor or the ball below, and the ball above.
+
+    Examples
+    --------
+    >>> meeting([Ball(0.6), Ball(0.057, name="tennis")], 1)
+    'ball 0 – tennis'
+    """
+    names = ["floor", *(label(ball.name, i) for i, ball in enumerate(balls))]
+    return f"{names[contact]} – {names[contact + 1]}"
