@@ -100,8 +100,8 @@ def lead_of(law):
 @pytest.mark.parametrize(
     ("row", "rtol"),
     [
-        *product(TIMED_ROWS, (1e-6, 1e-9, 1e-12)),
-        *product(GENTLE, (1e-8, 1e-10, 1e-12)),  # coarser ones may part what all but parts
+        *product(TIMED_ROWS, (1e-6, 1e-12)),
+        *product(GENTLE, (1e-8, 1e-12)),  # coarser ones may part what all but parts
     ],
 )
 def test_times_against_thirty_digits(row, rtol):
