@@ -49,6 +49,18 @@ _WRITTEN_OUT = {
     "msec": "ms", "us": "µs", "μs": "µs", "μm": "µm", "μV": "µV",
     "Volt": "V", "Volts": "V", "volt": "V", "volts": "V", "newton": "N", "Newton": "N", "lbs": "lb",
 }  # fmt: skip
+# What needs no pint, whose import takes a quarter of a second: decimal powers of the prefixes, and
+# of each unit the same and its powers of kg, m, s and A.
+_POWERS = {"G": 9, "M": 6, "k": 3, "": 0, "c": -2, "m": -3, "µ": -6, "u": -6, "n": -9}
+_DECIMAL = {
+    "g": (-3, (1, 0, 0, 0)), "m": (0, (0, 1, 0, 0)), "s": (0, (0, 0, 1, 0)), "A": (0, (0, 0, 0, 1)),
+    "N": (0, (1, 1, -2, 0)), "Pa": (0, (1, -1, -2, 0)), "J": (0, (1, 2, -2, 0)),
+    "V": (0, (1, 2, -3, -1)), "Hz": (0, (0, 0, -1, 0)),
+}  # fmt: skip
+_NAMED = {
+    p + unit: (_POWERS[p] + own[0], own[1]) for p in _POWERS for unit, own in _DECIMAL.items()
+}
+_NAMED |= {"%": (-2, (0, 0, 0, 0)), "1": (0, (0, 0, 0, 0))}
 _PIXEL = re.compile(r"px|pix|pixels?|dots?", re.IGNORECASE)  # pint takes these for lengths on paper
 _PREFIXES = {"k": 1e3, "": 1.0, "c": 1e-2, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
 _COMMON = {f"{p}{unit}": (size, unit) for p, size in _PREFIXES.items() for unit in "smNV"} | {
@@ -275,11 +287,38 @@ def in_si(written: str, *, common: bool = False) -> tuple[float, str] | None:
     return None
 
 
-def _factor(written: str, unit: str, message: str) -> float:
-    import pint
+def _decimal(written: str) -> tuple[float, tuple[float, ...]] | None:
+    """Return a unit's power of ten and powers of kg, m, s and A; None if the table lacks it.
 
+    Examples
+    --------
+    >>> _decimal("kN/m"), _decimal("inch")
+    ((3.0, (1.0, 0.0, -2.0, 0.0)), None)
+    """
+    above, slash, below = written.replace("**", "^").partition("/")
+    terms = [(term, 1.0) for term in re.split(r"[\s*·]+", above)] if above else []
+    power, powers = 0.0, [0.0, 0.0, 0.0, 0.0]
+    for term, sign in terms + [(below, -1.0)] * len(slash):
+        name, _, times = term.partition("^")
+        if name not in _NAMED or not re.fullmatch(r"(-?\d(\.\d{1,3})?)?", times):
+            return None
+        times = sign * float(times or 1)
+        power += times * _NAMED[name][0]
+        powers = [old + times * own for old, own in zip(powers, _NAMED[name][1], strict=True)]
+    return power, tuple(powers)
+
+
+def _factor(written: str, unit: str, message: str) -> float:
     if not _UNIT.fullmatch(written):
         raise UnitError(message)
+    known, right = _decimal(written), _decimal(unit)
+    if known and right:
+        if known[1] != right[1]:
+            raise UnitError(message)
+        if (power := known[0] - right[0]).is_integer():
+            return float(f"1e{power:.0f}")
+    import pint
+
     registry = _registry()
     try:
         units = registry.parse_units(written.replace("·", "*"))
