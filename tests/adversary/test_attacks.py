@@ -2,15 +2,12 @@
 
 import contextlib
 import os
-import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from adversary import signals
-from adversary.processes import Ended
 from adversary.table import begin, expect, row
 
 TESTS = Path(__file__).parents[1]
@@ -43,28 +40,3 @@ def test_a_failure_is_told_by_the_exit_status(monkeypatch, capsys):
     monkeypatch.setattr(sys, "argv", ["attack", "--count", "3"])
     assert begin("harm", harm, 1) == 1
     assert capsys.readouterr() == ("| harm | 3 | 1 harm |\n", "harm: 2 what was said\n")
-
-
-SITE = """Traceback (most recent call last):
-  File "<frozen site>", line 186, in addpackage
-  File "<string>", line 1, in <module>
-  File "<frozen importlib._bootstrap>", line 1176, in _find_and_load
-KeyboardInterrupt
-"""
-
-
-@pytest.mark.parametrize(
-    ("err", "wrong"),
-    [
-        (SITE, ""),
-        (SITE.replace("<string>", "/usr/lib/python3.11/re.py"), ""),
-        (
-            SITE.replace("<frozen site>", "<frozen importlib>").replace("<string>", "cli.py"),
-            "traceback",
-        ),
-        (SITE.replace("KeyboardInterrupt", "SystemExit"), "another exit status"),
-    ],
-)
-def test_a_signal_while_python_sets_itself_up_is_not_ours(err, wrong, tmp_path):
-    command = signals.COMMANDS[0]
-    assert signals.judge(command, signal.SIGINT, Ended(1, "", err), tmp_path, {}) == wrong

@@ -1,7 +1,6 @@
 """The published measurements: every file is valid, has its source, and says what it says."""
 
 import json
-import math
 import re
 from importlib.resources import files
 
@@ -15,7 +14,6 @@ from stackbounce.datasets.loading import si_unit
 from stackbounce.units import in_si
 
 NAMES = datasets.names()
-G = 9.81
 
 
 def test_each_file_is_a_dataset_and_they_have_many_sources():
@@ -52,14 +50,6 @@ def test_what_cannot_be_is_not_there(name):
         assert (leapt < fallen).all()
     if "apex_height" in data:
         assert (data.apex_height.diff("row") < 0.0).all()
-
-
-def test_the_knocks_of_the_superball():
-    knocks = datasets.load("superball-knocks").knock_time.values
-    first, second = np.diff(knocks)
-    assert second / first == pytest.approx(0.936, abs=5e-4)
-    height = float(datasets.load("superball-knocks").drop_height[0])
-    assert first * G / 2.0 / math.sqrt(2.0 * G * height) == pytest.approx(0.936, abs=1e-3)
 
 
 NINE = [0.158, 0.215, 0.256, 0.309, 0.341, 0.407, 0.479, 0.571, 0.643]
@@ -105,11 +95,6 @@ def test_units_of_the_sources_are_converted():
     assert datasets.load("baseball-rule").impact_speed.values[0] == pytest.approx(25.908)
 
 
-def test_an_unknown_name_suggests_the_nearest():
-    with pytest.raises(sb.StackbounceError, match="did you mean granite-spheres"):
-        datasets.load("granite-sphere")
-
-
 @pytest.mark.parametrize("name", NAMES)
 def test_a_dataset_and_its_columns_say_all_of_themselves_that_they_have_to(name):
     about = datasets.describe(name)
@@ -141,5 +126,5 @@ def test_the_command_lists_all_and_shows_one(capsys):
     assert main(["datasets", "golf-marble-heights", "--json"]) == 0
     (found,) = json.loads(capsys.readouterr().out)["datasets"]
     assert found["columns"][0]["values"] == [80.0, 90.0, 100.0, 110.0]
-    assert main(["datasets", "golf"]) == 2
-    assert "name must be that of a dataset" in capsys.readouterr().err
+    assert main(["datasets", "granite-sphere"]) == 2
+    assert "got 'granite-sphere'; did you mean granite-spheres" in capsys.readouterr().err

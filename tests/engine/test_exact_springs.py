@@ -46,15 +46,6 @@ def test_gravity_one_ball():
     assert energy == pytest.approx(speed**2, rel=ENERGY)
 
 
-def test_gravity_keeps_energy_of_two_balls():
-    balls, contacts = [sb.Ball(1.0), sb.Ball(0.3)], [sb.Spring(1e4), sb.Spring(3e3)]
-    drop = sb.Drop(balls, contacts, [0.01], impact_speed=1.0, gravity=9.8)
-    result = sb.simulate(drop, until=3.0)
-    assert result.collisions.sum() > 20
-    energy = result.sample(np.linspace(0.0, 3.0, 1000)).energy.values
-    assert energy == pytest.approx(energy[0], rel=ENERGY)
-
-
 # --- starts and ends of contacts are as exact as `docs/models.md` says, gentle ones too
 # A start or an end is where a length passes through zero: the compression, or c + τ ċ where a
 # force is cut off before the compression is gone. It is off by no more than `rtol`, times the
@@ -109,8 +100,8 @@ def lead_of(law):
 @pytest.mark.parametrize(
     ("row", "rtol"),
     [
-        *product(TIMED_ROWS, (1e-6, 1e-9, 1e-12)),
-        *product(GENTLE, (1e-8, 1e-10, 1e-12)),  # coarser ones may part what all but parts
+        *product(TIMED_ROWS, (1e-6, 1e-12)),
+        *product(GENTLE, (1e-8, 1e-12)),  # coarser ones may part what all but parts
     ],
 )
 def test_times_against_thirty_digits(row, rtol):

@@ -103,7 +103,7 @@ def test_a_vibration_loses_energy_in_more_cycles_than_are_remembered():
 def test_stacks_with_hysteresis_come_to_rest_where_their_curves_carry_them():
     """At rest each force is its weight, at about the compression of the last moment before."""
     random, seen = np.random.default_rng(8), 0
-    for _ in range(40):
+    for _ in range(15):
         size = int(random.integers(1, 4))
         laws = [
             sb.Hysteretic(10 ** random.uniform(3.0, 5.0), restitution=random.uniform(0.3, 0.95))
@@ -121,4 +121,4 @@ def test_stacks_with_hysteresis_come_to_rest_where_their_curves_carry_them():
             rest.compression.values[:, 0], rel=0.2
         )
         seen += size > 1
-    assert seen > 20
+    assert seen > 7

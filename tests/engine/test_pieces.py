@@ -160,7 +160,7 @@ TABLES = [
 ]
 
 
-@pytest.mark.parametrize("speed", [1e-3, 0.1, 0.5, 1.0, 2.0, 3.0, 30.0])
+@pytest.mark.parametrize("speed", [1e-3, 0.5, 1.0, 3.0, 30.0])
 @pytest.mark.parametrize("law", TABLES)
 def test_a_table_never_returns_more_than_it_took(law, speed):
     result = one_ball(law, speed, 0.1)

@@ -31,21 +31,6 @@ def test_equations_1_and_2(lower, e):
         assert result.collisions.tolist() == [1, 1]
 
 
-@pytest.mark.parametrize("e", [1.0, 0.92, 0.88])
-@pytest.mark.parametrize("lower", [0.9, 0.5, 0.236, 0.081])
-def test_equations_3_and_4(lower, e):
-    m1, m2 = lower, 1.0
-    result = sb.simulate(rigid([m1, m2], e))
-    _, first, floor, second = result.events[:4]
-    v1, v2 = float(first["lower_velocity"]), float(first["upper_velocity"])
-    assert floor["contact"] == 0
-    assert floor["upper_velocity"] == pytest.approx(-e * v1, abs=1e-15)
-    v3 = ((1 + e) * m2 * v2 + e * (e * m2 - m1) * v1) / (m1 + m2)  # eq. 3
-    v4 = ((m2 - e * m1) * v2 - e * (1 + e) * m1 * v1) / (m1 + m2)  # eq. 4
-    assert second["lower_velocity"] == pytest.approx(v3, abs=2e-15)
-    assert second["upper_velocity"] == pytest.approx(v4, abs=2e-15)
-
-
 @pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(
     ("power", "total"), [(0, 3), (1, 31), (2, 314), (3, 3141), (4, 31415), (5, 314159)]
@@ -107,9 +92,7 @@ def test_cannon(size, unit):
     ("masses", "restitutions"),
     [
         ((1.0, 1.0), (0.0, 1.0)),
-        ((2.0, 1.0), (0.0, 0.5)),
         ((3.0, 1.0), (0.0, 0.5)),
-        ((1.0, 0.25), (0.5, 0.0)),
         ((1.0, 0.5), (0.5, 0.0)),
         ((4.0, 2.0, 0.5), (1.0, 0.0, 1.0)),
     ],
@@ -183,17 +166,6 @@ def test_tall_stack_of_equal_elastic_balls(size):
     assert result.status is sb.Status.FINISHED
     assert result.collisions.tolist() == list(range(size, 0, -1))
     assert result.rebound_speeds.tolist() == [1.0] * size
-
-
-def test_tall_stack_of_many_masses_keeps_its_energy():
-    random = Random(2)
-    masses = [10 ** random.uniform(-0.5, 0.5) for _ in range(200)]
-    gaps = [random.uniform(0.0, 1.0) for _ in range(199)]
-    result = sb.simulate(rigid(masses, gaps=gaps))
-    assert result.status is sb.Status.FINISHED
-    assert len(result.intervals) > 10_000
-    assert result.energy_retained == pytest.approx(1.0, abs=1e-12)
-    assert (np.diff(result.rebound_speeds) >= 0.0).all()
 
 
 # --- inelastic collapse: detected by theory, replaced by its limit; collisions counted below it
@@ -330,7 +302,7 @@ def test_collapse_on_the_way_up(masses, restitutions):
     They differ ever less, long before the last collision by less than a rounding error of theirs.
     """
     drop = rigid(masses, [1.0, *restitutions], [0.0, 1.0])
-    assert not exact(drop, limit=300).finished
+    assert not exact(drop, limit=150).finished
     result = sb.simulate(drop)
     assert result.status is sb.Status.COLLAPSED
     assert result.collisions.tolist()[1:] == [-1, -1]

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 import stackbounce as sb
@@ -28,14 +27,6 @@ def test_runs_without_an_end_are_counted_for_each_fit():
     problem = FitProblem(DROP, DATA, [STIFFNESS])
     problem.objective.unsolved["EVENT_LIMIT"] += 7
     assert problem.fit(starts=4).unsolved == {}
-
-
-def test_a_problem_has_the_residuals_of_many_trials():
-    objective = FitProblem(DROP, DATA, {STIFFNESS: (1e3, 1e5)}).objective
-    stiffnesses = np.array([1e4, 2e4, 4e4])
-    times = np.pi * np.sqrt(0.0567 / stiffnesses)
-    found = objective.residuals(np.log(stiffnesses)[:, None])
-    assert found[:, 0] == pytest.approx((times - 5e-3) / 1e-4, rel=1e-9)
 
 
 def test_a_model_is_a_problem_without_data():

@@ -62,11 +62,6 @@ def test_a_file_of_somebody_else_stays(tmp_path):
     assert (tmp_path / "index.html").read_text() == "mine"
 
 
-def test_the_folder_must_have_a_name(capsys):
-    assert main([*ALL, "--out", ""]) == 2
-    assert "--out must name a folder" in capsys.readouterr().err
-
-
 @pytest.fixture(scope="module")
 def everything():
     return fit_series("dataset:all")

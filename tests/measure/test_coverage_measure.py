@@ -100,6 +100,7 @@ def test_where_the_errors_of_a_sound_are_not_right_they_are_timid(case):
         assert share.within_two >= 0.87, quantity
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("case", UGLY[::3])
 def test_ugly_sound_in_a_few_recordings(case):
     # The nine knocks of a recording have about five independent errors.

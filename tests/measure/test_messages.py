@@ -138,14 +138,6 @@ def test_every_kind_that_is_offered_is_accepted(name, read):
     assert read(content, holds=name).attrs["holds"] == wanted
 
 
-@pytest.mark.parametrize("names", [{1: "time", 3: "y"}, {"a": "time", "c d": "y"}])
-def test_columns_are_named_by_header_or_number(read, names):
-    data = read(table("a,b,c d", np.arange(9) / 100, wave(9) + 1, wave(9)), names=names)
-    assert data.attrs["holds"] == "track"
-    np.testing.assert_allclose(data.y.values.ravel(), wave(9))
-    np.testing.assert_allclose(data.time, np.arange(9) / 100)
-
-
 def test_a_column_with_the_name_of_a_role_can_have_any_other_name(read):
     data = read(table("time,x,y", range(9), wave(9), wave(9)), names={"x": "aside"})
     assert list(data.data_vars) == ["x", "y", "aside"]

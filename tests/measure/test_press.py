@@ -233,6 +233,8 @@ def test_springs_in_series_have_no_excess():
     ]
     split = split_series(*(one.compression_at(30.0) for one in found), force=30.0)
     assert near(split.excess, 0.0)
+    assert near(split.floor_stiffness, 6e3)  # of the bottom half of the lower ball
+    assert near(split.ball_stiffness, 4.5e3)
     assert any("in series" in note for note in split.notes) or abs(split.excess) < 1e-4
     assert split.rows()[0].name.startswith("stiffness ratio")
     assert split.parts()["contact"]["law"] == "Spring"

@@ -1,13 +1,11 @@
-"""Contact times: stiffness and constants with errors, and the paper's own."""
+"""Contact times: stiffness and constants with errors."""
 
 import pytest
 from uncertainties import correlation_matrix, ufloat
 
 import stackbounce as sb
-from stackbounce.cross2007 import PAPER
-from stackbounce.cross2007.bench import Bench
 from stackbounce.errors import InvalidValue
-from stackbounce.measure import dynamic_stiffness, law_constants, split_series
+from stackbounce.measure import dynamic_stiffness, law_constants
 from stackbounce.measure.kinds.contact import CONTACT
 from stackbounce.measure.setup import Setup
 
@@ -98,62 +96,3 @@ def test_what_cannot_be(function, given, error, words):
     more = {"mass": 1.0, "contact_time": 1.0, "restitution": 0.9}
     with pytest.raises(error, match=words):
         function(*given, **more if function is law_constants else {})
-
-
-# The paper's own numbers, with the errors that it states or its digits show.
-
-
-@pytest.fixture
-def bench():
-    return Bench(PAPER)
-
-
-def bounced(bench, ball):
-    """Return the stiffness of a ball that bounces, by its mass and contact time."""
-    return dynamic_stiffness(bench.measured(f"{ball}.mass"), bench.measured(f"{ball}.contact_time"))
-
-
-def test_a_bounce_is_stiffer_than_a_press(bench):
-    balls = ("B1", "B2", "B3")
-    ratios = [bounced(bench, ball) / bench.measured(f"{ball}.static_stiffness") for ball in balls]
-    assert [f"{ratio:.1fP}" for ratio in ratios] == ["1.3±0.2", "2.8±0.3", "1.9±0.2"]
-    pressed = bench.measured("static.force") / bench.measured("static.tennis")
-    tennis = [f"{1e-4 * one:.2fP}" for one in (bounced(bench, "tennis"), pressed)]
-    assert tennis == ["2.25±0.05", "1.03±0.02"]
-
-
-def test_two_superballs_in_series_are_stiffer_than_the_fits(bench):
-    for upper, fit, expected in (("B2", "fig13", "2.17±0.11"), ("B3", "B3_fit", "1.62±0.12")):
-        both = 1.0 / (1.0 / bounced(bench, "B1") + 1.0 / bounced(bench, upper))
-        assert f"{1e-4 * both:.2fP}" == expected
-        assert both.nominal_value > bench(f"{fit}.ball_stiffness")
-
-
-def test_hessels_steel_balls(bench):
-    """Both ratios are near the diameters', but the digits tell them apart."""
-    lengths = [bench.measured(f"steel.{size}_diameter") for size in ("large", "small")]
-    diameters = lengths[0] / lengths[1]
-    times, masses = bench.measured("steel.time_ratio"), bench.measured("steel.mass_ratio")
-    stiffness = dynamic_stiffness(masses, times) / dynamic_stiffness(1.0, 1.0)
-    assert f"{stiffness:.3fP}" == "1.422±0.001"
-    assert f"{diameters:.3fP}" == "1.411±0.003"
-    # Hertz's law at one speed makes the times go as the diameters, and its constant as their roots
-    late = diameters - times
-    assert 1.0 < late.nominal_value / late.std_dev < 2.0
-    large, small = (
-        law_constants("Hertz", mass=mass, contact_time=time, impact_speed=1.0).constants
-        for mass, time in ((masses, times), (1.0, 1.0))
-    )
-    assert f"{large['stiffness'] / small['stiffness']:.3fP}" == "1.199±0.001"
-    assert f"{diameters**0.5:.3fP}" == "1.188±0.001"
-
-
-def test_figure_seven(bench):
-    lengths = [bench.measured(f"static.{name}") for name in ("basketball", "tennis", "both")]
-    split = split_series(*lengths, force=bench.measured("static.force"))
-    assert f"{1e3 * split.bottom:.2fP}" == "9.30±0.03"
-    assert f"{1e3 * split.top:.2fP}" == "15.50±0.08"
-    assert f"{1e3 * split.excess:.2fP}" == "6.20±0.09"
-    assert f"{split.ratio:.3fP}" == "1.823±0.010"  # printed 1.8
-    assert f"{split.floor_stiffness:.0fP}" == "3226±54"
-    assert f"{split.ball_stiffness:.0fP}" == "1770±30"

@@ -278,11 +278,10 @@ def test_a_lens_is_told(bend):
     assert found.balls[0].drop_height.std_dev > 1e-3
 
 
-@pytest.mark.parametrize("period", [0.4, 2.0])
-def test_twenty_thousand_rows_take_seconds(period):
+def test_twenty_thousand_rows_take_seconds():
     began = time.process_time()
     with pytest.raises(InvalidValue, match="must hold a ball"):
-        track(rectified_sine(20_000, period=period))
+        track(rectified_sine(20_000, period=0.4))
     assert time.process_time() - began < 10.0
 
 

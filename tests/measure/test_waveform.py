@@ -378,19 +378,10 @@ def test_what_is_no_waveform_is_refused_in_one_line(data, error):
     assert refusal(error, waveform, data).startswith("data must")
 
 
-@pytest.mark.parametrize(
-    ("option", "value"),
-    [
-        ("mass", -1.0),
-        ("mass", "1 m"),
-        ("mass", ufloat(1.0, np.inf)),
-        ("impact_speed", 0.0),
-        ("time_constant", 0.0),
-    ],
-)
-def test_options_are_checked(option, value):
-    with pytest.raises((InvalidValue, InvalidType), match=option):
-        waveform(pulses(1), **{option: value})
+@pytest.mark.parametrize("option", ["mass", "impact_speed", "time_constant"])
+def test_options_are_checked(option):
+    with pytest.raises(InvalidValue, match=option):
+        waveform(pulses(1), **{option: -1.0})
 
 
 def test_an_impulse_between_two_samples_is_zero():
