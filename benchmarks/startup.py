@@ -22,12 +22,18 @@ SIMULATE = (
     "[sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.53))"
 )
 HELP = "from stackbounce.cli import main; main(['--help'])"
+PICTURE = (
+    "import stackbounce as sb; "
+    "result = sb.simulate(sb.stack('basketball', 'tennis', height='63 cm')); "
+    "sb.plots.bounce(result)._repr_png_()"
+)
 STARTS = {
     "python": "pass",
     BASE: BASE,
     "import stackbounce": "import stackbounce",
     "stackbounce --help": HELP,
     "simulate, plain numbers": SIMULATE,
+    "first picture in a notebook": PICTURE,
 }
 """What is started: its name, and its code."""
 
