@@ -11,7 +11,7 @@ from stackbounce.fitting.series.series import make_series
 
 def _draw(axes, name, *, air=True):
     compared = compare_laws(make_series(datasets.load(name), air=air))
-    plots.restitutions(SeriesFit((compared,), {}), axes)
+    plots.restitutions(SeriesFit((compared,), {}), axes=axes)
 
 
 def golf():

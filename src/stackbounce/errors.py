@@ -16,7 +16,17 @@ _Given = TypeVar("_Given")
 
 
 class StackbounceError(Exception):
-    """Base of everything that this package raises on purpose."""
+    """Base of everything that this package raises on purpose.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> try:
+    ...     sb.Ball("16 cm")
+    ... except sb.StackbounceError as error:
+    ...     print(error)
+    mass must be a mass (a number of kg or a string such as "150 g"), got '16 cm'
+    """
 
 
 class InvalidValue(StackbounceError, ValueError):

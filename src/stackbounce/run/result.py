@@ -476,6 +476,16 @@ class Result(Shown):
     def sampled(self, times: ArrayLike) -> dict[str, NDArray[np.float64]]:
         """Return what `sample` returns, in plain arrays, with the energy `stored` in each contact.
 
+        Parameters
+        ----------
+        times : array_like
+            As of `sample`, which also says what is raised.
+
+        Returns
+        -------
+        dict of str to ndarray
+            By the names of `sample`, and `stored` (contact, time) in J.
+
         Examples
         --------
         >>> import stackbounce as sb

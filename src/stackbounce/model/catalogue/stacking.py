@@ -101,14 +101,12 @@ def stack(
     ----------
     *balls : str
         Their names, the lowest first, as `catalogue_ball` reads them; `stackbounce.balls` has all.
-    height, impact_speed, velocities : optional
+    height, impact_speed, velocities, gravity : optional
         As of `Drop`. By default the stack falls from 1 m, as in ``stackbounce simulate``.
     gap : float, optional
         In m, 0 or above: one gap between all neighbours.
     gaps : sequence of float, optional
         In m, 0 or above: the N - 1 gaps. By default those that the paper fitted to the pair, or 0.
-    gravity : float, optional
-        As of `Drop`.
 
     Returns
     -------
