@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 _WIDE = 80  # characters of a line
 _NARROW = 20  # characters of a column of words, at least
 _MOST = 24  # rows that are shown
+_CELL = "padding:0.1em 0.6em;text-align:"
 _DIGITS = tuple("+-–±.∞0123456789")
 
 
@@ -68,7 +69,7 @@ class Table(NamedTuple):
 
         def line(cells: Sequence[str], *tags: str) -> str:
             parts = zip(tags, sides, cells, strict=True)
-            own = (f'<{t} style="text-align:{s}">{escape(c)}</{t[:2]}>' for t, s, c in parts)
+            own = (f'<{t} style="{_CELL}{s}">{escape(c)}</{t[:2]}>' for t, s, c in parts)
             return f"<tr>{''.join(own)}</tr>"
 
         others = len(sides) - 1
