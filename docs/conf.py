@@ -58,6 +58,7 @@ myst_heading_anchors = 3
 nb_execution_mode = "force"
 nb_execution_timeout = 60  # s, of one cell
 nb_execution_raise_on_error = True
+nb_code_prompt_show = nb_code_prompt_hide = "The code"
 math_number_all = False
 math_eqref_format = "({number})"
 
@@ -72,6 +73,6 @@ html_theme = "furo"
 html_title = f"stackbounce {version}"
 html_math_renderer = "mathml"
 html_static_path = ["_static"]
-html_css_files = ["math.css", "lessons.css"]
+html_css_files = ["front.css", "lessons.css", "math.css"]
 html_copy_source = False
 html_show_sourcelink = False
