@@ -29,6 +29,13 @@ def test_the_commands_in_turn_print_what_is_shown(tmp_path, monkeypatch, capsys)
     assert drop.gaps[0] == pytest.approx(0.002, abs=3 * 0.00049)
 
 
+def test_the_commands_of_the_readme_print_what_is_shown(tmp_path, monkeypatch, capsys):
+    shutil.copy(DOCS / "fit" / "heights.csv", tmp_path)
+    monkeypatch.chdir(tmp_path)
+    run_all(steps((DOCS.parent / "README.md").read_text("utf-8")), capsys)
+    assert (tmp_path / "heights.svg").stat().st_size > 10_000
+
+
 def test_every_picture_has_its_command():
     pictures = re.findall(r"^\.\. plot:: figures/fit.py (\w+)$", TEXT, re.MULTILINE)
     written = re.findall(r"^Picture: (\w+)\.png$", TEXT, re.MULTILINE)
