@@ -32,6 +32,7 @@ extensions = [
     "numpydoc",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
+    "sphinx_copybutton",
 ]
 exclude_patterns = ["_extensions", "figures"]
 default_role = "literal"  # docstrings name arguments in single backticks
@@ -68,6 +69,11 @@ plot_html_show_formats = False
 plot_apply_rcparams = True
 with use_style():
     plot_rcparams = {k: v for k, v in mpl.rcParams.items() if v != mpl.rcParamsDefault[k]}
+
+# Of a block with prompts, the button copies what is typed, without them.
+copybutton_prompt_text = r">>> |\.\.\. |\$ "
+copybutton_prompt_is_regexp = True
+copybutton_line_continuation_character = "\\"
 
 html_theme = "furo"
 html_title = f"stackbounce {version}"
