@@ -20,6 +20,7 @@ copyright = "2026, The stackbounce developers"
 release = version = __version__
 
 extensions = [
+    "docs._extensions.captions",
     "docs._extensions.datasets",
     "docs._extensions.explorer_page",
     "docs._extensions.lesson",
