@@ -3,6 +3,7 @@
 import sys
 from xml.etree import ElementTree as ET
 
+import numpy as np
 import pytest
 
 import stackbounce as sb
@@ -15,6 +16,7 @@ ODD = sb.Drop([sb.Ball(0.1), sb.Ball(0.05, name="<b>&\x1b\n")], [sb.Spring(1e3)]
 MANY = sb.Drop([sb.Ball(0.1)] * 100, [sb.Rigid(0.9)] * 100, impact_speed=1.0)
 ROW = sb.Drop([sb.Ball(0.2)] * 9, [None] + [sb.Rigid(1.0)] * 8, velocities=[1.0] + [0.0] * 8)
 LONG = sb.Drop([sb.Ball(1.0)] * 2, [sb.StandardLinearSolid(2e4, 0.123456, 1e-3)] * 2, height=1.0)
+X = np.linspace(0.0, 5e-3, 50)
 DATA = {"rebound_ratios": ["0.3 ± 0.1", "1.8 ± 0.1"]}
 VALUES = (DROP, ODD, MANY, LONG, DROP.balls[0], sb.Hysteretic(2e4, restitution=0.8))
 SHOWN = dict(enumerate(VALUES)) | {
@@ -27,6 +29,7 @@ SHOWN = dict(enumerate(VALUES)) | {
     "posterior": lambda: sb.fit(DROP, DATA, ["contacts.0.stiffness"]).sample(6400),
     "comparison": lambda: sb.compare(sb.standard_models(DROP), DATA),
     "series": lambda: sb.fit_series("dataset:golf-marble-heights"),
+    "press": lambda: sb.measure.press((X, 2e4 * X)),
     "finding": lambda: sb.measure.bounces([0.0, 0.8, 1.44, 1.952]),
 }
 

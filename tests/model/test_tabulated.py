@@ -126,7 +126,7 @@ def test_a_press_curve_becomes_its_table(exponent, e):
     """Its forces are within the noise of one reading, 0.2 N, of the true ones."""
     true = sb.Hysteretic(4e4, exponent=exponent, restitution=e)
     found = press(press_record(true, peak=5e-3, slack=1e-3, noise=0.2, seed=2))
-    law = found.table()
+    law = found.as_law()
     x = np.linspace(0.2e-3, 4.8e-3, 50)
     force, _ = at(monotone_spline(law.compression, law.force), x)
     assert force == pytest.approx(4e4 * x**exponent, abs=0.2)
@@ -137,7 +137,7 @@ def test_a_press_curve_becomes_its_table(exponent, e):
 
 def test_a_press_without_a_way_back_makes_a_lossless_table():
     x = np.linspace(0.0, 5e-3, 80)
-    law = press((x, 2e4 * x)).table()
+    law = press((x, 2e4 * x)).as_law()
     assert law.unloading is None
     assert law.force == pytest.approx(2e4 * np.array(law.compression), rel=1e-3)
 

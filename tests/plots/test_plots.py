@@ -215,7 +215,7 @@ def test_every_plot_draws_into_axes_of_the_user():
     draws = [
         (2, lambda axes: plots.bounce(sb.simulate(drop), axes=axes)),
         (1, lambda axes: plots.lines(ds.isel(balls_0_mass=0), axes=axes)),
-        (1, lambda axes: plots.heatmap(ds, axes=axes)),
+        (1, lambda axes: plots.heatmap(ds, ax=axes)),
         (1, lambda axes: plots.highest(sb.highest(["B1", "B2"], 2), axes=axes)),
         (1, lambda axes: plots.measured(None, bounces, axes=axes)),
         (2, lambda axes: plots.restitutions(series, axes=axes)),

@@ -166,7 +166,7 @@ def test_apexes_and_forces_have_errors():
 
 def test_a_prediction_as_a_table_and_as_values():
     found = sb.predict(RIGID, {"impact_speed": (3.0, 0.03)})
-    assert "rebound_speeds.0 2.400 ± 0.024 m/s" in " ".join(found.table().split())
+    assert "rebound_speeds.0 2.400 ± 0.024 m/s" in " ".join(repr(found).split())
     assert found.as_dict()["values"]["rebound_speeds.0"]["error"] == pytest.approx(0.024)
     assert pickle.loads(pickle.dumps(found))["rebound_speeds.0"].std_dev == pytest.approx(0.024)
 

@@ -21,8 +21,8 @@ AGAIN_SECONDS = 5
 
 _LESS = "ask for fewer balls, points or numbers at once"
 _NICE = 5  # how much lower the priority of a worker process is than the server's
-_MODULES = ("stackbounce.explorer.answers.records", "scipy.stats", "scipy.signal",
-            "scipy.io.wavfile", "scipy.optimize")  # fmt: skip
+_MODULES = ("stackbounce.explorer.answers.records", "pandas", "pint", "scipy.stats",
+            "scipy.signal", "scipy.io.wavfile", "scipy.optimize")  # fmt: skip
 """What a process imports before its first job, as that takes seconds."""
 
 
@@ -47,8 +47,11 @@ def _prepare(most_bytes: int) -> None:
 
     from stackbounce.cross2007.cases import list_cases
     from stackbounce.explorer.answers.play import play_drop
+    from stackbounce.run.driver import simulate
 
-    play_drop(next(list_cases()).drop, until=None, frames=2)  # imports what the first run needs
+    drop = next(list_cases()).drop
+    play_drop(drop, until=None, frames=2)  # imports what the first run needs
+    simulate(drop).sample([0.0])  # the first Dataset imports more
     for name in _MODULES:
         importlib.import_module(name)
 

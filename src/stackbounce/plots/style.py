@@ -105,11 +105,13 @@ def panels(
 def into_axes(plot: _Plot) -> _Plot:
     """Let a plot return the axes that it was given: a notebook shows their figure by itself.
 
-    Used as a decorator; without axes the plot returns its figure.
+    Used as a decorator; without axes the plot returns its figure. ``ax=`` is taken as ``axes=``.
     """
 
     @functools.wraps(plot)
     def drawn(*args: Any, **options: Any) -> Any:
+        if "ax" in options:
+            options["axes"] = options.pop("ax")
         figure, axes = plot(*args, **options), options.get("axes")
         return figure if axes is None else axes
 

@@ -336,10 +336,6 @@ class Prediction(Shown):
                 )
         return tuple(found)
 
-    def table(self) -> str:
-        """Return all numbers with their errors as a text, a line each."""
-        return self._tables()[0]._replace(caption="").text()
-
     @functools.cached_property
     def apexes(self) -> list[Apex]:
         """The highest points of the flights; with gravity only. From 1000 draws, if by draws."""

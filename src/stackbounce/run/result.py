@@ -210,7 +210,8 @@ class Result(Shown):
         ]
         speeds = ("upward speeds", "before m/s", "after m/s", "after/v0", "height m")
         times = ("contact", "collisions", "first touch ms", "last release ms")
-        first = Table(f"Result of a drop {drop.incidence}", speeds, balls[::-1])
+        stopped = "" if self.status is Status.FINISHED else f", after {self.end_time:.4g} s"
+        first = Table(f"Result of a drop {drop.incidence}{stopped}", speeds, balls[::-1])
         return first, Table("", times, contacts[::-1])
 
     def _drawing(self) -> str:
@@ -219,7 +220,7 @@ class Result(Shown):
     @property
     def remarks(self) -> tuple[str, ...]:
         """The share of the energy that is left, and what the status means unless all is well."""
-        kept = f"energy retained: {100.0 * self.energy_retained:.4g} %"
+        kept = f"kinetic energy retained: {100.0 * self.energy_retained:.4g} %"
         well = self.status is Status.FINISHED
         return (kept,) if well else (kept, f"{self.status.name}: {self.advice}")
 

@@ -164,7 +164,7 @@ class Visit:
 
     def script_is_refused(self):
         """Return whether a script that somebody adds does nothing; the browser complains of it."""
-        self.expected = "script-src"  # Firefox tells of it late, as a message or as an error
+        self.expected = "-src"  # Firefox tells of it late, as a message or as an error
         self.page.evaluate(
             """() => { const script = document.createElement('script');
                  script.textContent = 'window.hit = true'; document.body.append(script); }"""

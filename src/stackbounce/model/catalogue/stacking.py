@@ -3,6 +3,7 @@
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import cast
 
 from stackbounce.errors import InvalidValue, UnknownName, nearest, shown
 from stackbounce.model.ball import Ball
@@ -87,7 +88,7 @@ def _plain(name: str) -> str:
 
 
 def stack(
-    *balls: str,
+    *balls: str | Sequence[str],
     height: float | str | None = None,
     impact_speed: float | str | None = None,
     velocities: Sequence[float | str] | None = None,
@@ -100,7 +101,8 @@ def stack(
     Parameters
     ----------
     *balls : str
-        Their names, the lowest first, as `catalogue_ball` reads them; `stackbounce.balls` has all.
+        Their names, or one list of them, the lowest first, as `catalogue_ball` reads them;
+        `stackbounce.balls` has all.
     height, impact_speed, velocities, gravity : optional
         As of `Drop`. By default the stack falls from 1 m, as in ``stackbounce simulate``.
     gap : float, optional
@@ -128,9 +130,10 @@ def stack(
     """
     if gap is not None and gaps is not None:
         raise InvalidValue("gap and gaps: only one of the two can be given, got both")
-    chosen = stacked(balls)
+    one_list = len(balls) == 1 and isinstance(balls[0], list | tuple)
+    chosen = stacked(cast("Sequence[str]", balls[0] if one_list else balls))
     if gap is not None:
-        gaps = [gap] * (len(balls) - 1)
+        gaps = [gap] * (len(chosen.balls) - 1)
     drop = Drop(chosen.balls, chosen.contacts, chosen.gaps, height=DEFAULT_HEIGHT)
     fall = {"height": height, "impact_speed": impact_speed, "velocities": velocities}
     numbers = fall | {"gaps": gaps, "gravity": gravity}

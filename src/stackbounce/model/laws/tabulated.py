@@ -178,7 +178,7 @@ class Tabulated(ContactLaw):
     def calibrated(cls, given: Given) -> Self:
         """Raise an error: a contact time and a restitution are no table."""
         raise InvalidValue(
-            "law_class must be a law with a formula, got Tabulated: press(...).table() makes one "
+            "law_class must be a law with a formula, got Tabulated: press(...).as_law() makes one "
             "of a press curve"
         )
 
@@ -197,7 +197,7 @@ def _points(
     level: bool = False,
 ) -> tuple[float, ...]:
     """Return the points of a curve from 0 on; raise if they do not rise."""
-    given = listed(name, values, MOST_POINTS)  # of more, `press(...).table()` makes a law
+    given = listed(name, values, MOST_POINTS)  # of more, `press(...).as_law()` makes a law
     points = tuple(checked(finite, f"{name}.{i}", value, unit) for i, value in enumerate(given))
     if len(points) < 2:
         raise InvalidValue(f"{name} must have from 2 to {MOST_POINTS} points, got {len(points)}")

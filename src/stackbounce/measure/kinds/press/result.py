@@ -109,7 +109,7 @@ class Press(Finding):
         """Return loading and unloading, as far as they were recorded."""
         return [way for way in (self.loading, self.unloading) if way is not None]
 
-    def table(self) -> Tabulated:
+    def as_law(self) -> Tabulated:
         """Return the curve itself as a law: a `Tabulated` one.
 
         Its points are at equal distances from the contact to the peak.
@@ -136,7 +136,7 @@ class Press(Finding):
             ``{"contact": {"law": …}}``.
         """
         if self.tabulated:
-            return {"contact": self.table().to_mapping()}
+            return {"contact": self.as_law().to_mapping()}
         p, e = self.exponent, self.restitution
         loss: Any = self.loss
         contact: dict[str, Any] = {"law": "Spring", "stiffness": nominal(self.linear_stiffness)}
