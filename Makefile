@@ -27,8 +27,8 @@ RUNTIME := $(VENV)/runtime.stamp
 DEV := $(VENV)/dev.stamp
 
 .DEFAULT_GOAL := help
-.PHONY: help venv kernels paper study app explorer test lowest coverage browsers bench check lint types imports docs format fuzz attack frozen constraints clean \
-	distclean
+.PHONY: help venv kernels paper study app explorer test lowest coverage browsers bench check lint types imports docs format fuzz attack frozen constraints wheels \
+	clean distclean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1|\2/p' $(MAKEFILE_LIST) | \
@@ -119,8 +119,11 @@ constraints:  ## write constraints.txt anew from the newest versions that fit
 	@mv build/constraints.txt constraints.txt
 	@rm -rf build/constraints
 
+wheels: $(RUNTIME)  ## build the wheels of all platforms and the sdist in dist, and check them; on Linux
+	@PYTHONPATH=src $(BIN)/python wheel_build.py
+
 clean:  ## remove what was built, keep .venv
-	@rm -rf build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
+	@rm -rf build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
 	@find src tests docs benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
 
 distclean: clean  ## remove .venv too

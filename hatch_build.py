@@ -3,7 +3,8 @@
 A wheel holds them, see `kernel_build` and `page_build`.
 
 The environment variable STACKBOUNCE_PLATFORM, such as ``macos-aarch64``, asks for the wheel of
-another platform. Where nothing can be compiled, the wheel has plain Python only, and no page.
+another platform, and ``any`` for that of all others: plain Python, and the page. Where nothing can
+be compiled, the wheel has plain Python only, and no page.
 """
 
 import json
@@ -19,6 +20,7 @@ NATIVE = "stackbounce/engine/native"
 PAGE = "stackbounce/explorer/made"
 MANIFEST = "manifest.json"
 BUILT = "build/kernels"  # what is only for wheels
+ANY = "any"
 # Not PYTHONPATH: beside an editable installation, pip's build takes its folder out of that path.
 START = (
     "import sys; sys.path[:0] = sys.argv[1:3]; del sys.argv[1:3]; "
@@ -34,15 +36,16 @@ class KernelHook(BuildHookInterface[Any]):
         root = Path(self.root)
         sys.path[:0] = [str(root / "src"), str(root)]
         from kernel_build.__main__ import IMPOSSIBLE
-        from kernel_build.targets import TARGETS
+        from kernel_build.targets import TARGETS, WASM
 
         from stackbounce.engine.native import platform_name
 
         other = "" if version == "editable" else os.environ.get("STACKBOUNCE_PLATFORM", "")
         name = other or platform_name()
-        folder = root / BUILT / name if other else root / "src" / NATIVE
-        page = root / BUILT / f"{name}-page" if other else root / "src" / PAGE
-        status = self._run("kernel_build", "--platform", name, "--folder", str(folder))
+        folder = root / BUILT / "native" if other else root / "src" / NATIVE
+        page = root / BUILT / "page" if other else root / "src" / PAGE
+        asked = WASM if name == ANY else name
+        status = self._run("kernel_build", "--platform", asked, "--folder", str(folder))
         if status == IMPOSSIBLE and not other:
             return  # it has said why
         if status:
@@ -50,13 +53,15 @@ class KernelHook(BuildHookInterface[Any]):
         if self._run("page_build", "--engine", str(folder), "--folder", str(page)):
             self.app.abort("the page could not be made")
         if version != "editable":
-            build_data["pure_python"] = False
-            build_data["tag"] = f"py3-none-{TARGETS[name].wheel}"
-            build_data["force_include"] |= self._library(folder, name) | {
+            build_data["force_include"] |= {
                 str(file): f"{PAGE}/{file.name}"
                 for file in sorted(page.iterdir())
                 if file.suffix != ".sha256"  # of the sources
             }
+        if version != "editable" and name != ANY:
+            build_data["pure_python"] = False
+            build_data["tag"] = f"py3-none-{TARGETS[name].wheel}"
+            build_data["force_include"] |= self._library(folder, name)
 
     def _run(self, builder: str, *given: str) -> int:
         """Run one of the builders; return its exit status."""

@@ -10,15 +10,18 @@ from types import SimpleNamespace
 
 import hatch_build
 import pytest
+import wheel_build
 from kernel_build import __main__ as command
 from kernel_build import build as builder
 from kernel_build import machine_code
 from kernel_build.targets import TARGETS, WASM
+from packaging.utils import parse_wheel_filename
 from page_build import build as page_builder
 
 from stackbounce.engine import native
 from stackbounce.errors import FileError
 from stackbounce.explorer import made
+from stackbounce.version import __version__
 
 ROOT = Path(__file__).parents[2]
 NAMES = ["linux-x86_64", WASM]
@@ -169,10 +172,30 @@ def test_a_wheel_of_another_platform_leaves_the_sources_alone(monkeypatch, tmp_p
     assert data["tag"] == "py3-none-macosx_11_0_arm64"
     assert "stackbounce/engine/native/macos-aarch64.dylib" in files
     assert all(tmp_path in file.parents for file in files.values())
-    kernels, page = tmp_path / "macos-aarch64", tmp_path / "macos-aarch64-page"
+    kernels, page = tmp_path / "native", tmp_path / "page"
     assert commands[0][-3:] == ["macos-aarch64", "--folder", str(kernels)]
     assert commands[1][-4:] == ["--engine", str(kernels), "--folder", str(page)]
     assert files["stackbounce/explorer/made/model.json"] == page / "model.json"
+
+
+@pytest.mark.usefixtures("quick")
+def test_the_wheel_for_any_machine_has_the_page_and_no_library(monkeypatch, tmp_path):
+    monkeypatch.setattr(hatch_build, "BUILT", str(tmp_path))
+    hook, commands = hook_with(monkeypatch, 0, wheel_build.ANY)
+    builder.build([WASM], tmp_path / "native")
+    data, files = put(hook)
+    assert set(data) == {"force_include"}
+    assert set(files) == {f"stackbounce/explorer/made/{path.name}" for path in files.values()}
+    assert WASM in commands[0]
+
+
+def test_each_platform_has_a_wheel_and_the_others_have_one():
+    parsed = {name: parse_wheel_filename(file) for name, file in wheel_build.WHEELS.items()}
+    assert parsed.keys() == TARGETS.keys() - {WASM} | {wheel_build.ANY}
+    assert {str(version) for _, version, *_ in parsed.values()} == {__version__}
+    tags = [str(tag) for *_, tags in parsed.values() for tag in tags]
+    assert len(set(tags)) == len(tags)
+    assert [str(tag) for tag in parsed[wheel_build.ANY][-1]] == ["py3-none-any"]
 
 
 def test_an_installation_of_the_sources_takes_their_folder(monkeypatch):
