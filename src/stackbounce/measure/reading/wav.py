@@ -35,6 +35,7 @@ def read_wav(content: bytearray) -> tuple["xr.Dataset", str, list[str]]:
     FileError
         If there is no sound in it, or one that is compressed, or too long.
     """
+    import pandas as pd
     import xarray as xr
 
     form, start, size = _found(content)
@@ -65,8 +66,10 @@ def read_wav(content: bytearray) -> tuple["xr.Dataset", str, list[str]]:
     if integers and float(np.abs(sound).max()) >= 1.0 - 2.0 ** (2 - depth):
         doubts.append("it reaches full scale: the loudest knocks may be clipped")
     said = {"units": "1", "long_name": "sound", "rate": float(rate)}
-    time = ("time", np.arange(frames) / rate, {"units": "s", "long_name": "time"})
-    data = xr.Dataset({"sound": ("time", sound, said)}, coords={"time": time})
+    # As an Index, and by the fast path: else xarray imports dask and pint to see if it is theirs.
+    time = ("time", pd.Index(np.arange(frames) / rate), {"units": "s", "long_name": "time"})
+    heard = xr.Variable("time", sound, said, fastpath=True)
+    data = xr.Dataset({"sound": heard}, coords={"time": time})
     kind = "integers" if integers else "floating point"
     many = f"{channels} channels, averaged" if channels > 1 else "1 channel"
     return data, f"it begins as RIFF WAVE: {depth} bit {kind}, {many}, {rate} Hz", doubts
