@@ -216,7 +216,7 @@ def peers(entries: list[Entry]) -> Figure:
 def startup(starts: list[Start]) -> Figure:
     """Draw what each start takes in units of numpy's import."""
     with use_style():
-        figure = Figure(figsize=(5.2, 2.4))
+        figure = Figure(figsize=(5.2, 0.6 + 0.3 * len(starts)))
         ax = figure.subplots()
         for place, start in enumerate(starts):
             ax.barh(place - 0.18, start.processor_ratio, 0.32, color=UPPER)
@@ -228,5 +228,5 @@ def startup(starts: list[Start]) -> Figure:
         ax.set_xlim(0.0, 1.15 * max(max(s.processor_ratio, s.clock_ratio) for s in starts))
         ax.set_xlabel("time / that of numpy's import")
         ax.legend(ax.patches[:2], ["processor", "clock"], frameon=False, loc="upper right")
-        figure.subplots_adjust(left=0.3, right=0.98, top=0.97, bottom=0.2)
+        figure.subplots_adjust(left=0.3, right=0.98, top=0.97, bottom=0.14)
     return figure

@@ -18,6 +18,7 @@ from stackbounce.cross2007.style import render
 
 PACKAGES = ("stackbounce", "numpy", "numba", "scipy")
 NOT_INSTALLED = "not installed"
+LONG_IMPORT = 0.01  # s
 FROM = 8  # balls; of smaller stacks one or a few intervals are hard to time
 
 
@@ -228,7 +229,9 @@ def _startup(progress: Callable[[str], None]) -> Section:
     table = Table("Time from start to end", heads, startup_times(starts))
     found = calls.measure(progress), calls.first_sweeps(progress)
     title = "How soon it starts"
-    tables = [table, Table("One call", calls.HEADS, calls.rows(*found))]
+    costs = import_times(startup.imports(progress))
+    imports = Table("Imports of 10 ms or more", ["start", "packages (ms)"], costs, words=2)
+    tables = [table, imports, Table("One call", calls.HEADS, calls.rows(*found))]
     return _section("startup", title, caption, figures.startup(starts), tables)
 
 
@@ -244,6 +247,15 @@ def startup_times(starts: list[startup.Start]) -> list[list[str]]:
         ]
         for start in starts
     ]
+
+
+def import_times(starts: list[dict[str, float]]) -> list[list[str]]:
+    """Return the packages that take long to import in each start, the longest first."""
+    rows = []
+    for name, costs in zip(startup.STARTS, starts, strict=True):
+        heavy = sorted((-time, package) for package, time in costs.items() if time >= LONG_IMPORT)
+        rows.append([name, ", ".join(f"{package} {-1e3 * time:.0f}" for time, package in heavy)])
+    return rows
 
 
 def peer_times(entries: list[race.Entry]) -> list[list[str]]:

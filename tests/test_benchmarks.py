@@ -66,6 +66,9 @@ def test_starts_are_told_next_to_numpy():
     assert min(min(start.processor, start.clock) for start in starts) > 0.0
     assert report.startup_times(starts)[1][::2] == [startup.BASE, "1.00", "1.00"]
     assert len(figures.startup(starts).axes[0].patches) == 2 * len(starts)
+    imports = report.import_times(startup.imports(quiet, rounds=1))
+    assert [imports[0], imports[1][0]] == [["python", ""], startup.BASE]
+    assert "numpy" in imports[1][1]
 
 
 def test_a_start_is_the_median_of_its_rounds_and_of_their_ratios(monkeypatch):

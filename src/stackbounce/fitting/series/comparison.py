@@ -71,9 +71,9 @@ class Outcome:
         level : float, optional
             The probability; by default that of one standard deviation, 0.683.
         """
-        from scipy.stats import t
+        from scipy.special import stdtrit
 
-        reach = float(t.ppf(0.5 + 0.5 * level, self.freedom_of_error)) * self.error
+        reach = float(stdtrit(self.freedom_of_error, 0.5 + 0.5 * level)) * self.error
         return self.value - reach, self.value + reach
 
     @property
@@ -272,12 +272,12 @@ def _probability(squares: float, freedom: int, series: Series, scale: float = 1.
 
     With errors from the scatter of readings χ² over its degrees of freedom has an F distribution.
     """
-    from scipy.stats import chi2, f
+    from scipy.special import chdtrc, fdtrc
 
     errors = series.freedom(scale)
     if math.isinf(errors):
-        return float(chi2.sf(squares, freedom))
-    return float(f.sf(squares / freedom, freedom, errors))
+        return float(chdtrc(freedom, squares))
+    return float(fdtrc(freedom, errors, squares / freedom))
 
 
 def _scaled(values: Array) -> Array:
@@ -297,10 +297,10 @@ def _reach(series: Series) -> tuple[float, float]:
 
 def _interpolated(family: Family, series: Series) -> Callable[[float], Array]:
     """Return the curve of a family by the scaled value at its speed: from some exact curves."""
-    from scipy.interpolate import KroghInterpolator
-
     if family.law_class.rigid:  # in closed form, and with a corner where the restitution is 1
         return lambda start: family.at(float(_unscaled(start)), series.speeds)
+    from scipy.interpolate import KroghInterpolator
+
     low, high = _reach(series)
     nodes = 0.5 * (low + high + (high - low) * np.polynomial.chebyshev.chebpts1(_NODES))
     starts = _unscaled(nodes).tolist()

@@ -65,7 +65,7 @@ def headed(rows: Sequence[Row]) -> tuple[list[str], Sequence[Row]]:
     named = (k for k in range(first) if sum(bool(c.role) for c in columns_of(rows[k][1])) > 1)
     at = next(named, first - 1)
     head, units = rows[at][1], rows[at + 1][1]
-    if not all(is_unit(cell) for cell in units if cell):
+    if at + 1 == first or not all(is_unit(cell) for cell in units if cell):
         return head, rows[at + 1 :]
     pairs = zip_longest(head, units, fillvalue="")
     head = [f"{name} ({unit.strip('()[] ')})" if unit else name for name, unit in pairs]

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from stackbounce import datasets
-from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
 from stackbounce.files import prepare_folder, write_folder
@@ -257,6 +256,8 @@ def _csv(done: SeriesFit) -> str:
 
 def _page(done: SeriesFit, figures: dict[str, bytes]) -> str:
     import jinja2
+
+    from stackbounce.cross2007.pages import data_uri, make_environment
 
     own = jinja2.PackageLoader("stackbounce.fitting.series")
     pages = make_environment().overlay(loader=own)

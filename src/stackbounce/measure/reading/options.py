@@ -152,10 +152,12 @@ def part_of(
 
     low = float("-inf") if start is None else end("start", start, -0.5)
     high = float("inf") if stop is None else end("stop", stop, 0.5)
-    kept = ((along >= low) & (along <= high)).values.nonzero()[0]
+    kept = ((along.values >= low) & (along.values <= high)).nonzero()[0]
     if not kept.size:
         first, last = float(along.min()), float(along.max())
         got = f" must leave some of the record, which goes from {first:.6g} to {last:.6g} {unit}"
         hint = OptionHint({"start": None, "stop": None})
         raise InvalidValue(Message(hint, f"{got}, got {shown(start)} to {shown(stop)}"))
+    if kept.size == along.size:
+        return data
     return data.isel({dim: kept for dim in data.dims if dim != "track"})

@@ -43,7 +43,6 @@ def linear_prediction_residual(
     True
     """
     from scipy.linalg import solve_toeplitz
-    from scipy.signal import lfilter
 
     chunks = values[: len(values) // _CHUNK * _CHUNK].reshape(-1, _CHUNK)
     energies = np.einsum("ij,ij->i", chunks, chunks)
@@ -59,7 +58,7 @@ def linear_prediction_residual(
         return values
     prediction = solve_toeplitz(products[:-1], products[1:])
     weights = np.concatenate([[1.0], -prediction]).astype(np.float32)
-    residual = np.asarray(lfilter(weights, np.float32(1.0), values), dtype=np.float32)
+    residual = np.convolve(weights, values)[: len(values)]
     residual[:order] = 0.0
     return residual
 

@@ -113,7 +113,7 @@ def fit_with_excess_scatter(
     >>> fit_with_excess_scatter(one, values, 0.01 * np.eye(4), 1.0)[1]
     0.0
     """
-    from scipy.stats import chi2
+    from scipy.special import chdtrc
 
     plain = least_squares(design, values, covariance)
     least = _LEAST_SCATTER * float(np.sqrt(np.diag(covariance).min()))
@@ -133,7 +133,7 @@ def fit_with_excess_scatter(
     halves = [half_width(weights, off[:, i], errors[:, i]) for i in range(len(mean))]
     stretch = np.array(halves) / np.sqrt(np.diag(total))
     fit = Fit(mean, total * np.outer(stretch, stretch), plain.chi_squared, plain.freedom)
-    if chi2.sf(plain.chi_squared, plain.freedom) > _REPORTED_BELOW:
+    if chdtrc(plain.freedom, plain.chi_squared) > _REPORTED_BELOW:
         return fit, 0.0
     share = np.cumsum(weights[1:]) / weights[1:].sum()
     return fit, float(scatters[1 + np.searchsorted(share, 0.5)])

@@ -194,8 +194,8 @@ def _recording(data: Any, rate: float | None) -> tuple[_Recording, float]:
         times = data["sound"].coords.get("time")
         rate = rate or data["sound"].attrs.get("rate") or data.attrs.get("rate")
         if times is not None and len(times) > 1:
-            origin = float(times[0])
-            rate = rate or (len(times) - 1) / (float(times[-1]) - origin)
+            origin = float(times.values[0])
+            rate = rate or (len(times) - 1) / (float(times.values[-1]) - origin)
     if rate is None:
         raise InvalidValue("rate must be given for plain samples, got None")
     rate = positive("rate", rate, "samples per second")

@@ -57,7 +57,7 @@ def find_rises(white: NDArray[np.float32], rate: float, rounded: float) -> Rises
     Rises
         At most the 250 clearest, ascending in time.
     """
-    from scipy.signal import argrelextrema
+    from scipy.ndimage import maximum_filter1d
 
     hop = max(1, round(_HOP_SECONDS * rate))
     rows = white[: len(white) // hop * hop].reshape(-1, hop)
@@ -67,8 +67,9 @@ def find_rises(white: NDArray[np.float32], rate: float, rounded: float) -> Rises
     before, after = _around(energy, rounded)
     ratio = after / before
     least = _least(hop, len(energy))
-    (peaks,) = argrelextrema(ratio, np.greater_equal, order=_HOPS_AFTER + 1)
-    peaks = peaks[(ratio[peaks] > least) & (peaks < len(energy) - _HOPS_AFTER)]
+    highest = maximum_filter1d(ratio, 2 * _HOPS_AFTER + 3, mode="nearest")
+    (peaks,) = np.nonzero((ratio == highest) & (ratio > least))
+    peaks = peaks[peaks < len(energy) - _HOPS_AFTER]
     if len(peaks) > _MOST_RISES:
         peaks = np.sort(peaks[np.argsort(ratio[peaks])[-_MOST_RISES:]])
     return Rises(
@@ -95,7 +96,7 @@ def _around(energy: Array, rounded: float) -> tuple[Array, Array]:
 
 def _least(freedom: int, count: int) -> float:
     """Return the smallest ratio of the energies after and before that counts as a rise."""
-    from scipy.stats import f
+    from scipy.special import fdtri
 
-    chance = f.isf(_FALSE_ALARMS / count, _HOPS_AFTER * freedom, _HOPS_BEFORE * freedom)
+    chance = fdtri(_HOPS_AFTER * freedom, _HOPS_BEFORE * freedom, 1.0 - _FALSE_ALARMS / count)
     return max(_LEAST_RISE, _CHANCE_MARGIN * float(chance))

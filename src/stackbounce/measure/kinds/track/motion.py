@@ -88,7 +88,7 @@ def own_noise(times: Array, heights: Array, flights: Sequence[Flight]) -> float:
 
 
 def _scatter(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[float, float]:
-    from scipy.stats import f
+    from scipy.special import fdtrc
 
     rows = _polynomials(times, heights, flights, 2, OWN)
     if len(rows) < 2:
@@ -101,7 +101,7 @@ def _scatter(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[f
     square = float((weights * (falls - mean) ** 2).sum())
     freedom = len(rows) - 1
     points = sum(last - first - 3 for first, last in flights if last - first >= OWN)
-    if mean == 0.0 or f.sf(square / freedom, freedom, max(points, 1)) > _DIFFERENT_BELOW:
+    if mean == 0.0 or fdtrc(freedom, max(points, 1), square / freedom) > _DIFFERENT_BELOW:
         return 0.0, 1.0
     # R. DerSimonian and N. Laird, Controlled Clinical Trials 7, 177 (1986), eq 9
     variance = (square - freedom) / float(weights.sum() - (weights**2).sum() / weights.sum())

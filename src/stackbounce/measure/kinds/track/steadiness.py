@@ -122,7 +122,7 @@ def sway_of(
     >>> [round(value, 3) for value in sway_of(moments, numbers, impacts, 1 / 60)]
     [0.005, 0.041]
     """
-    from scipy.stats import chi2
+    from scipy.special import chdtrc
 
     times, speeds = (np.array([nominal(value) for value in some]) for some in (moments, impacts))
     seen, covariance = np.array([nominal(level) for level in levels]), covariance_of(levels)
@@ -131,7 +131,7 @@ def sway_of(
     ones = np.ones((len(seen), 1))
     fits = [least_squares(ones, seen + low * speeds, covariance) for low in longest * _LOW]
     best = int(np.argmin([fit.chi_squared for fit in fits]))
-    if chi2.sf(fits[best].chi_squared, fits[best].freedom) > _UNEVEN_BELOW:
+    if chdtrc(fits[best].freedom, fits[best].chi_squared) > _UNEVEN_BELOW:
         return 0.0, 0.0
     level = seen + longest * _LOW[best] * speeds
     off = np.diff(level)
