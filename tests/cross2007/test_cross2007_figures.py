@@ -59,7 +59,7 @@ def test_the_data_are_the_curves_and_what_the_text_tells(drawn):
     assert np.array_equal(ax.lines[1].get_ydata(), data.rebound_ratio[1])
     at = data.rebound_ratio.sel(mass_ratio=1.0, method="nearest").values
     assert at == pytest.approx(data.known_rebound_ratio.values[[2, 1]], abs=0.01)
-    assert drawn["8-hollow"].data.force.dims == ("drop", "contact", "time")
+    assert drawn["8-hollow"].data.force.dims == ("run", "contact", "time")
     assert drawn["8-hollow"].data.floor.values.tolist() == ["HollowBall", "HollowBall", "Spring"]
     assert drawn["6"].data.known_rebound_ratio.values[:2].tolist() == [0.18, 1.64]
     assert drawn["5"].data.known_time.values.tolist() == [0.005, 0.019, 0.029]

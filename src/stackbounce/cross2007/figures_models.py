@@ -74,9 +74,9 @@ def _recorded(bench: Bench, name: str, pairs: Array, **places: Any) -> Array:
 def sample_forces(bench: Bench, drop: Drop, times: Array) -> tuple[Array, Result]:
     """Return the forces at floor and between the balls in N, (2, T), and the drop's result."""
     result = bench.simulate(drop)
-    curves = result.sample(times).expand_dims("drop")
-    gap, floor = ("drop", list(drop.gaps), {"units": "m"}), type(drop.contacts[0]).__name__
-    bench.curves.append(curves.assign_coords(gap=gap, floor=("drop", [floor])))
+    curves = result.sample(times).expand_dims("run")
+    gap, floor = ("run", list(drop.gaps), {"units": "m"}), type(drop.contacts[0]).__name__
+    bench.curves.append(curves.assign_coords(gap=gap, floor=("run", [floor])))
     return np.asarray(curves["force"].values[0]), result
 
 

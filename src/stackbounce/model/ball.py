@@ -1,14 +1,13 @@
 """A ball: its mass and, where needed, its diameter, elastic constants and name."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Annotated
 
 from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown
 from stackbounce.shown import Shown, Table, call_of
-from stackbounce.units import Unit, checked, handy_text
+from stackbounce.units import Unit, checked, handy_text, unit_of
 
-_UNITS = {"mass": "kg", "diameter": "m", "young_modulus": "Pa", "poisson_ratio": ""}
 _POSITIVE = (("mass", "kilograms"), ("diameter", "metres"), ("young_modulus", "pascals"))
 
 
@@ -66,8 +65,11 @@ class Ball(Shown):
             object.__setattr__(self, "poisson_ratio", ratio)
 
     def _tables(self) -> Sequence[Table]:
-        known = {name: value for name in _UNITS if (value := getattr(self, name)) is not None}
-        rows = [(name.replace("_", " "), handy_text(x, _UNITS[name])) for name, x in known.items()]
+        rows = [
+            (field.name.replace("_", " "), handy_text(getattr(self, field.name), unit.symbol))
+            for field in fields(self)
+            if (unit := unit_of(field.type)) and getattr(self, field.name) is not None
+        ]
         return (Table(self.name or "Ball", ("", ""), rows),)
 
 
