@@ -19,10 +19,11 @@ OF_LOWEST := bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist wo
   --hypothesis-profile=quick -W ignore::DeprecationWarning -W ignore::PendingDeprecationWarning \
   -W ignore::FutureWarning tests --ignore=tests/house --ignore=tests/pages --ignore=tests/frozen --ignore=tests/fuzz \
   --ignore=tests/explorer/browser --ignore=tests/explorer/test_openapi.py --ignore=tests/test_impacts.py --ignore=tests/engine
-# 3: kernels cannot be compiled on this machine, plain Python runs.
-COMPILE := { PYTHONPATH=src $(BIN)/python -m kernel_build || test $$? -eq 3; }
+# 3: kernels cannot be compiled on this machine, plain Python runs. 4: no compiler is in the environment, but pip's build has one.
+COMPILE := { PYTHONPATH=src $(BIN)/python -m kernel_build; case $$? in 0|3) ;; 4) $(EDITABLE) ;; *) exit 1 ;; esac; }
+EDITABLE := $(INSTALL) --no-deps --editable .
 PAGE := { PYTHONPATH=src $(BIN)/python -m page_build || test $$? -eq 3; }
-# Two stamps: `make paper` needs the package with all its extras; the other targets add the developers' tools.
+# Two stamps: `make paper` needs the package with all its extras; most other targets the developers' tools, too.
 RUNTIME := $(VENV)/runtime.stamp
 DEV := $(VENV)/dev.stamp
 
@@ -67,7 +68,7 @@ browsers: $(DEV) kernels  ## before a release: all tests of the page in Chromium
 	@tests/explorer/browser/browsers.sh
 	@STACKBOUNCE_BROWSERS="chromium firefox" $(PYTEST) tests/explorer/browser
 
-bench: $(DEV) kernels  ## growth, accuracy, speed, and the benchmark of impacts, also of other solvers (extra: bench), in build/bench
+bench: $(DEV) kernels  ## growth, accuracy, speed, and the benchmark of impacts, also of other solvers (group: bench), in build/bench
 	@PYTHONPATH=tests $(BIN)/python -m benchmarks --out build/bench
 	@$(BIN)/python -m benchmarks.impacts --out build/bench
 	@echo "Open $(CURDIR)/build/bench/index.html"
@@ -112,14 +113,15 @@ format: $(DEV)  ## let ruff put the code in order
 constraints:  ## write constraints.txt anew from the newest versions that fit
 	@rm -rf build/constraints
 	@$(PYTHON) -m venv build/constraints
-	@build/constraints/bin/python -m pip --disable-pip-version-check install --quiet --quiet --editable '.[dev]'
+	@for kind in runtime dev; do $(PYTHON) .ci/requirements.py $$kind; done > build/constraints/requirements.txt
+	@build/constraints/bin/python -m pip --disable-pip-version-check install --quiet --quiet --requirement build/constraints/requirements.txt
 	@{ sed -n '/^#/p' constraints.txt; \
-	   build/constraints/bin/python -m pip --disable-pip-version-check freeze --all --exclude-editable \
+	   build/constraints/bin/python -m pip --disable-pip-version-check freeze --all \
 	     --exclude pip --exclude setuptools | grep -E '^[A-Za-z0-9._-]+==[^ @]+$$'; } > build/constraints.txt
 	@mv build/constraints.txt constraints.txt
 	@rm -rf build/constraints
 
-wheels: $(RUNTIME)  ## build the wheels of all platforms and the sdist in dist, and check them; on Linux
+wheels: $(DEV)  ## build the wheels of all platforms and the sdist in dist, and check them; on Linux
 	@PYTHONPATH=src $(BIN)/python wheel_build.py
 
 clean:  ## remove what was built, keep .venv
@@ -133,7 +135,8 @@ venv: $(DEV)  ## set up .venv with the developers' tools
 
 $(DEV): $(RUNTIME)
 	@echo "Installing the developers' tools into $(VENV)"
-	@$(INSTALL) --no-build-isolation --editable '.[dev]'
+	@$(BIN)/python .ci/requirements.py dev > $(VENV)/dev.txt
+	@$(INSTALL) --requirement $(VENV)/dev.txt
 	@touch $@
 
 $(RUNTIME): pyproject.toml constraints.txt
@@ -142,10 +145,7 @@ $(RUNTIME): pyproject.toml constraints.txt
 	@test -x $(BIN)/pip || $(PYTHON) -m venv --clear $(VENV) || \
 	  { echo "Python's venv module does not work here (on Debian or Ubuntu: apt install python3-venv)" >&2; exit 1; }
 	@echo "Installing stackbounce into $(VENV), and compiling its kernels: a few minutes"
-	@$(BIN)/python .ci/requirements.py build > $(VENV)/build.txt
 	@$(BIN)/python .ci/requirements.py runtime > $(VENV)/runtime.txt
-	@$(INSTALL) editables --requirement $(VENV)/build.txt
-	@$(INSTALL) --requirement $(VENV)/runtime.txt & installing=$$!; $(COMPILE); compiled=$$?; \
+	@$(INSTALL) --requirement $(VENV)/runtime.txt & installing=$$!; $(EDITABLE); compiled=$$?; \
 	  wait $$installing && exit $$compiled # pip has one processor, the compiler the others
-	@$(INSTALL) --no-build-isolation --no-deps --editable .
 	@touch $@

@@ -35,7 +35,7 @@ class KernelHook(BuildHookInterface[Any]):
         """Compile what is not up to date, and put it into the wheel."""
         root = Path(self.root)
         sys.path[:0] = [str(root / "src"), str(root)]
-        from kernel_build.__main__ import IMPOSSIBLE
+        from kernel_build.__main__ import IMPOSSIBLE, NO_COMPILER
         from kernel_build.targets import TARGETS, WASM
 
         from stackbounce.engine.native import platform_name
@@ -46,7 +46,7 @@ class KernelHook(BuildHookInterface[Any]):
         page = root / BUILT / "page" if other else root / "src" / PAGE
         asked = WASM if name == ANY else name
         status = self._run("kernel_build", "--platform", asked, "--folder", str(folder))
-        if status == IMPOSSIBLE and not other:
+        if status in (IMPOSSIBLE, NO_COMPILER) and not other:
             return  # it has said why
         if status:
             self.app.abort(f"the kernels could not be compiled for {name}")

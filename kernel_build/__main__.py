@@ -1,7 +1,7 @@
 """Compile the kernels: `python -m kernel_build [--all] [--force]`.
 
-The exit status is 0 if all is up to date now, 3 where nothing can be compiled: for a platform that
-is not in `targets`, or without numba or zig.
+The exit status is 0 if all is up to date now, 3 for a platform that is not in `targets`, and 4
+without numba or zig.
 """
 
 import argparse
@@ -13,7 +13,7 @@ from kernel_build.build import build, is_up_to_date
 from kernel_build.targets import TARGETS, WASM
 from stackbounce.engine.native import FOLDER, platform_name
 
-IMPOSSIBLE = 3
+IMPOSSIBLE, NO_COMPILER = 3, 4
 
 
 def main() -> int:
@@ -25,12 +25,12 @@ def main() -> int:
     parser.add_argument("--folder", type=Path, default=FOLDER, help="where the libraries go")
     given = parser.parse_args()
     if given.platform not in TARGETS and not given.all:
-        return _impossible(f"kernels are not compiled for {given.platform}")
+        return _impossible(IMPOSSIBLE, f"kernels are not compiled for {given.platform}")
     names = list(TARGETS) if given.all else list(dict.fromkeys((given.platform, WASM)))
     if given.force or not is_up_to_date(given.folder, names):
         missing = _missing_tool()
         if missing:
-            return _impossible(missing)
+            return _impossible(NO_COMPILER, missing)
         print("Compiling the kernels: a minute or two", flush=True)  # noqa: T201
         build(names, given.folder)
     return 0
@@ -52,9 +52,9 @@ def _missing_tool() -> str:
     return f"compiling kernels needs zig: {lines[-1]}" if zig.returncode else ""
 
 
-def _impossible(reason: str) -> int:
+def _impossible(status: int, reason: str) -> int:
     print(f"{reason}; drops run as plain Python", file=sys.stderr)  # noqa: T201
-    return IMPOSSIBLE
+    return status
 
 
 if __name__ == "__main__":

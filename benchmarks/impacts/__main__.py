@@ -1,7 +1,7 @@
 """Let every program that is installed answer the problems: `python -m benchmarks.impacts`.
 
 It prints the table of who gets what right, and writes `impacts.md`, `impacts.csv` and
-`impacts.json`. The programs are the optional dependencies of the extra `bench`.
+`impacts.json`. The programs are the dependency group `bench`.
 """
 
 import argparse

@@ -4,49 +4,48 @@ from importlib.util import find_spec
 
 from stackbounce.errors import MissingExtra
 
-_MEASURE = ("pandas", "scipy", "uncertainties")
-_FIT = (*_MEASURE, "emcee")
-_PLOTS = ("corner", "matplotlib")
-_PAPER = (*_FIT, *_PLOTS, "jinja2")
+MEASURING = ("pandas", "scipy", "uncertainties")
+"""The modules without which nothing is measured or fitted."""
 
-EXTRAS = {
-    "sweep": ("dask", "zarr"),
-    "cluster": ("distributed",),
-    "plots": _PLOTS,
-    "masses": ("scipy",),
-    "measure": _MEASURE,
-    "sheets": ("openpyxl",),
-    "fit": _FIT,
-    "paper": _PAPER,
-    "web": (
-        *_PAPER,
-        *("fastapi", "pebble", "psutil", "pydantic", "python_multipart", "segno", "starlette"),
-        "uvicorn",
-    ),
-}
+_LAB = (*MEASURING, "corner", "emcee", "jinja2", "matplotlib", "openpyxl")
+_SERVER = "fastapi pebble psutil pydantic python_multipart segno starlette uvicorn".split()
+
+EXTRAS = {"lab": _LAB, "sweep": ("dask", "distributed", "zarr"), "app": (*_LAB, *_SERVER)}
 """The modules that each extra brings; ``all`` has them all, and a plain install none."""
 
 
-def need(extra: str, what: str) -> None:
+def has(extra: str) -> bool:
+    """Return whether all modules of an extra are installed.
+
+    Examples
+    --------
+    >>> has("lab")
+    True
+    """
+    return all(find_spec(module) for module in EXTRAS[extra])
+
+
+def need(what: str, *modules: str) -> None:
     """Refuse to go on where a module of an extra is not installed.
 
     Parameters
     ----------
-    extra : str
-        One of `EXTRAS`.
     what : str
-        What needs it; the message begins with it.
+        What needs them; the message begins with it.
+    *modules : str
+        The modules, each of one of `EXTRAS`.
 
     Raises
     ------
     MissingExtra
-        If a module is missing.
+        If one is missing; the message names the extra that brings it.
 
     Examples
     --------
-    >>> need("fit", "stackbounce fit")
+    >>> need("a picture", "matplotlib")
     """
-    missing = [module for module in EXTRAS[extra] if find_spec(module) is None]
+    missing = [module for module in modules if find_spec(module) is None]
     if missing:
+        extra = next(name for name, brought in EXTRAS.items() if {*missing} <= {*brought})
         names = ", ".join(missing)
         raise MissingExtra(f"{what} needs {names}: pip install 'stackbounce[{extra}]'")

@@ -63,10 +63,10 @@ def test_a_port_that_is_taken(capsys):
 def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     with subprocess.Popen([*APP, "--json", "--port", "0"], **pipes) as process:
-        lines = [process.stdout.readline() for _ in range(5)]
+        lines = [process.stdout.readline() for _ in range(6)]
         told = json.loads("".join(lines))
         address = told["address"]
-        assert told["others"] == []
+        assert (told["others"], told["measures"]) == ([], True)
         answer = httpx.post(f"{address}api/simulate", json={"drop": DROP}, timeout=60.0)
         assert answer.status_code == 200
         workers = Server(address, process).children()

@@ -86,11 +86,11 @@ def test_what_cannot_be_compiled_is_said_in_a_line(monkeypatch, tmp_path, capsys
     assert command.main() == command.IMPOSSIBLE
     monkeypatch.setattr(sys, "argv", ["", "--folder", str(tmp_path)])
     monkeypatch.setitem(sys.modules, "numba", None)
-    assert command.main() == command.IMPOSSIBLE
+    assert command.main() == command.NO_COMPILER
     monkeypatch.undo()
     monkeypatch.setattr(sys, "argv", ["", "--folder", str(tmp_path)])
     monkeypatch.setattr(sys, "executable", "no-such-python")
-    assert command.main() == command.IMPOSSIBLE
+    assert command.main() == command.NO_COMPILER
     platform, numba, zig = capsys.readouterr().err.splitlines()
     assert platform == "kernels are not compiled for sunos-sparc; drops run as plain Python"
     assert numba.startswith("compiling kernels needs numba: ")
@@ -205,8 +205,9 @@ def test_an_installation_of_the_sources_takes_their_folder(monkeypatch):
     assert commands[0][-3] == native.platform_name()
 
 
-def test_where_nothing_can_be_compiled_the_wheel_is_pure(monkeypatch):
-    hook, _ = hook_with(monkeypatch, command.IMPOSSIBLE)
+@pytest.mark.parametrize("status", [command.IMPOSSIBLE, command.NO_COMPILER])
+def test_where_nothing_can_be_compiled_the_wheel_is_pure(status, monkeypatch):
+    hook, _ = hook_with(monkeypatch, status)
     assert put(hook)[0] == {"force_include": {}}
 
 

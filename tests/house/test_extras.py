@@ -5,10 +5,12 @@ import sys
 import tomllib
 from pathlib import Path
 
+import httpx
 import pytest
 
 from stackbounce.errors import MissingExtra
-from stackbounce.extras import EXTRAS, need
+from stackbounce.explorer.made import HEADERS, one_file
+from stackbounce.extras import EXTRAS, MEASURING, need
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
@@ -16,6 +18,7 @@ CORE = {"pandas", "pydantic"}  # which xarray and typer bring
 BROUGHT = sorted({module for modules in EXTRAS.values() for module in modules} - CORE)
 COMPILERS = ["numba", "llvmlite"]  # for developers and benchmarks only
 PLAIN = f"import sys; sys.modules |= dict.fromkeys({BROUGHT + COMPILERS}); "
+SWEEP = ["sweep", "B1", "--over", "balls.0.mass=1,2", "--out", "a.zarr"]
 COMMAND = PLAIN + "from stackbounce.cli import main; sys.exit(main(sys.argv[1:]))"
 
 
@@ -40,11 +43,12 @@ def brought(extra):
 @pytest.mark.parametrize("extra", EXTRAS)
 def test_an_extra_brings_what_it_says(extra):
     assert brought(extra) == set(EXTRAS[extra])
-    assert brought(extra) <= brought("all") <= brought("dev")
+    assert brought(extra) <= brought("all")
 
 
 def test_everything_is_in_all():
-    assert set(PROJECT["optional-dependencies"]) == {*EXTRAS, "all", "dev", "bench"}
+    assert set(PROJECT["optional-dependencies"]) == {*EXTRAS, "all"}
+    assert len(PROJECT["dependencies"]) == 5
 
 
 @pytest.mark.parametrize("extra", EXTRAS)
@@ -52,16 +56,16 @@ def test_a_missing_extra_is_named(extra, monkeypatch):
     for module in EXTRAS[extra]:
         monkeypatch.setitem(sys.modules, module, None)
     with pytest.raises(MissingExtra) as caught:
-        need(extra, "a task")
+        need("a task", *EXTRAS[extra])
     names = ", ".join(EXTRAS[extra])
     assert str(caught.value) == f"a task needs {names}: pip install 'stackbounce[{extra}]'"
 
 
 def test_what_is_installed_of_an_extra_is_not_named(monkeypatch):
-    need("fit", "stackbounce fit")
+    need("stackbounce fit", *MEASURING, "emcee")
     monkeypatch.setitem(sys.modules, "emcee", None)
-    with pytest.raises(MissingExtra, match=r"^a fit needs emcee: pip install 'stackbounce\[fit\]'"):
-        need("fit", "a fit")
+    with pytest.raises(MissingExtra, match=r"^a fit needs emcee: pip install 'stackbounce\[lab\]'"):
+        need("a fit", *MEASURING, "emcee")
 
 
 @pytest.mark.fast_cases(1)
@@ -82,6 +86,20 @@ def test_a_plain_install_runs(arguments, tmp_path):
     assert (run.returncode, run.stderr) == (0, "")
 
 
+def test_a_plain_install_serves_the_page_that_plays():
+    command = [sys.executable, "-c", COMMAND, "app", "--no-browser", "--port", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        address = process.stdout.readline().decode().split()[2]
+        assert process.stdout.readline().decode().endswith("pip install 'stackbounce[app]'\n")
+        page, nothing = httpx.get(f"{address}?lang=de"), httpx.get(f"{address}api/places")
+        process.terminate()
+        assert process.communicate(timeout=30) == (b"", b"")
+    assert (page.status_code, page.text, process.returncode) == (200, one_file(), 0)
+    assert page.headers["content-security-policy"] == "frame-ancestors 'none'"
+    assert page.headers.items() >= HEADERS.items()
+    assert (nothing.status_code, nothing.content) == (404, b"")
+
+
 @pytest.mark.slow
 def test_a_plain_install_sweeps():
     run = plain(
@@ -96,7 +114,7 @@ def test_a_plain_install_sweeps():
 
 @pytest.mark.slow
 def test_the_paper_by_call_needs_what_measures_and_what_draws():
-    without = sorted({*BROUGHT, "markupsafe"} - {*EXTRAS["measure"], *EXTRAS["plots"]})
+    without = sorted({*BROUGHT, "markupsafe"} - {*MEASURING, "matplotlib"})
     run = plain(
         f"import sys; sys.modules |= dict.fromkeys({without}); import stackbounce as sb; "
         "found = sb.cross2007.figure('4a'), sb.cross2007.table('II'), sb.cross2007.audit(); "
@@ -107,36 +125,37 @@ def test_the_paper_by_call_needs_what_measures_and_what_draws():
 
 @pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
-    ("arguments", "extra", "what"),
+    ("arguments", "what", "modules"),
     [
-        (["measure", "sound.wav"], "measure", "stackbounce measure"),
-        (["fit", "drop.toml"], "fit", "stackbounce fit"),
-        (["highest", "B1", "B2", "--in-order", "--masses"], "masses", "a search for masses"),
-        (["paper", "--out", "paper"], "paper", "stackbounce paper"),
-        (["fit", "dataset:golf-marble-heights"], "fit", "stackbounce fit"),
-        (["app"], "web", "stackbounce app"),
-        (["simulate", "B1", "--plot", "b1.png"], "plots", "--plot"),
-        (["simulate", "B1", "--height", "63 ± 1 cm"], "measure", "a number with an error"),
-        (["sweep", "B1", "--over", "balls.0.mass=1,2", "--out", "a.zarr"], "sweep", "a .zarr file"),
+        (["measure", "sound.wav"], "stackbounce measure", MEASURING),
+        (["fit", "drop.toml"], "stackbounce fit", MEASURING),
+        (["highest", "B1", "B2", "--in-order", "--masses"], "a search for masses", ["scipy"]),
+        (["paper", "--out", "paper"], "stackbounce paper", [*MEASURING, "jinja2", "matplotlib"]),
+        (["fit", "dataset:golf-marble-heights"], "stackbounce fit", MEASURING),
+        (["simulate", "B1", "--plot", "b1.png"], "--plot", ["matplotlib"]),
+        (["simulate", "B1", "--height", "63 ± 1 cm"], "a number with an error", MEASURING),
+        (SWEEP, "a .zarr file", ["dask", "zarr"]),
+        ([*SWEEP, "--cluster", "localhost:8786"], "--cluster", ["distributed"]),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
-def test_a_command_names_the_extra_it_needs(arguments, extra, what, tmp_path):
+def test_a_command_names_the_extra_it_needs(arguments, what, modules, tmp_path):
     run = plain(COMMAND, *arguments, folder=tmp_path)
-    missing = ", ".join(module for module in EXTRAS[extra] if module in BROUGHT)
+    missing = ", ".join(module for module in modules if module in BROUGHT)
+    extra = "sweep" if modules[0] in EXTRAS["sweep"] else "lab"
     words = f"{what} needs {missing}: pip install 'stackbounce[{extra}]'"
     assert run.stderr == f"stackbounce: error: {words}\n"
     assert (run.returncode, run.stdout, list(tmp_path.iterdir())) == (2, "", [])
 
 
 @pytest.mark.parametrize(
-    ("code", "extra"),
+    "code",
     [
-        ("import stackbounce as sb; sb.read('sound.wav')", "measure"),
-        pytest.param("from stackbounce.plots import bounce", "plots", marks=pytest.mark.slow),
+        "import stackbounce as sb; sb.read('sound.wav')",
+        pytest.param("from stackbounce.plots import bounce", marks=pytest.mark.slow),
     ],
 )
-def test_a_function_names_the_extra_it_needs(code, extra):
+def test_a_function_names_the_extra_it_needs(code):
     run = plain(PLAIN + code)
-    assert run.stderr.endswith(f": pip install 'stackbounce[{extra}]'\n")
+    assert run.stderr.endswith(": pip install 'stackbounce[lab]'\n")
     assert "stackbounce.errors.MissingExtra: " in run.stderr

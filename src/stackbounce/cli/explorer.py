@@ -35,17 +35,21 @@ def run(
     from stackbounce.errors import whole
     from stackbounce.explorer import LIMITS
     from stackbounce.explorer.serve import serve
+    from stackbounce.extras import has
     from stackbounce.version import __version__
 
     def tell(address: str, others: "list[Place]") -> None:
         if as_json:
             known = {"address": address, "others": [place.address for place in others]}
-            print_json({"stackbounce": __version__, **known})
+            print_json({"stackbounce": __version__, **known, "measures": has("app")})
             return
         typer.echo(f"The explorer: {address} (Ctrl+C ends it)")
+        if not has("app"):
+            typer.echo("It plays. To measure and fit in it: pip install 'stackbounce[app]'")
         if others:
+            code = " (the page shows a QR code)" if has("app") else ""
             typed = " or ".join(place.address for place in others)
-            typer.echo(f"For others on the same network: {typed} (the page shows a QR code)")
+            typer.echo(f"For others on the same network: {typed}{code}")
         elif host in ("0.0.0.0", "::"):
             typer.echo("This machine is in no network: others cannot open the page.")
 

@@ -9,7 +9,7 @@ import typer
 from stackbounce.cli import output, series
 from stackbounce.cli.options import DROP
 from stackbounce.errors import InvalidValue
-from stackbounce.extras import need
+from stackbounce.extras import MEASURING, need
 
 if TYPE_CHECKING:
     from stackbounce.cli.fit_tables import Fitted
@@ -21,7 +21,7 @@ def run(
     what: Sequence[str], plot: Path | None, overwrite: bool, as_json: bool, **given: Any
 ) -> None:
     """Fit parameters of a drop to measured values, with errors."""
-    need("fit", "stackbounce fit")
+    need("stackbounce fit", *MEASURING)
     output.check_picture(plot, overwrite)
     table = series.is_series(what)
     stack = series.stack_of(what[0], given) if table else None
@@ -88,10 +88,11 @@ def _check_of_drop(given: Mapping[str, Any], allowed: Sequence[str]) -> None:
 
 def _check_together(given: Mapping[str, Any]) -> None:
     """Refuse options that mean nothing without another one, or beside it."""
-    if given["sample"] is None:
-        for name, does in (("corner", "draws the posterior"), ("draws", "writes the draws")):
-            if given[name] is not None:
-                raise InvalidValue(f"--{name} {does} of --sample: give both")
+    if given["sample"] is not None:
+        need("--sample", "emcee")
+    for name, does in (("corner", "draws the posterior"), ("draws", "writes the draws")):
+        if given["sample"] is None and given[name] is not None:
+            raise InvalidValue(f"--{name} {does} of --sample: give both")
     for name in ("vary", "tie", "interval", "sample", "save"):
         if given["compare"] and given[name]:
             raise InvalidValue(f"--compare has models of its own: --{name} is for one fit")

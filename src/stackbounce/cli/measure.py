@@ -9,7 +9,7 @@ import typer
 
 from stackbounce.cli import output
 from stackbounce.errors import InvalidValue, StackbounceError
-from stackbounce.extras import need
+from stackbounce.extras import MEASURING, need
 from stackbounce.measure.messages import OptionHint
 from stackbounce.measure.options import OPTIONS
 
@@ -24,7 +24,7 @@ def run(
     **given: Any,
 ) -> None:
     """Find restitutions, stiffnesses, speeds and heights in what was measured, with errors."""
-    need("measure", "stackbounce measure")
+    need("stackbounce measure", *MEASURING)
     from stackbounce.cli.measure_tables import law_of, print_measured, save_ball, summary
     from stackbounce.measure.measurement import measure_file, measure_numbers
     from stackbounce.measure.option_values import read_options

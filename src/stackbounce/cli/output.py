@@ -45,7 +45,7 @@ def check_picture(path: Path | None, overwrite: bool, option: str = "--plot") ->
     """Refuse a picture's path that `check_file` refuses, or one without matplotlib."""
     check_file(path, overwrite, option, SUFFIXES)
     if path is not None:
-        need("plots", option)
+        need(option, "matplotlib")
 
 
 def check_scenario(path: Path | None, overwrite: bool, read: Sequence[str] = ()) -> None:

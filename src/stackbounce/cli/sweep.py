@@ -95,7 +95,7 @@ def _connect(address: str | None) -> Iterator[Any]:
     if address is None:
         yield None
         return
-    need("cluster", "--cluster")
+    need("--cluster", "distributed")
     import logging
     import socket
 

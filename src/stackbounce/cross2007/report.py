@@ -24,7 +24,7 @@ from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.cross2007.style import Picture, data_of, render, use_style
 from stackbounce.cross2007.tables import Table, make_table_one, make_table_two
 from stackbounce.errors import InvalidValue, nearest, shown
-from stackbounce.extras import need
+from stackbounce.extras import MEASURING, need
 from stackbounce.files import prepare_folder, write_folder
 from stackbounce.shown import Shown
 from stackbounce.version import __version__
@@ -142,7 +142,7 @@ def audit(data: Data = PAPER, progress: Callable[[str], None] = lambda _: None) 
     Raises
     ------
     MissingExtra
-        If the extra `measure` is not installed.
+        If the extra `lab` is not installed.
 
     Examples
     --------
@@ -150,7 +150,7 @@ def audit(data: Data = PAPER, progress: Callable[[str], None] = lambda _: None) 
     >>> [row.verdict for row in result.rows if row.id == "II.ten_springs"]
     ['agrees']
     """
-    need("measure", "the audit of the paper")
+    need("the audit of the paper", *MEASURING)
     rows: list[Row] = []
     for _, section in itertools.groupby(CLAIMS.values(), lambda claim: claim.id.partition(".")[0]):
         claims = list(section)
@@ -185,7 +185,7 @@ def figure(name: str | int, data: Data = PAPER) -> Picture:
     InvalidValue
         If there is no figure of that name; the message lists all.
     MissingExtra
-        If the extras `measure` and `plots` are not installed.
+        If the extra `lab` is not installed.
 
     Examples
     --------
@@ -195,8 +195,7 @@ def figure(name: str | int, data: Data = PAPER) -> Picture:
     >>> found.data.known_rebound_ratio.values  # as the paper's text has them
     array([1.13, 1.19, 0.76])
     """
-    need("plots", "a figure of the paper")
-    need("measure", "a figure of the paper")
+    need("a figure of the paper", *MEASURING, "matplotlib")
     short = _SIGNS.sub("", str(name)).lower()
     if short not in FIGURES:
         raise InvalidValue(f"the paper has no figure {shown(name)}; {nearest(short, FIGURES)}")
@@ -226,14 +225,14 @@ def table(name: str | int, data: Data = PAPER) -> Table:
     InvalidValue
         If there is no table of that name.
     MissingExtra
-        If the extra `measure` is not installed.
+        If the extra `lab` is not installed.
 
     Examples
     --------
     >>> table("II").table["e2"]["basketball"]
     '1.640±0.005'
     """
-    need("measure", "a table of the paper")
+    need("a table of the paper", *MEASURING)
     short = _SIGNS.sub("", str(name)).upper()
     if short not in _TABLES:
         raise InvalidValue(f"the paper has no table {shown(name)}; {nearest(short, _TABLES)}")
@@ -272,7 +271,7 @@ def write(
         If the folder cannot be made or written to, or a file in it is not one of `write`. This is
         found before anything is computed.
     """
-    need("paper", "stackbounce paper")
+    need("stackbounce paper", *MEASURING, "jinja2", "matplotlib")
     figures = [f"figures/figure-{name}.svg" for name in FIGURES]
     prepare_folder(out, [*_NAMES, *figures])
     done = audit(PAPER, progress)

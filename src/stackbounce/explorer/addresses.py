@@ -5,6 +5,8 @@ import ipaddress
 import socket
 from typing import NamedTuple
 
+from stackbounce.extras import has
+
 _ALL = ("0.0.0.0", "::")
 _OUTSIDE = "192.0.2.1"  # RFC 5737; nothing is sent there
 
@@ -49,16 +51,19 @@ def list_places(host: str, port: int) -> list[Place]:
     >>> list_places("203.0.113.7", 8050)[0].address
     'http://203.0.113.7:8050/'
     """
-    import segno
-
     hosts = _own_hosts() if host in _ALL else [host]
     others = [host for host in hosts if not _is_loopback(host)]
-    addresses = [url(other, port) for other in others]
-    codes = [segno.make_qr(address, error="m", boost_error=False) for address in addresses]
-    return [
-        Place(address, ["".join(map(str, row)) for row in code.matrix])
-        for address, code in zip(addresses, codes, strict=True)
-    ]
+    return [Place(address, _code(address)) for address in (url(other, port) for other in others)]
+
+
+def _code(address: str) -> list[str]:
+    """Return the rows of an address's QR code; none without the library for it."""
+    if not has("app"):
+        return []
+    import segno
+
+    code = segno.make_qr(address, error="m", boost_error=False)
+    return ["".join(map(str, row)) for row in code.matrix]
 
 
 def _is_loopback(host: str) -> bool:
@@ -69,7 +74,13 @@ def _is_loopback(host: str) -> bool:
 
 
 def _own_hosts() -> list[str]:
-    """Return this machine's addresses in IPv4, that of the way to other networks first."""
+    """Return this machine's addresses in IPv4, that of the way to other networks first.
+
+    Without the library that lists them it is that one alone.
+    """
+    first = _way_out()
+    if not has("app"):
+        return [] if first is None else [first]
     import psutil
 
     up = {name for name, stat in psutil.net_if_stats().items() if stat.isup}
@@ -81,7 +92,6 @@ def _own_hosts() -> list[str]:
         if address.family == socket.AF_INET
         and not ipaddress.ip_address(address.address).is_link_local
     ]
-    first = _way_out()
     return sorted(found, key=lambda host: host != first)
 
 

@@ -17,17 +17,6 @@ from stackbounce.explorer.framing import frame_rule
 from stackbounce.explorer.limits import Limits
 from stackbounce.explorer.made import PAGE_POLICY
 
-HEADERS = {
-    "x-content-type-options": "nosniff",
-    "referrer-policy": "no-referrer",
-    "cross-origin-opener-policy": "same-origin",
-    "cross-origin-resource-policy": "same-origin",
-    "cross-origin-embedder-policy": "require-corp",
-    "permissions-policy": "camera=(), geolocation=(), microphone=(self)",
-    "cache-control": "no-cache",
-}
-"""The headers of every answer; its content security policy depends on the page."""
-
 UPLOADS = ("/api/measure", "/api/fit")
 """The addresses that take a file."""
 

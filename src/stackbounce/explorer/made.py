@@ -31,6 +31,17 @@ PAGE_POLICY = (
 
 It loads nothing from elsewhere, and runs no script that is not a file of its own."""
 
+HEADERS = {
+    "x-content-type-options": "nosniff",
+    "referrer-policy": "no-referrer",
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+    "cross-origin-embedder-policy": "require-corp",
+    "permissions-policy": "camera=(), geolocation=(), microphone=(self)",
+    "cache-control": "no-cache",
+}
+"""The headers of every answer; its content security policy depends on the page."""
+
 _FORM = "index.html explorer.css explorer.js explorer.webmanifest icon.svg offline.js".split()
 _OF_FORM = ("engine.wasm", "layout.json", "model.json")  # in its folder made/
 

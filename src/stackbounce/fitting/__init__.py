@@ -27,7 +27,7 @@ question      a problem from texts, as typed beside a file
 ============= ====================================================================
 """
 
-from stackbounce.extras import need
+from stackbounce.extras import MEASURING, need
 from stackbounce.fitting.comparison import Comparison, compare
 from stackbounce.fitting.files import read_question
 from stackbounce.fitting.parameters import Range
@@ -57,4 +57,4 @@ __all__ = [
     "standard_models",
 ]
 
-need("fit", "stackbounce fit")
+need("stackbounce fit", *MEASURING)

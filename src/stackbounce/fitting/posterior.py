@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, shown, whole
+from stackbounce.extras import need
 from stackbounce.fitting.objective import Objective
 from stackbounce.run.options import check_room, seed_of
 from stackbounce.run.paths import identifier
@@ -199,7 +200,10 @@ def sample(fit: "Fit", draws: int, *, rng: Any = 0, progress: Any = None) -> Pos
         If the draws are too few, or do not fit into memory.
     InvalidType
         If a number is not a whole one.
+    MissingExtra
+        If emcee is not installed.
     """
+    need("a posterior", "emcee")
     import emcee
 
     objective, size = fit.objective, len(fit.names)

@@ -21,7 +21,7 @@ statistics/   regression, AR noise
 from importlib import import_module
 from typing import Any
 
-from stackbounce.extras import need
+from stackbounce.extras import MEASURING, need
 
 # Each name is imported when it is first used: the command line's help needs only the options.
 # Checkers of types read `__init__.pyi`.
@@ -47,7 +47,7 @@ __all__ = list(_HOMES)
 def __getattr__(name: str) -> Any:
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    need("measure", f"stackbounce.measure.{name}")
+    need(f"stackbounce.measure.{name}", *MEASURING)
     value = getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
     globals()[name] = value
     return value

@@ -21,4 +21,4 @@ __all__ = [
     "restitutions",
 ]
 
-need("plots", "a picture")
+need("a picture", "matplotlib")

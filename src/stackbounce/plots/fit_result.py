@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue
+from stackbounce.extras import need
 from stackbounce.plots.by_number import draw_by_number, draw_into, find_number, panels_of
 from stackbounce.plots.by_speed import restitutions
 from stackbounce.plots.model_comparison import compared, draw_pulls
@@ -240,6 +241,7 @@ def corner(posterior: Any, *, axes: Any = None) -> "Figure":
     >>> len(plots.corner(found.sample(6400)).axes)
     1
     """
+    need("a corner plot", "corner")
     import corner as library
 
     check_kind(posterior, "posterior", "Posterior")

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from stackbounce.errors import ScenarioError, whole
-from stackbounce.extras import need
+from stackbounce.extras import MEASURING, need
 from stackbounce.measure.quantities import without_error
 from stackbounce.model import Drop
 from stackbounce.model.toml import load_toml
@@ -71,7 +71,7 @@ def predict(
     InvalidType
         If something has the wrong type.
     MissingExtra
-        If the extra `measure` is not installed.
+        If the extra `lab` is not installed.
 
     Notes
     -----
@@ -90,7 +90,7 @@ def predict(
     >>> str(found["rebound_speeds.1"])
     '4.28+/-0.10'
     """
-    need("measure", "a number with an error")
+    need("a number with an error", *MEASURING)
     options = run_options(drop, until, rtol, event_limit)
     inputs = read_inputs(drop, errors)
     count = _default_draws(inputs.drop, options) if draws is None else draws

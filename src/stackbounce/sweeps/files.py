@@ -198,4 +198,4 @@ def check_name(path: Path) -> None:
         to = f".to_netcdf({path.name!r})"
         way = f"; xarray.open_zarr('map.zarr'){to} makes one of it" if suffix == ".nc" else ""
         raise InvalidValue(f"a sweep's file must end in .zarr, got {shown(path.name)}{way}")
-    need("sweep", "a .zarr file")
+    need("a .zarr file", "dask", "zarr")

@@ -150,7 +150,7 @@ def best_masses(
     >>> round(sb.best_masses(springs).balls[1].mass, 5)
     0.48518
     """
-    need("masses", "a search for masses")
+    need("a search for masses", "scipy")
     from scipy.optimize import differential_evolution
 
     run_options(drop, None, 1e-12, 1)

@@ -198,7 +198,7 @@ def write(done: SeriesFit, out: Path) -> None:
     from stackbounce.plots import restitutions
     from stackbounce.plots.style import render
 
-    need("paper", "the page of a comparison")
+    need("the page of a comparison", "jinja2", "matplotlib")
     figures = {
         found.series.name: render(partial(restitutions, replace(done, comparisons=(found,))), "svg")
         for found in done.comparisons

@@ -124,13 +124,15 @@ def _chunks(content: str, start: int) -> Iterator[str]:
 def _parsed(chunk: str, text: Text, used: Sequence[int]) -> Array | None:
     """Return rows whose wanted cells are all plain numbers or missing, else None.
 
-    The parser is that of pandas, which since 3.1 rounds every number to the nearest float, as
-    Python's ``float`` does.
+    The parser is that of pandas, which rounds every number to the nearest float, as Python's
+    ``float`` does: by its own choice since 3.1, where it is asked to before.
     """
     import pandas as pd
 
     blanks = text.delimiter == " "
     quoted = not blanks and '"' in chunk
+    older = tuple(map(int, pd.__version__.split(".")[:2])) < (3, 1)
+    nearest = {"float_precision": "round_trip"} if older else {}
     wanted = sorted(set(used))
     width = len(split(chunk.lstrip("\n").partition("\n")[0], text.delimiter))
     try:
@@ -147,6 +149,7 @@ def _parsed(chunk: str, text: Text, used: Sequence[int]) -> Array | None:
             skipinitialspace=True,
             quoting=csv.QUOTE_MINIMAL if quoted else csv.QUOTE_NONE,
             low_memory=False,
+            **nearest,
         )
     except (ValueError, OverflowError):
         return None

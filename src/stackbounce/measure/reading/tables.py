@@ -177,7 +177,7 @@ def from_xlsx(content: bytearray) -> Tables:
     MissingExtra
         If openpyxl is not installed.
     """
-    need("sheets", "an Excel file (.xlsx)")
+    need("an Excel file (.xlsx)", "openpyxl")
     left = [_BOOK_CELLS]
     try:
         with warnings.catch_warnings():
