@@ -4,6 +4,7 @@ import os
 import sys
 import warnings
 from collections.abc import Callable, Sequence
+from importlib import import_module
 from typing import Annotated, Any
 
 import typer
@@ -24,6 +25,11 @@ from stackbounce.cli.output import Unsolved
 from stackbounce.errors import StackbounceError
 
 __all__ = ["app", "main"]
+
+# Before 0.29 typer used click itself, and its errors.
+_WrongUsage: type[Any] = (
+    getattr(typer, "TyperException", None) or import_module("click").ClickException
+)
 
 app = typer.Typer(
     name="stackbounce",
@@ -103,7 +109,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _failed(str(error))
     except OSError as error:
         return _failed(f"{error.filename or 'the disk'}: {error.strerror or error}")
-    except typer.TyperException as error:
+    except _WrongUsage as error:
         return _failed(f"{error.format_message()} (see {_command(arguments)} --help)")
     except KeyboardInterrupt:
         code = 130

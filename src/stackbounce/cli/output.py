@@ -121,7 +121,8 @@ def progress_bar(what: str) -> Iterator[Any]:
     try:
         yield update
     finally:
-        bar.stop()
+        if bar.live.is_started:
+            bar.stop()
 
 
 def print_json(value: object) -> None:

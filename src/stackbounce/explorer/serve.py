@@ -135,7 +135,7 @@ def _playing_server(listening: socket.socket, framed_by: Sequence[str]) -> Calla
 
         timeout = 30  # s without a word from the client
 
-        def do_GET(self) -> None:  # noqa: N802
+        def do_GET(self) -> None:
             found = self.path.split("?")[0] == "/"
             self.send_response(200 if found else 404)
             known = {"content-type": "text/html", "content-length": len(page) if found else 0}

@@ -328,12 +328,12 @@ def _on_cluster(
 @contextlib.contextmanager
 def _cluster_errors() -> Iterator[None]:
     """Convert errors of the cluster to FileError with the advice to resume the sweep."""
-    from distributed import KilledWorker
-    from distributed.client import ClosedClientError
+    from distributed import KilledWorker, client
 
+    closed = getattr(client, "ClosedClientError", KilledWorker)  # older versions have none
     try:
         yield
-    except (OSError, CancelledError, KilledWorker, ClosedClientError) as error:
+    except (OSError, CancelledError, KilledWorker, closed) as error:
         what = " ".join(str(error).split()) or type(error).__name__
         raise FileError(
             "the cluster failed; the blocks done are kept, and the same command goes on from "

@@ -93,7 +93,7 @@ def test_a_bomb_of_entities_is_no_spreadsheet(read):
 def test_a_missing_reader_is_named(read, monkeypatch):
     content = xlsx(SHEETS)
     monkeypatch.setitem(sys.modules, "openpyxl", None)
-    words = r"an Excel file \(.xlsx\) needs openpyxl: pip install 'stackbounce\[sheets\]'"
+    words = r"an Excel file \(.xlsx\) needs openpyxl: pip install 'stackbounce\[lab\]'"
     with pytest.raises(MissingExtra, match=words):
         read(content)
 

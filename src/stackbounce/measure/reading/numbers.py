@@ -156,6 +156,8 @@ def _parsed(chunk: str, text: Text, used: Sequence[int]) -> Array | None:
     if any(kind.kind not in "fiu" for kind in frame.dtypes):
         return None
     block: Array = frame[list(used)].to_numpy(dtype=np.float64)
+    if "\0" in chunk:
+        return None  # pandas before 3 ends a number there
     if quoted and len(block) != sum(not line.isspace() for line in chunk.split("\n") if line):
         return None  # a quotation mark joined lines
     return block
