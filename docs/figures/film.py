@@ -16,8 +16,8 @@ from playwright.sync_api import sync_playwright
 from stackbounce.cli import main
 
 FILM = Path(__file__).parents[1] / "_static" / "film.gif"
-VIEW = {"width": 680, "height": 600}  # px
-FRAME = 50  # ms, of each picture
+VIEW = {"width": 640, "height": 570}  # px
+FRAME = 60  # ms, of each picture
 REST = 900  # ms, of the last one
 COLORS = Image.Quantize.MAXCOVERAGE  # others lose white and the arrows' green
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
