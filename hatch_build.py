@@ -1,6 +1,6 @@
-"""Compile the kernels and make the page while hatchling builds the package.
+"""Compile the kernels and make the page while hatchling builds the package, and complete README.
 
-A wheel holds them, see `kernel_build` and `page_build`.
+A wheel holds kernels and page, see `kernel_build` and `page_build`.
 
 The environment variable STACKBOUNCE_PLATFORM, such as ``macos-aarch64``, asks for the wheel of
 another platform, and ``any`` for that of all others: plain Python, and the page. Where nothing can
@@ -9,12 +9,16 @@ be compiled, the wheel has plain Python only, and no page.
 
 import json
 import os
+import re
+import runpy
 import subprocess
 import sys
 from pathlib import Path
 from typing import Any
+from urllib.parse import urljoin
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+from hatchling.metadata.plugin.interface import MetadataHookInterface
 
 NATIVE = "stackbounce/engine/native"
 PAGE = "stackbounce/explorer/made"
@@ -80,3 +84,20 @@ class KernelHook(BuildHookInterface[Any]):
             str(folder / library["file"]): f"{NATIVE}/{library['file']}",
             str(ours): f"{NATIVE}/{MANIFEST}",
         }
+
+
+class ReadmeHook(MetadataHookInterface):
+    """Hatchling calls it for the metadata, of which README is the long description."""
+
+    def update(self, metadata: dict[str, Any]) -> None:
+        """Set README with whole addresses, in the source of this version, for its relative ones."""
+        root = Path(self.root)
+        version = runpy.run_path(str(root / "src/stackbounce/version.py"))["__version__"]
+        source = metadata["urls"]["Source"]
+
+        def whole(link: re.Match[str]) -> str:
+            kind = "raw" if link[1].endswith((".gif", ".png")) else "blob"
+            return f"]({urljoin(f'{source}/{kind}/v{version}/', link[1])})"
+
+        text = re.sub(r"\]\((?!https://)([^)]+)\)", whole, (root / "README.md").read_text("utf-8"))
+        metadata["readme"] = {"content-type": "text/markdown", "text": text}

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import re
 import sys
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
@@ -50,6 +51,19 @@ def test_the_metadata_have_the_licence_of_all_that_is_vendored():
     assert vendored
     assert {ROOT / "LICENSE", *(path / "LICENSE" for path in vendored)} == named
     assert project["license"] == "BSD-3-Clause AND MIT"
+
+
+def test_the_long_description_has_whole_addresses_of_what_there_is():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    source = project["urls"]["Source"]
+    hatch_build.ReadmeHook(str(ROOT), {}).update(project)
+    links = re.findall(r"\]\(([^)]+)\)", project["readme"]["text"])
+    assert f"{source}/raw/v{__version__}/docs/_static/film.gif" in links
+    assert f"{source}/releases/latest" in links
+    pages = [link.removeprefix(f"{source}/blob/v{__version__}/") for link in links]
+    pages = [page.partition("#")[0] for page in pages if not page.startswith(source)]
+    assert len(pages) > 10
+    assert [page for page in pages if not (ROOT / page).is_file()] == []
 
 
 @pytest.mark.usefixtures("quick")
