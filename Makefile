@@ -28,7 +28,7 @@ RUNTIME := $(VENV)/runtime.stamp
 DEV := $(VENV)/dev.stamp
 
 .DEFAULT_GOAL := help
-.PHONY: help venv kernels paper study app explorer test lowest coverage browsers bench check lint types imports docs format fuzz attack frozen constraints wheels \
+.PHONY: help venv kernels paper study app explorer test lowest coverage browsers bench check lint types imports docs site format fuzz attack frozen constraints wheels \
 	clean distclean
 
 help:  ## list the targets
@@ -105,6 +105,11 @@ imports: $(DEV)  ## the import rules (import-linter)
 docs: $(DEV) kernels  ## build the documentation in build/docs, warnings being errors
 	@$(BIN)/python -m sphinx -q -E -W --keep-going -n -b html -d build/doctrees docs build/docs
 	@echo "Documentation: $(CURDIR)/build/docs/index.html"
+
+site: $(DEV) kernels  ## the documentation and the explorer as a folder for a server or a stick, build/site; each page is visited in Chromium
+	@rm -rf build/site
+	@$(BIN)/python -m sphinx -q -E -W --keep-going -n -b html -d build/doctrees docs build/site
+	@$(BIN)/python site_check.py build/site
 
 format: $(DEV)  ## let ruff put the code in order
 	@$(BIN)/ruff check --fix

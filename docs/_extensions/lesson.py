@@ -57,15 +57,10 @@ def lesson_markdown(lesson: dict[str, Any]) -> str:
 
 
 def _blocks(lesson: dict[str, Any]) -> Iterator[str]:
-    yield _table(
-        [
-            ["", ""],
-            ["for whom", lesson["for_whom"]],
-            ["time", f"{lesson['minutes']} minutes"],
-            ["needs", lesson["needs"]],
-            ["misconception", lesson["misconception"]],
-        ]
-    )
+    yield f"For whom\n: {lesson['for_whom']}"
+    yield f"Time\n: {lesson['minutes']} minutes"
+    yield f"Needs\n: {lesson['needs']}"
+    yield f"Misconception\n: {lesson['misconception']}"
     yield "## Steps"
     yield _listed(
         [

@@ -73,7 +73,7 @@ class Table(NamedTuple):
             return f"<tr>{''.join(own)}</tr>"
 
         others = len(sides) - 1
-        head = line(self.columns, *['th scope="col"'] * len(sides))
+        head = line(self.columns, *('th scope="col"' if name else "td" for name in self.columns))
         body = "".join(line(row, 'th scope="row"', *["td"] * others) for row in self.rows)
         above = f"<thead>{head}</thead>" if any(self.columns) else ""
         look = 'style="text-align:left;white-space:nowrap"'
