@@ -7,7 +7,7 @@ The exit status is 1 if there is a finding:
   folder of the server, and opened from the disk, as from a stick
 * an error or warning of the console
 * a violation of what axe-core knows of WCAG and ARIA, on each page, wide and narrow, light and dark
-* a page that is wider than the window; a search that finds nothing
+* a page, or a part of one that does not scroll, wider than the window; a search that finds nothing
 """
 
 import shutil
@@ -63,7 +63,14 @@ VIOLATIONS = """async ([part, rules]) => {
 STRUCTURE = {"rules": {"color-contrast": {"enabled": False}}}
 CONTRAST = {"runOnly": ["color-contrast"]}
 SCROLLED = {"runOnly": ["scrollable-region-focusable"]}
-WIDER = "() => document.documentElement.scrollWidth > document.documentElement.clientWidth"
+WIDER = """() => {
+  const html = document.documentElement;
+  const scrolls = (part) => part.tagName !== "ARTICLE"
+    && (/auto|scroll/.test(getComputedStyle(part).overflowX) || scrolls(part.parentElement));
+  const isOut = (part) => part.getBoundingClientRect().right > innerWidth + 1 && !scrolls(part);
+  return html.scrollWidth > html.clientWidth
+    || [...document.querySelectorAll("article *")].some(isOut);
+}"""
 
 
 def main() -> int:
