@@ -73,9 +73,9 @@ WIDER = """() => {
 }"""
 
 
-def main() -> int:
-    """Check the folder that is given, print what was found, and return the exit status."""
-    folder = Path(sys.argv[1]).resolve()
+def main(folder: Path) -> int:
+    """Check a folder, print what was found, and return the exit status."""
+    folder = folder.resolve()
     browser_path = next(filter(None, map(shutil.which, BROWSERS)), None)
     if browser_path is None:
         sys.stderr.write("The site is checked in Chromium (on Debian: apt install chromium)\n")
@@ -212,4 +212,4 @@ class Visit:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(Path(sys.argv[1])))
