@@ -7,7 +7,7 @@ The exit status is 1 if there is a finding:
   folder of the server, and opened from the disk, as from a stick
 * an error or warning of the console
 * a violation of what axe-core knows of WCAG and ARIA, on each page, wide and narrow, light and dark
-* a page that is wider than the window; a search that finds nothing
+* a page, or a part of one that does not scroll, wider than the window; a search that finds nothing
 """
 
 import shutil
@@ -63,12 +63,19 @@ VIOLATIONS = """async ([part, rules]) => {
 STRUCTURE = {"rules": {"color-contrast": {"enabled": False}}}
 CONTRAST = {"runOnly": ["color-contrast"]}
 SCROLLED = {"runOnly": ["scrollable-region-focusable"]}
-WIDER = "() => document.documentElement.scrollWidth > document.documentElement.clientWidth"
+WIDER = """() => {
+  const html = document.documentElement;
+  const scrolls = (part) => part.tagName !== "ARTICLE"
+    && (/auto|scroll/.test(getComputedStyle(part).overflowX) || scrolls(part.parentElement));
+  const isOut = (part) => part.getBoundingClientRect().right > innerWidth + 1 && !scrolls(part);
+  return html.scrollWidth > html.clientWidth
+    || [...document.querySelectorAll("article *")].some(isOut);
+}"""
 
 
-def main() -> int:
-    """Check the folder that is given, print what was found, and return the exit status."""
-    folder = Path(sys.argv[1]).resolve()
+def main(folder: Path) -> int:
+    """Check a folder, print what was found, and return the exit status."""
+    folder = folder.resolve()
     browser_path = next(filter(None, map(shutil.which, BROWSERS)), None)
     if browser_path is None:
         sys.stderr.write("The site is checked in Chromium (on Debian: apt install chromium)\n")
@@ -205,4 +212,4 @@ class Visit:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(Path(sys.argv[1])))
