@@ -59,7 +59,7 @@ def make_files(
     drawn: dict[str, tuple[Picture, str]] = {}
     for picture in draw_pictures(done):
         progress(f"figure {picture.name}")
-        images = render(picture.figure)
+        images = render(picture.picture)
         found |= {f"figures/{picture.name}.{end}": data for end, data in images.items()}
         drawn[picture.name.removeprefix("study-")] = picture, data_uri(images["svg"])
     found["study.json"] = (json.dumps(_plain(done.as_dict()), indent=1) + "\n").encode()
