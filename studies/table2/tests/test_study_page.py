@@ -67,13 +67,13 @@ class Page(HTMLParser):
 
     def handle_starttag(self, tag, attrs):
         attrs = dict(attrs)
-        if tag not in {"meta", "img", "br"}:
+        if tag not in {"meta", "img", "br", "link"}:
             self.open.append(tag)
         if "id" in attrs:
             self.ids.append(attrs["id"])
         if "src" in attrs:
             self.loads.append(attrs["src"])
-        if "href" in attrs:
+        if "href" in attrs and tag == "a":
             self.links.append(attrs["href"])
 
     def handle_endtag(self, tag):
