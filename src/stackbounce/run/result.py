@@ -4,7 +4,7 @@ import dataclasses
 import enum
 import functools
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from stackbounce.errors import InvalidType, InvalidValue, finite, no_attribute, 
 from stackbounce.model import STANDARD_GRAVITY, Drop
 from stackbounce.model.drawing import label, meeting
 from stackbounce.run.conditioning import amplification, known_until
+from stackbounce.run.sideways import leave_sideways
 from stackbounce.shown import Shown, Table
 from stackbounce.units import in_unit
 from stackbounce.version import __version__
@@ -373,6 +374,49 @@ class Result(Shown):
             for row, (top, ball, _, rise) in enumerate(rising)
         ]
         return _frozen(np.array(rows, dtype=APEX))
+
+    def sideways(
+        self, offsets: Mapping[int, Any] | None = None, speeds: Mapping[int, Any] | None = None
+    ) -> "xarray.Dataset":
+        """Return how balls leave sideways that do not stand exactly above each other.
+
+        To first order in the offsets, without friction, and without a run: the vertical motion is
+        that of this run.
+
+        Parameters
+        ----------
+        offsets : mapping, optional
+            From balls to their offsets at the start in m, or texts with a unit; 0 for all others.
+        speeds : mapping, optional
+            From balls to their sideways speeds at the start in m/s, likewise.
+
+        Returns
+        -------
+        xarray.Dataset
+            By ball: `sideways_speed` (m/s), `angle` (rad, from straight up) and `offset` (m) at the
+            end of the run; `offset_at_top` and `landing` (m) where it flies on to its highest point
+            and comes down to where it lay, nan where it does not. The attribute `remark` says where
+            first order ends. Without arguments by (ball, moved): `transfer` (1/s), the sideways
+            speed per offset of the ball that was moved, and `amplification`, the offset.
+
+        Raises
+        ------
+        InvalidValue
+            If a ball has no diameter, or a number makes no sense; if the run is INVALID, or had
+            infinitely many collisions.
+        InvalidType
+            If an argument has the wrong type.
+
+        Examples
+        --------
+        A tennis ball that lies 1 mm off the middle of a basketball leaves at 1.7 degrees:
+
+        >>> import stackbounce as sb
+        >>> result = sb.simulate(sb.stack("basketball", "tennis", height="63 cm"))
+        >>> np.degrees(result.sideways({1: "1 mm"}).angle[1]).round(2).item()
+        1.65
+        """
+        return leave_sideways(self, offsets, speeds)
 
     def to_dataset(self) -> "xarray.Dataset":
         """Return all numbers of the result as a Dataset, with units and names in attributes.
