@@ -42,8 +42,7 @@ def test_correlated_numbers_keep_their_covariance():
     assert found["durations.0"].std_dev == pytest.approx(exact.std_dev, rel=1e-4)
     both = covariance_matrix([found["durations.0"], mass])
     assert both[0][1] == pytest.approx(covariance_matrix([exact, mass])[0][1], rel=1e-4)
-    assert np.isnan(found.sensitivity.total).all()
-    assert float(found.sensitivity["first"].sel(quantity="durations.0").sum()) == pytest.approx(1.0)
+    assert float(found.sensitivity.sel(quantity="durations.0").sum()) == pytest.approx(1.0)
     assert "correlated" in found.advice("durations.0")
 
 
@@ -110,24 +109,6 @@ def test_round_off_has_no_error():
     assert found["rebound_speeds.0"].std_dev == 0.0
     assert found["rebound_speeds.1"].std_dev == pytest.approx(0.01, rel=1e-6)
     assert math.isnan(found["first_touch.0"].nominal_value)
-
-
-def test_sobol_indices_of_a_product():
-    # v = e v0: the variance of a product is known
-    e, v = (0.5, 0.2), (3.0, 1.0)
-    drop = sb.Drop([sb.Ball(1.0)], [sb.Rigid(0.5)], impact_speed=3.0)
-    errors = {"contacts.0.restitution": e, "impact_speed": v}
-    found = sb.predict(drop, errors, draws=10_000)
-    row = found.sensitivity.sel(quantity="rebound_speeds.0")
-    draws = found.draws
-    deviations = [float(drawn.std() / drawn.mean()) for drawn in draws.coords.values()]
-    a, b = np.square(deviations)
-    whole = a + b + a * b
-    expected = {"first": [a / whole, b / whole], "total": [1 - b / whole, 1 - a / whole]}
-    for name, values in expected.items():
-        off = np.abs(row[name].values - values)
-        assert np.all(off < 4.0 * row[f"{name}_error"].values)
-        assert np.all(off < 0.05)
 
 
 def test_the_advice_names_the_number_that_makes_most():

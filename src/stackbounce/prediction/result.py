@@ -11,8 +11,8 @@ import numpy as np
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
 from stackbounce.prediction.draws import Slopes, budget, carry
-from stackbounce.prediction.inputs import FEWEST, Inputs, error_of_deviation, of_draws
-from stackbounce.prediction.sensitivity import Sensitivity, fit_slopes, linear_shares, sobol_indices
+from stackbounce.prediction.inputs import Inputs, error_of_deviation, of_draws
+from stackbounce.prediction.sensitivity import fit_slopes, linear_shares
 from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options
 from stackbounce.run.paths import identifier
@@ -239,22 +239,21 @@ class Prediction(Shown):
         return np.asarray(np.nanquantile(self._columns[name], at))
 
     @functools.cached_property
-    def sensitivity(self) -> "xr.Dataset":
-        """The share of each number's error in the variance of each quantity.
+    def sensitivity(self) -> "xr.DataArray":
+        """The share (quantity, number) of each number's error in the variance of each quantity.
 
-        `first` (quantity, number) is the share that a number makes on its own, and `total` that
-        which it makes on its own and together with others. With draws these are Sobol indices, and
-        `first_error` and `total_error` their standard errors. For correlated numbers they are not
-        defined: `first` is then the share by derivatives, or by a straight line through the draws,
-        and `total` is nan.
+        It is found by derivatives, or by a straight line through the draws. For correlated numbers
+        it has half of what each pair makes together, and may be negative.
         """
         import xarray as xr
 
-        half = min(len(self.drawn) // 2, self._affordable(len(self.inputs.numbers)))
-        enough = self.reason and self.inputs.independent and half >= FEWEST // 2
-        found = self._sobol(half) if enough else self._linear()
-        fields = {key: (("quantity", "number"), table) for key, table in found._asdict().items()}
-        return xr.Dataset(fields, {"quantity": list(self._columns), "number": self.inputs.paths})
+        if self.reason:
+            slopes = fit_slopes(self.drawn, np.column_stack(list(self._columns.values())))
+        else:
+            slopes = np.vstack([slope for _, slope in self.slopes.values()])
+        shares = linear_shares(slopes, self.inputs.covariance)
+        sides = {"quantity": list(self._columns), "number": self.inputs.paths}
+        return xr.DataArray(shares, sides, name="share")
 
     def advice(self, name: str = "") -> str:
         """Return which number to measure better, in a sentence; empty if there is only one.
@@ -280,8 +279,7 @@ class Prediction(Shown):
         _ = self[name]
         if len(self.inputs.numbers) < 2:
             return ""
-        row = self.sensitivity.sel(quantity=name)
-        shares = (row["first"] if np.isnan(row.total).all() else row.total).values
+        shares = self.sensitivity.sel(quantity=name).values
         if not np.isfinite(shares).all():
             return ""
         best = int(np.argmax(shares))
@@ -423,7 +421,7 @@ class Prediction(Shown):
             "numbers": {name: _plain(number) for name, number in self.errors.items()},
             "values": {name: _plain(number) for name, number in self._all.items()},
             "shares": {
-                number: self.sensitivity["first"].sel(number=number).to_series().to_dict()
+                number: self.sensitivity.sel(number=number).to_series().to_dict()
                 for number in self.inputs.paths
             },
         }
@@ -456,24 +454,6 @@ class Prediction(Shown):
             for name in _FLOATS
             for part, column in enumerate(self.solved.tables[name].T)
         }
-
-    def _solve(self, x: Array) -> Array:
-        """Return all quantities (n, parts) of some drops; nan for those that are not possible."""
-        good, _ = self.inputs.possible(x)
-        x = np.where(good[:, None], x, self.inputs.values)
-        tables = self.inputs.solve(x, self.options).tables
-        return np.where(good[:, None], np.hstack([tables[name] for name in _FLOATS]), np.nan)
-
-    def _linear(self) -> Sensitivity:
-        if self.reason:
-            slopes = fit_slopes(self.drawn, np.column_stack(list(self._columns.values())))
-        else:
-            slopes = np.vstack([slope for _, slope in self.slopes.values()])
-        return linear_shares(slopes, self.inputs.covariance, independent=self.inputs.independent)
-
-    def _sobol(self, half: int) -> Sensitivity:
-        answers = np.column_stack(list(self._columns.values()))[: 2 * half]
-        return sobol_indices(self._solve, self.drawn[:half], self.drawn[half : 2 * half], answers)
 
 
 def _label(name: str, part: int) -> str:
