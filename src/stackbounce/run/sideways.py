@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 
 _Array = NDArray[np.float64]
 
-_LIMIT = math.radians(15.0)  # an exact angle of 16.5 degrees is 16.1 to first order
-_REMARK = "an angle is above 15 degrees, where first order ends: the exact one is larger"
+LIMIT = math.radians(15.0)  # an exact angle of 16.5 degrees is 16.1 to first order
+REMARK = "an angle is above 15 degrees, where first order ends"
 
 _NODES = 32  # of a stretch between two events or peaks: 16 give 3e-7 of a speed, 24 give 2e-10
 _SWEEPS = 100  # of Picard's iteration, whose error falls as 1/(2 n)!
@@ -68,8 +68,8 @@ def leave_sideways(
         down = (upward + np.sqrt(upward**2 + 2.0 * pull * above)) / pull
     down[~(down >= 0.0)] = math.nan
     top = np.where(upward > 0.0, upward / pull, math.nan)
-    if np.any(np.abs(angle[upward > 0.0]) > _LIMIT):
-        attrs["remark"] = _REMARK
+    if np.any(np.abs(angle[upward > 0.0]) > LIMIT):
+        attrs["remark"] = REMARK
     columns = {
         "sideways_speed": (sideways, "m/s"),
         "angle": (angle, "rad"),
