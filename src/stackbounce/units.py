@@ -25,6 +25,7 @@ _KINDS = {
     "m": ("a length", "58 mm"),
     "s": ("a time", "30 ms"),
     "m/s": ("a speed", "3.53 m/s"),
+    "rad": ("an angle", "5 deg"),
     "m/s**2": ("an acceleration", "9.81 m/s^2"),
     "N/m": ("a stiffness", "20 kN/m"),
     "N s/m": ("a damping", "7 N s/m"),

@@ -217,6 +217,33 @@ def test_a_scenario_file_and_changes_to_it(printed, told):
     )
 
 
+@pytest.mark.parametrize("laws", [[], ["--contact", "Rigid restitution=0.9"] * 2])
+def test_a_ball_off_the_middle_and_how_straight_it_must_lie(laws, printed, told):
+    asked = [*PAIR, *laws, "--offset", "1mm", "--straight", "5 deg"]
+    found = told(*asked)
+    result = sb.simulate(sb.Drop.from_mapping(found["drop"]))
+    (leaving,), (straight,) = found["sideways"], found["straight"]
+    top = result.sideways({1: 1e-3}).isel(ball=1)
+    top = {name: float(value) for name, value in top.items()}
+    assert leaving == {"moved": 1, **top}
+    for ball, most in enumerate(straight["most"]):
+        angle = result.sideways({1: most}).angle.values[ball]
+        assert abs(angle) == pytest.approx(math.radians(5.0), rel=1e-9)
+    off, within = rows(printed(*asked), "tennis")[1:]
+    numbers = [math.degrees(top["angle"]), top["sideways_speed"], top["landing"]]
+    assert [float(cell) for cell in off[1:]] == pytest.approx(numbers, rel=1e-3)
+    assert float(within[1]) == pytest.approx(1e3 * straight["most"][1], rel=1e-3)
+
+
+def test_a_tower_says_which_ball_matters_most_and_where_first_order_ends(printed, told):
+    asked = ["simulate", "B1", "B2", "B3", "tennis", "--offset", "1mm", "--straight", "5deg"]
+    most = [row["most"][-1] for row in told(*asked)["straight"]]
+    worst = ("B2", "B3", "tennis")[most.index(min(most))]
+    out = printed(*asked)
+    assert f"For the tennis, the place of {worst} matters most." in out
+    assert "An angle is above 15 degrees, where first order ends." in out
+
+
 def test_names_cannot_write_on_the_terminal(run):
     drop = sb.Drop([sb.Ball(1.0, name="a\x1b[31mb\nc[red] ..")], [sb.Spring(1.0)], impact_speed=1.0)
     Path("drop.toml").write_text(drop.to_toml())

@@ -1,5 +1,6 @@
 """``stackbounce simulate`` of numbers with errors."""
 
+import math
 from pathlib import Path
 
 import pytest
@@ -36,6 +37,19 @@ def test_json_has_the_errors_of_predict(told):
     drop = sb.Drop.from_mapping(found["drop"])
     exact = sb.predict(drop, {"height": (0.63, 0.01)})["rebound_speeds.1"]
     assert errors["values"]["rebound_speeds.1"]["error"] == pytest.approx(exact.std_dev)
+
+
+def test_an_error_of_a_balls_place(printed, told):
+    asked = ("simulate", "basketball", "tennis", "--height", "63 cm", "--offset", "0 ± 1 mm")
+    found = told(*asked)["errors"]
+    assert found["numbers"] == {"offsets.1": {"value": 0.0, "error": 1e-3}}
+    drop = sb.stack("basketball", "tennis", height="63 cm")
+    alone = float(sb.simulate(drop).sideways({1: 1e-3}).angle[1])
+    assert found["values"]["angle.1"] == {"value": 0.0, "error": pytest.approx(alone)}
+    out = printed(*asked)
+    assert "Errors of offsets, carried to first order." in out
+    assert "How the balls leave if each above the lowest lies 0.0(1.0) mm off the middle" in out
+    assert f"0.0({math.degrees(alone):.1f})" in out
 
 
 def test_errors_stand_in_every_option():

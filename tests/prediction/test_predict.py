@@ -52,6 +52,38 @@ def test_the_same_variable_twice_cancels():
     assert found["durations.0"].std_dev < 1e-6 * found["durations.0"].nominal_value
 
 
+def test_errors_of_offsets_and_of_the_drop_add_up():
+    drop = sb.stack("basketball", "B1", "tennis", height=1.0, gap="1 mm")
+    drop = drop.replace(contacts=[sb.Hertz(1e6)] * 3, impact_speed=2.0)
+    one, off = {"offsets.1": "10 ± 5 µm"}, ufloat(0.0, 2e-5)
+    transfer = sb.simulate(drop).sideways().transfer.values
+    found = sb.predict(drop, {**one, "offsets.2": off, "impact_speed": (2.0, 0.02)})
+    assert found.method == "derivatives"
+    assert set(found.errors) == {"impact_speed", "offsets.1", "offsets.2"}
+    for ball in range(3):
+        speed = found.sideways[f"sideways_speed.{ball}"]
+        assert speed.nominal_value == pytest.approx(1e-5 * transfer[ball, 1])
+        alone = [sb.predict(drop, given) for given in (one, {"offsets.2": off})]
+        parts = [each.sideways[f"sideways_speed.{ball}"].std_dev for each in alone]
+        assert parts == pytest.approx(np.abs([5e-6, 2e-5] * transfer[ball, 1:]))
+        fast, slow = (sb.simulate(drop.replace(impact_speed=v)).sideways() for v in (2.02, 1.98))
+        by_speed = 0.5e-5 * float(fast.transfer[ball, 1] - slow.transfer[ball, 1])
+        assert speed.std_dev == pytest.approx(math.hypot(*parts, by_speed), rel=1e-3)
+        share = speed.error_components()[off]
+        assert share == pytest.approx(parts[1])
+    assert found.notes == ()
+    assert "first order ends" in sb.predict(drop, {"offsets.2": "0 ± 2 cm"}).notes[0]
+    assert "angle.2" in str(found)
+
+
+def test_offsets_of_draws():
+    balls = [sb.Ball(ball.mass, diameter=0.04) for ball in LOSSY.balls]
+    found = sb.predict(LOSSY.replace(balls=balls), {**CHANGING, "offsets.1": "0 ± 1 mm"}, draws=200)
+    assert found.method == "draws"
+    alone = found.result.sideways({1: 1e-3}).landing.values
+    assert found.sideways["landing.1"].std_dev == pytest.approx(abs(alone[1]))
+
+
 def test_changing_counts_are_drawn():
     found = sb.predict(LOSSY, CHANGING)
     assert found.method == "draws"

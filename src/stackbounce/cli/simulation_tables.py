@@ -6,14 +6,13 @@ from rich.console import Console
 
 from stackbounce.cli.bounce_tables import Bounce
 from stackbounce.cli.scenario import Scenario
-from stackbounce.cli.tables import new_table, number, percent, write_count
+from stackbounce.cli.tables import number, percent, write_count
 from stackbounce.model import Tabulated
 from stackbounce.model.catalogue import DEFAULT_HEIGHT
 from stackbounce.model.drawing import label, meeting
 from stackbounce.model.laws import ContactLaw
 from stackbounce.prediction import Prediction
 from stackbounce.run.result import Result, Status
-from stackbounce.run.sideways import LIMIT, REMARK
 
 _LONG = 5_000_000  # work of a run that is not repeated to find its conditioning
 
@@ -70,24 +69,6 @@ def print_simulation(
         for text in (prediction.how, prediction.advice(), *prediction.notes):
             if text:
                 console.print(f"{text[0].upper()}{text[1:]}.")
-
-
-def print_aside(
-    console: Console, result: Result, offset: float, rows: list[dict[str, float]]
-) -> None:
-    """Print how the uppermost ball leaves if a ball, each alone, lies off the middle."""
-    balls = result.drop.balls
-    top = label(balls[-1].name, len(balls) - 1)
-    title = f"How the {top} leaves if a ball lies {offset * 1e3:.6g} mm off the middle"
-    headings = ["angle\n°", "sideways\nm/s", "lands off\nm", "1° for\nmm"]
-    table = new_table(title, ["\nball that is off"], headings)
-    for row in rows:
-        angle = math.degrees(row["angle"])
-        cells = angle, row["sideways_speed"], row["landing"], 1e3 * offset / abs(angle)
-        table.add_row(label(balls[int(row["moved"])].name, int(row["moved"])), *map(number, cells))
-    console.print(table)
-    if any(abs(row["angle"]) > LIMIT for row in rows):
-        console.print(f"{REMARK[0].upper()}{REMARK[1:]}.")
 
 
 def _closing(console: Console, result: Result, textbook: Result | None) -> None:

@@ -44,12 +44,15 @@ class Inputs:
         Their values with errors.
     given : mapping of int to ndarray
         Draws (n,) of those numbers that were given by draws, by index: a row holds for all of them.
+    offsets : mapping of int to UFloat
+        How far balls lie off the middle, in m.
     """
 
     base: Drop
     numbers: tuple[Number, ...]
     errors: tuple[Any, ...]
     given: Mapping[int, Array]
+    offsets: Mapping[int, Any]
 
     @property
     def paths(self) -> list[str]:
@@ -68,7 +71,7 @@ class Inputs:
         rows = [
             [error.derivatives.get(v, 0.0) * v.std_dev for v in variables] for error in self.errors
         ]
-        return np.array(rows)
+        return np.reshape(rows, (len(rows), len(variables)))
 
     @property
     def covariance(self) -> Array:
@@ -212,9 +215,13 @@ def read_inputs(drop: Drop, errors: object) -> Inputs:
             "errors must map paths to numbers with errors, such as {'height': '63 ± 1 cm'}, "
             f"got {shown(errors)}"
         )
-    numbers = tuple(number_at(drop, path) for path in errors)
+    places = {f"offsets.{i}": i for i in range(len(drop.balls))}
+    numbers = tuple(number_at(drop, path) for path in errors if path not in places)
     check_together(numbers)
-    errors = {one.path: magnitude(errors[one.path], one.unit, one.path) for one in numbers}
+    aside = [Number(p, "offsets", i, "", "m") for p, i in places.items() if p in errors]
+    errors = {
+        one.path: magnitude(errors[one.path], one.unit, one.path) for one in (*numbers, *aside)
+    }
     given = {
         k: _draws(number.path, errors[number.path])
         for k, number in enumerate(numbers)
@@ -229,8 +236,9 @@ def read_inputs(drop: Drop, errors: object) -> Inputs:
         known[k] if k in known else _with_error(number, errors[number.path])
         for k, number in enumerate(numbers)
     )
-    inputs = Inputs(drop, numbers, values, given)
-    if not inputs.spread.any():
+    offsets = {number.index: _with_error(number, errors[number.path]) for number in aside}
+    inputs = Inputs(drop, numbers, values, given, offsets)
+    if not inputs.spread.any() and not any(offset.std_dev for offset in offsets.values()):
         raise InvalidValue("errors must have a number with an error above 0, got none")
     return inputs
 

@@ -12,7 +12,7 @@ from stackbounce.measure.quantities import without_error
 from stackbounce.model import Drop
 from stackbounce.model.toml import load_toml
 from stackbounce.prediction.draws import DRAWS, Progress, Slopes, differentiate, solve_draws
-from stackbounce.prediction.inputs import FEWEST, read_inputs
+from stackbounce.prediction.inputs import FEWEST, Inputs, read_inputs
 from stackbounce.prediction.result import Prediction
 from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options, run_options, seed_of
@@ -42,7 +42,8 @@ def predict(
     drop : Drop
         All numbers; those in `errors` replace its own.
     errors : mapping
-        Numbers with errors, by the paths that `sweep` has: a ``UFloat`` of `uncertainties`, in SI
+        Numbers with errors, by the paths that `sweep` has, or ``offsets.1`` for how far ball 1 lies
+        off the middle (see `Prediction.sideways`): a ``UFloat`` of `uncertainties`, in SI
         units (correlated ones stay so), a text such as ``"63 ± 1 cm"``, a pair of value and
         standard deviation, or an array of draws, of which each row holds for all arrays.
     until, rtol, event_limit
@@ -93,7 +94,7 @@ def predict(
     need("a number with an error", *MEASURING)
     options = run_options(drop, until, rtol, event_limit)
     inputs = read_inputs(drop, errors)
-    count = _default_draws(inputs.drop, options) if draws is None else draws
+    count = _default_draws(inputs, options) if draws is None else draws
     count = whole("draws", count, FEWEST, _MOST)
     drawn, refused, share = inputs.draw(count, seed_of(rng))
     reason = "draws were given" if inputs.given else ""
@@ -107,9 +108,11 @@ def predict(
     return Prediction(inputs, options, reason, difference, slopes, drawn, solved, refused, asked)
 
 
-def _default_draws(drop: Drop, options: Options) -> int:
+def _default_draws(inputs: Inputs, options: Options) -> int:
     """Return how many draws of a drop have a reasonable number of events together."""
-    result = solve_one(drop, options)
+    if not inputs.numbers:
+        return FEWEST
+    result = solve_one(inputs.drop, options)
     most = _NONLINEAR_EVENTS if result.precision > ROUND_OFF else _EVENTS
     return min(DRAWS, max(FEWEST, most // max(1, len(result.events))))
 

@@ -18,6 +18,7 @@ from stackbounce.run.options import Options
 from stackbounce.run.paths import identifier
 from stackbounce.run.quantities import QUANTITIES, Array, Solved
 from stackbounce.run.result import Result, Status
+from stackbounce.run.sideways import LIMIT, REMARK, UNITS
 from stackbounce.shown import Shown, Table
 from stackbounce.units import rounded
 from stackbounce.version import __version__
@@ -106,10 +107,10 @@ class Prediction(Shown):
 
     def _tables(self) -> Sequence[Table]:
         rows = []
-        for name, number in self._all.items():
+        units = {name: one.unit for name, one in QUANTITIES.items()} | UNITS
+        for name, number in (self._all | self.sideways).items():
             value, error = rounded((number.nominal_value, number.std_dev), number.std_dev)
-            unit = QUANTITIES[name.partition(".")[0]].unit
-            rows.append((name, value, f"± {error}", unit))
+            rows.append((name, value, f"± {error}", units[name.partition(".")[0]]))
         return (Table(f"Prediction of a drop {self.drop.incidence}", ("", "", "", ""), rows),)
 
     def _drawing(self) -> str:
@@ -133,7 +134,8 @@ class Prediction(Shown):
     @property
     def errors(self) -> "dict[str, UFloat]":
         """The numbers with errors, by their paths, in SI units."""
-        return dict(zip(self.inputs.paths, self.inputs.errors, strict=True))
+        found = dict(zip(self.inputs.paths, self.inputs.errors, strict=True))
+        return found | {f"offsets.{ball}": off for ball, off in self.inputs.offsets.items()}
 
     @functools.cached_property
     def result(self) -> Result:
@@ -300,6 +302,8 @@ class Prediction(Shown):
         >>> sb.predict(drop, {"height": "63 ± 1 cm"}).how
         'errors by derivatives: 10000 drops within the errors follow them to 1 % of the error'
         """
+        if not self.inputs.numbers:
+            return "errors of offsets, carried to first order"
         if self.reason:
             return f"errors by {len(self.drawn)} draws: {self.reason}"
         return (
@@ -332,6 +336,9 @@ class Prediction(Shown):
                     f"to {max(errors.values()):.0%} only, for it comes from few draws far out or "
                     "from few draws; quantiles say more"
                 )
+        angles = [angle for name, angle in self.sideways.items() if name.startswith("angle")]
+        if any(abs(angle.nominal_value) + angle.std_dev > LIMIT for angle in angles):
+            found.append(REMARK)
         return tuple(found)
 
     @functools.cached_property
@@ -353,6 +360,41 @@ class Prediction(Shown):
             for (ball, k, what), (time, share) in sorted(found.items())
             if what == "time"
         ]
+
+    @functools.cached_property
+    def sideways(self) -> "dict[str, UFloat]":
+        """How balls leave sideways that lie off the middle by ``offsets.N``, to first order.
+
+        By what and which ball, such as ``angle.1``, as `Result.sideways` has them; empty without
+        offsets. The errors are those of the offsets and of the drop. Speeds and heights lose
+        nothing to first order.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> drop = sb.stack("basketball", "tennis", height="63 cm")
+        >>> found = sb.predict(drop, {"offsets.1": "0 ± 1 mm"}).sideways
+        >>> print(f"{found['sideways_speed.1']:.2u} m/s, {found['angle.1']:.2u} rad")
+        0.00+/-0.18 m/s, 0.000+/-0.029 rad
+        """
+        if not self.inputs.offsets:
+            return {}
+        middle = {ball: offset.nominal_value for ball, offset in self.inputs.offsets.items()}
+
+        def leaving(result: Result, at: Mapping[int, float] = middle) -> dict[str, float]:
+            columns = result.sideways(at).items()
+            return {f"{name}.{i}": x for name, xs in columns for i, x in enumerate(xs.values)}
+
+        found = self.carry(leaving)
+        for ball, offset in self.inputs.offsets.items():
+            if offset.std_dev > 0.0:
+                apart = offset - middle[ball]
+                ends = (middle[ball] - offset.std_dev, middle[ball] + offset.std_dev)
+                low, high = (leaving(self.result, middle | {ball: end}) for end in ends)
+                for name in found:
+                    slope = (high[name] - low[name]) / (2.0 * offset.std_dev)
+                    found[name] = found[name] + slope * apart
+        return found
 
     def carry(self, function: Callable[[Result], Mapping[Any, float]]) -> "dict[Any, UFloat]":
         """Return any numbers of a `Result` with their errors.
@@ -419,7 +461,7 @@ class Prediction(Shown):
             "advice": self.advice(),
             "notes": list(self.notes),
             "numbers": {name: _plain(number) for name, number in self.errors.items()},
-            "values": {name: _plain(number) for name, number in self._all.items()},
+            "values": {name: _plain(x) for name, x in (self._all | self.sideways).items()},
             "shares": {
                 number: self.sensitivity.sel(number=number).to_series().to_dict()
                 for number in self.inputs.paths

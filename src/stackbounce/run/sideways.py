@@ -33,6 +33,9 @@ if TYPE_CHECKING:
 _Array = NDArray[np.float64]
 
 LIMIT = math.radians(15.0)  # an exact angle of 16.5 degrees is 16.1 to first order
+UNITS = {"sideways_speed": "m/s", "angle": "rad"} | dict.fromkeys(
+    ("offset", "offset_at_top", "landing"), "m"
+)
 REMARK = "an angle is above 15 degrees, where first order ends"
 
 _NODES = 32  # of a stretch between two events or peaks: 16 give 3e-7 of a speed, 24 give 2e-10
@@ -71,14 +74,14 @@ def leave_sideways(
     if np.any(np.abs(angle[upward > 0.0]) > LIMIT):
         attrs["remark"] = REMARK
     columns = {
-        "sideways_speed": (sideways, "m/s"),
-        "angle": (angle, "rad"),
-        "offset": (offset, "m"),
-        "offset_at_top": (offset + top * sideways, "m"),
-        "landing": (offset + down * sideways, "m"),
+        "sideways_speed": sideways,
+        "angle": angle,
+        "offset": offset,
+        "offset_at_top": offset + top * sideways,
+        "landing": offset + down * sideways,
     }
     return xr.Dataset(
-        {name: ("ball", values, {"units": unit}) for name, (values, unit) in columns.items()},
+        {name: ("ball", values, {"units": UNITS[name]}) for name, values in columns.items()},
         {"ball": ball},
         attrs,
     )
