@@ -65,6 +65,10 @@ def test_all_commands_of_the_page_are_run():
     assert STACKS_TEXT.count("--plot") == 2
 
 
+def test_the_command_of_the_page_on_offsets_prints_what_stands_there(capsys):
+    run_all(steps(read_page("straight")), capsys)
+
+
 # --- the page of maps and lines: its commands draw its pictures, and these agree with the paper's
 SWEEPS_TEXT = read_page("sweeps")
 WORDS = [
