@@ -237,10 +237,9 @@ def test_a_ball_off_the_middle_and_how_straight_it_must_lie(laws, printed, told)
 
 def test_a_tower_says_which_ball_matters_most_and_where_first_order_ends(printed, told):
     asked = ["simulate", "B1", "B2", "B3", "tennis", "--offset", "1mm", "--straight", "5deg"]
-    most = [row["most"][-1] for row in told(*asked)["straight"]]
-    worst = ("B2", "B3", "tennis")[most.index(min(most))]
+    worst = min(told(*asked)["straight"], key=lambda row: row["most"][-1])["moved"]
     out = printed(*asked)
-    assert f"For the tennis, the place of {worst} matters most." in out
+    assert f"For the tennis, the place of {asked[1 + worst]} matters most." in out
     assert "An angle is above 15 degrees, where first order ends." in out
 
 

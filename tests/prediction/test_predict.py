@@ -59,7 +59,6 @@ def test_errors_of_offsets_and_of_the_drop_add_up():
     transfer = sb.simulate(drop).sideways().transfer.values
     found = sb.predict(drop, {**one, "offsets.2": off, "impact_speed": (2.0, 0.02)})
     assert found.method == "derivatives"
-    assert set(found.errors) == {"impact_speed", "offsets.1", "offsets.2"}
     for ball in range(3):
         speed = found.sideways[f"sideways_speed.{ball}"]
         assert speed.nominal_value == pytest.approx(1e-5 * transfer[ball, 1])
@@ -69,17 +68,15 @@ def test_errors_of_offsets_and_of_the_drop_add_up():
         fast, slow = (sb.simulate(drop.replace(impact_speed=v)).sideways() for v in (2.02, 1.98))
         by_speed = 0.5e-5 * float(fast.transfer[ball, 1] - slow.transfer[ball, 1])
         assert speed.std_dev == pytest.approx(math.hypot(*parts, by_speed), rel=1e-3)
-        share = speed.error_components()[off]
-        assert share == pytest.approx(parts[1])
+        assert speed.error_components()[off] == pytest.approx(parts[1])
     assert found.notes == ()
     assert "first order ends" in sb.predict(drop, {"offsets.2": "0 ± 2 cm"}).notes[0]
     assert "angle.2" in str(found)
 
 
 def test_offsets_of_draws():
-    balls = [sb.Ball(ball.mass, diameter=0.04) for ball in LOSSY.balls]
-    found = sb.predict(LOSSY.replace(balls=balls), {**CHANGING, "offsets.1": "0 ± 1 mm"}, draws=200)
-    assert found.method == "draws"
+    drop = LOSSY.replace(balls=[sb.Ball(ball.mass, diameter=0.04) for ball in LOSSY.balls])
+    found = sb.predict(drop, {**CHANGING, "offsets.1": "0 ± 1 mm"}, draws=200)
     alone = found.result.sideways({1: 1e-3}).landing.values
     assert found.sideways["landing.1"].std_dev == pytest.approx(abs(alone[1]))
 
