@@ -36,6 +36,9 @@ WORDS: dict[str, Any] = tomllib.loads((files(__package__) / "words.toml").read_t
 _TOLD = ("says", "formula", "source", "form", "rigid", "exact", "loss", "least_restitution")
 """What the page takes of a law as it is."""
 
+_FIRST = "figure-9"
+"""The example that stands above the others: the paper's pair."""
+
 _LOSSY = Hysteretic  # the paper's own way to lose energy
 MAP_RTOL = 1e-8
 """The tolerance of nonlinear contacts in maps and lines, far finer than their colours."""
@@ -49,7 +52,7 @@ _NAME = re.compile(r"[^\W\d_]+")
 
 def list_choices() -> dict[str, Any]:
     """Return balls, contact laws, examples and the limits of a request."""
-    cases = (*list_examples(), *list_cases())
+    cases = sorted((*list_examples(), *list_cases()), key=lambda case: case.name != _FIRST)
     return {
         "stackbounce": __version__,
         "balls": [entry.to_mapping() for entry in (*BALLS, *CLASS_BALLS)],

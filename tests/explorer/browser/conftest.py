@@ -13,6 +13,7 @@ from playwright.sync_api import sync_playwright
 
 import stackbounce as sb
 from stackbounce.cli import main
+from stackbounce.cross2007.cases import explorer_address, list_cases
 
 BROWSERS = {
     "chromium": ("chromium", "chromium-browser", "google-chrome"),
@@ -24,6 +25,7 @@ IN_BOTH = (
 )  # `make browsers` runs the others, too, in Firefox, where they are slow
 FORMS = ("served", "one file")
 LAPTOP = {"width": 1366, "height": 768}
+[PAPER] = [explorer_address("", one.drop, {}) for one in list_cases() if one.name == "figure-9"]
 
 
 def path_of(name):
@@ -137,9 +139,12 @@ class Visit:
         if not (self.expected and self.expected in text):
             self.complaints.append(text)
 
-    def open(self, fragment=""):
+    def open(self, fragment=PAPER, playback=True):
+        """Open the whole page with the paper's drop, or what a fragment says; show all playback."""
         self.page.goto(f"{self.address}{fragment}")
         self.ready()
+        if playback:
+            self.page.evaluate("() => { document.querySelector('#film-more').open = true; }")
         return self.page
 
     def ready(self):

@@ -78,7 +78,7 @@ def test_the_worksheet_is_printed_alone(visit, in_firefox):
     assert page.evaluate(OUTSIDE) == 0
     page.evaluate("() => dispatchEvent(new Event('afterprint'))")
     assert not page.locator("#lesson").is_visible()
-    assert page.locator("#numbers").is_visible()
+    assert page.locator("#stage").is_visible()
 
 
 def test_lessons_are_in_german_and_elsewhere_marked_as_english(visits):

@@ -42,7 +42,7 @@ def test_two_cells_of_a_notebook_are_two_explorers(visit, tmp_path):
     notebook.write_text(f'<!doctype html><meta charset="utf-8">{"".join(cells)}', "utf-8")
     visit.address = notebook.as_uri()
     visit.page.goto(visit.address)
-    for frame, name in zip(visit.page.frames[1:], ('"ä" & +', "basketball"), strict=True):
+    for frame, name in zip(visit.page.frames[1:], ('"ä" & +', "big basketball"), strict=True):
         frame.wait_for_function("() => state?.result && !state.busy")
         assert frame.evaluate("() => state.drop.balls[0].name") == name
     first = visit.page.frames[1]

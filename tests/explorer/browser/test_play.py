@@ -95,7 +95,7 @@ def test_nothing_moves_while_the_page_opens_and_a_film_plays(visits, width, in_f
     size = {"width": width, "height": 844}
     opening, playing = visits(viewport=size), visits(viewport=size)
     opening.page.add_init_script(f"({WATCH_THE_LAYOUT})()")
-    assert opening.open().locator("#sentence").is_visible()
+    assert opening.open(playback=False).locator("#sentence").is_visible()
     assert opening.page.evaluate("() => window.shifts") == []
     page = playing.open("#momentum=1&centre=1&speed=4")
     page.evaluate(WATCH_THE_LAYOUT)
@@ -159,7 +159,7 @@ def test_first_a_guess_and_then_the_film(visit):
     mark.press("ArrowUp")
     guess = float(mark.get_attribute("aria-valuenow"))
     assert guess > 0.5
-    page.get_by_role("button", name="Let go").click()
+    page.get_by_role("button", name="Drop").click()
     page.wait_for_function("() => clock.time > 0")
     assert question.inner_text() == "How high will the tennis ball fly?"  # until it has its top
     page.wait_for_function("() => state.guess !== null")

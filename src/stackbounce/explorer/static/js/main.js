@@ -71,6 +71,11 @@ mountTabs(store, {
   map: (section) => open(loadMap, section),
   measure: (section) => hasServer && open(loadMeasure, section),
 });
+place("closer").addEventListener("click", () => store.set({ closer: true, predict: false }));
+const showWhole = ({ closer }) => document.body.classList.toggle("first", !closer);
+store.watch(["closer"], showWhole);
+store.derive(({ error, closer }) => (error && !error.offline && !closer ? { closer: true } : null)); // where it is told
+showWhole(store.get());
 store.watch(["view"], () => placeSetUp());
 place("skip").addEventListener("click", (event) => {
   event.preventDefault(); // the fragment holds the state

@@ -72,7 +72,11 @@ export function mountHands(root, store, clock, api) {
     if (text) tell(text);
   });
   for (const name of ["pointerup", "pointercancel"]) {
-    root.addEventListener(name, (event) => held?.pointer === event.pointerId && letGo());
+    root.addEventListener(name, (event) => {
+      if (held?.pointer !== event.pointerId) return;
+      if (name === "pointerup" && !held.act) clock.replay(); // a click lets go of the balls
+      letGo();
+    });
   }
   root.addEventListener("touchmove", (event) => held?.act && event.preventDefault(), { passive: false }); // the page stays
   root.addEventListener("pointerover", (event) => !held && tell(ballAt(event) ? hint(store.get().drop, Number(ballAt(event).dataset.ball)) : null));

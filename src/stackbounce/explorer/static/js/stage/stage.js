@@ -9,12 +9,12 @@ import { ballGroup, ghostGroup, height as heightAt, keptGroups, moveBalls, moveG
 import { drawRuler } from "./ruler.js";
 import { ballName, format, happening, moment, pace } from "../words/words.js";
 
-const FOOT = 30; // px below the floor line
+const FOOT = 56; // px below the floor line
 const HEAD = 64; // px above the highest ball, for the time
 const MIDDLE = 0.46; // of the width, where the balls are
 const PAIR = [0.27, 0.68]; // the same of two drops side by side
 const PHASES = { fall: t("fall, "), leap: t("leap, "), before: "", impact: t("impact, "), between: t("between contacts, "), after: "", whole: "" };
-const GUESSED = 5; // times the drop height that can be guessed, at least
+const GUESSED = 4; // times the drop height that can be guessed, at least
 const WORDY = 320; // px, from which there is room for a whole sentence
 const NEARLY = 1e-9; // of the film's time: at an event
 
@@ -72,7 +72,9 @@ export function mountStage(root, store, clock, onRuler = () => null) {
     scene.moveRuler(view, clock.time);
     onRuler(rulerPlace(scene, view));
     if (clock.legible) {
-      const said = words(scene, clock, view);
+      const { predict, guess } = store.get();
+      const asks = predict && guess === null && !clock.playing && clock.time === clock.begin;
+      const said = asks ? { time: "", note: "" } : words(scene, clock, view);
       write(time, said.time);
       write(scale, said.note);
     }

@@ -12,8 +12,8 @@ const ENDED = ["FINISHED", "COLLAPSED", "SETTLED"];
 const SETTLED = 700; // ms without a new result before it is said
 const WITH_BALL = new Set(["tennis", "table tennis", "golf"]);
 
-/** Return `{lead, more}`: one sentence on the highest ball, and what is to be said beside it. */
-export function storyOf(result, until = null) {
+/** Return `{lead, more}`: one sentence on the highest ball, and what is to be said beside it; `brief`: on no other ball. */
+export function storyOf(result, until = null, brief = false) {
   const { drop, status, advice } = result;
   if (until !== null) return wholeOutcome(result, until);
   if (!ENDED.includes(status)) {
@@ -29,7 +29,7 @@ export function storyOf(result, until = null) {
   const theirs = textbookOf(result);
   const how = motion(drop, top, own[top]);
   const lead = theirs && top > 0 ? `${how}, ${compared(own[top], theirs[top])}.` : `${how}.`;
-  return { lead, more: more(result, own, theirs, top) };
+  return { lead, more: more(result, own, theirs, top, brief) };
 }
 
 /** Return what a ball is called within a sentence: "the tennis ball", "B1", "the lower ball". */
@@ -89,7 +89,7 @@ function factor(ratio) {
 }
 
 /** Return the sentences on the other balls and on the reason. */
-function more(result, own, theirs, top) {
+function more(result, own, theirs, top, brief) {
   const { drop, separate } = result;
   if (top === 0) return "";
   if (!separate) return t("These are the textbook’s collisions: one after the other, each in no time.");
@@ -98,7 +98,7 @@ function more(result, own, theirs, top) {
   const differs = (ball) => apart[ball] > Math.max(NOTHING, SAME * Math.max(Math.abs(own[ball]), Math.abs(theirs[ball])));
   const other = apart.reduce((most, one, ball) => (ball !== top && (most < 0 || one > apart[most]) ? ball : most), -1);
   const shown = differs(other) ? `${motion(drop, other, own[other])}, ${compared(own[other], theirs[other])}. ` : "";
-  return `${shown}${reason(drop, arePressedTogether(result), shown !== "" || differs(top))}`;
+  return `${brief ? "" : shown}${reason(drop, arePressedTogether(result), shown !== "" || differs(top))}`;
 }
 
 function reason({ balls }, together, differs) {
@@ -127,23 +127,33 @@ export function mountSentence(root, live, store) {
   const { lead, more } = partsOf(root);
   let timer = 0;
   const show = () => {
-    const { result, until, predict, guess } = store.get();
+    const { result, until, predict, guess, closer } = store.get();
     if (!result) return;
     const asked = predict && until === null;
-    const said = asked && guess === null ? question(result) : storyOf(result, until);
-    const about = asked && guess !== null ? `${judged(result, guess)} ` : "";
+    const story = storyOf(result, until, !closer);
+    const said = !asked ? story : guess === null ? question(result) : { ...story, lead: rise(result) ?? story.lead };
+    const about = asked && Number.isFinite(guess) ? `${judged(result, guess)} ` : "";
     write(lead, said.lead);
     write(more, `${about}${said.more}`);
     put(root, "class", asked && guess === null ? "sentence asks" : "sentence");
     clearTimeout(timer);
     timer = setTimeout(() => write(live, `${said.lead} ${about}${said.more}`), SETTLED);
   };
-  store.watch(["result", "predict", "guess"], show);
+  store.watch(["result", "predict", "guess", "closer"], show);
 }
 
 function question({ drop }) {
   const name = called(drop, drop.balls.length - 1);
-  return { lead: t("How high will {ball} fly?", { ball: name }), more: t("Drag the mark on the ruler to where you think it goes, then let the balls go.") };
+  return { lead: t("How high will {ball} fly?", { ball: name }), more: t("Drag the mark to where you think it goes, if you like, then drop the balls.") };
+}
+
+/** Return how high the highest ball rises, and by the textbook would; null if it does not. */
+function rise({ drop, rebound_heights: heights, separate }) {
+  const top = drop.balls.length - 1;
+  if (!(heights[top] > 0)) return null;
+  const theirs = separate?.rebound_heights?.[top];
+  const values = { ball: capital(called(drop, top)), height: metres(heights[top]), theirs: metres(Math.max(theirs, 0)) };
+  return Number.isFinite(theirs) && top > 0 ? t("{ball} rises {height}; the textbook says {theirs}.", values) : t("{ball} rises {height}.", values);
 }
 
 /** Return how far off a guess in m was. */
