@@ -123,6 +123,8 @@ Object.defineProperty(window, "state", { get: () => window.store?.get() });
 class Visit:
     """A page, and what it complained about or asked for."""
 
+    paper = PAPER
+
     def __init__(self, page, address, downloads):
         page.add_init_script(SHORT)
         self.page, self.address, self.downloads = page, address, downloads

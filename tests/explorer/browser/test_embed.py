@@ -43,7 +43,7 @@ def test_a_site_that_may_frames_the_page_and_its_link_opens_the_whole(page, scho
     frame = frame_of(page, school, f"{open_to}?embed#view=map&centre=1")
     frame.locator(".sentence-lead").get_by_text("tennis").wait_for()
     frame.locator("#stage .ball").first.wait_for()
-    assert frame.get_by_role("button", name="Replay").is_visible()
+    assert frame.get_by_role("slider", name="Time").is_visible()
     for hidden in (".top", ".results", "#controls", "#map"):
         assert not frame.locator(hidden).is_visible(), hidden
     with page.context.expect_page() as opened:
@@ -70,7 +70,7 @@ def test_the_one_file_has_the_same_form(page, one_file):
     page.locator("#stage .ball").first.wait_for()
     assert not page.locator(".top").is_visible()
     link = page.get_by_role("link", name="Open the explorer").get_attribute("href")
-    assert link.startswith(f"{one_file.as_uri()}#view=play&balls.0.mass=0.15")
+    assert link.startswith(f"{one_file.as_uri()}#view=play&balls.0.mass=0.625")
 
 
 def test_full_screen_shows_the_film_larger(visit, address_of_server):
@@ -101,7 +101,7 @@ def cursor_places(page):
 
 def test_plots_zoom_together_and_follow_the_cursor(visit, address_of_server):
     visit.address = address_of_server
-    page = visit.open("#view=play&t=0.01")
+    page = visit.open(f"{visit.paper}&t=0.01")
     longer, shorter, whole = (
         page.get_by_role("button", name=f"Show {name} time")
         for name in ("a longer", "a shorter", "the whole")

@@ -27,6 +27,7 @@ def test_a_step_sets_the_page_beside_the_lesson(visits, size):
     page.wait_for_function("() => state.result?.drop.gaps[0] === 0.02")
     assert visit.state("drop.balls.map((ball) => ball.name)") == ["big basketball", "tennis ball"]
     assert "lesson=gap" in page.url
+    assert page.evaluate("() => scrollY") == 0  # the head stays
     stage, lesson = (page.locator(one).bounding_box() for one in ("#stage", "#lesson"))
     beside = stage["x"] + stage["width"] <= lesson["x"]
     above = 0 <= stage["y"] <= stage["y"] + stage["height"] <= lesson["y"]

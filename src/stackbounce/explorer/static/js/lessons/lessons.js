@@ -98,9 +98,9 @@ function told(text, lesson, open) {
   });
 }
 
-/** Bring the view into sight once the link is followed. */
+/** Bring the view and the head of the page into sight once the link is followed. */
 function lookThere() {
-  addEventListener("hashchange", () => document.querySelector("main > [role=tabpanel]:not([hidden])").scrollIntoView(), { once: true });
+  addEventListener("hashchange", () => scrollTo(0, 0), { once: true });
 }
 
 function taskOf({ text, table: rows, grid, after }) {

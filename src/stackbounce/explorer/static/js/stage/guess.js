@@ -5,6 +5,7 @@ import { t } from "../words/language.js";
 import { metres } from "../words/words.js";
 
 const ABOVE = 60; // px above the highest mark
+const RULER = 50; // px of its numbers at the right
 const STEP = 0.02; // of what the ruler shows, for one press of an arrow
 
 /** Show the mark over the stage in `root` while the state asks for a guess; returns what takes the ruler's place in each frame. */
@@ -49,7 +50,7 @@ export function mountGuess(root, store, clock) {
   const take = (next) => {
     if (place && ["zero", "scale", "width", "near"].every((name) => next[name] === place[name])) return;
     place = next;
-    for (const line of mark.querySelectorAll("line")) put(line, "x2", place.width);
+    for (const line of mark.querySelectorAll("line")) put(line, "x2", place.width - RULER);
     put(svg, "opacity", Math.max(0, 1 - 4 * place.near).toFixed(2));
     follow();
   };

@@ -45,6 +45,7 @@ export const FIRST = {
   until: null, // s of the whole drop, or null for the impact alone
   ghosts: true,
   arrows: true, // velocities on the stage
+  forces: true, // in the contacts, as arrows
   momentum: false, // bars below it
   centre: false, // of mass
   sound: false, // a knock at each contact
