@@ -43,12 +43,12 @@ export function moveBalls(groups, moment, { view, floor, middle, fastest, legibl
   const speaks = whole || view.near > NEAR;
   const flat = flattening(moment.compression, view);
   const places = moment.position.map((position, ball) => Number(height(view, floor, ball, position)));
-  const names = spread(places, letter, floor - 0.5 * letter);
-  const ghost = theirs && moveGhosts(ghosts, theirs, { view, floor, middle });
+  const ghost = theirs ? [moveGhosts(ghosts, theirs, { view, floor, middle })] : [];
+  const names = spread([...places, ...ghost], letter, floor - 0.5 * letter);
   put(ghosts, "visibility", theirs ? "visible" : "hidden");
-  const speeds = spread([...(speaks ? places : []), ...(theirs ? [ghost] : [])], letter, floor - 0.5 * letter);
+  const speeds = spread(places, letter, floor - 0.5 * letter);
   const widest = Math.max(...view.radius);
-  if (theirs) put(ghosts.lastChild, "transform", `translate(${(middle + view.radius.at(-1) + (speaks ? 96 : 12)).toFixed(1)} ${(speeds.at(-1) + 4).toFixed(1)})`);
+  if (theirs) put(ghosts.lastChild, "transform", `translate(${(middle - view.radius.at(-1) - 10).toFixed(1)} ${(names.at(-1) + 4).toFixed(1)})`);
   groups.forEach((group, ball) => {
     const [body, pattern, light, arrow, name, speed, leader] = group.children;
     const radius = view.radius[ball];
@@ -68,7 +68,7 @@ export function moveBalls(groups, moment, { view, floor, middle, fastest, legibl
     put(name, "y", (down + 4).toFixed(1));
     put(leader, "d", isMoved ? `M${(-side - 2).toFixed(1)} 0L${(column + 3).toFixed(1)} ${down.toFixed(1)}` : "");
     put(speed, "x", (lane + 11 + LANE * (groups.length - 1 - ball) * (1 - view.near)).toFixed(1));
-    if (speaks) put(speed, "y", (speeds[ball] - places[ball] + 4).toFixed(1));
+    put(speed, "y", (speeds[ball] - places[ball] + 4).toFixed(1));
     if (legible) write(speed, !speaks || lies(ball) || Math.abs(velocity) < STILL ? "" : `${fixed(velocity, 2)} m/s`);
     put(group, "class", lies(ball) ? "ball lies" : "ball");
   });
@@ -90,7 +90,7 @@ export function arrowPath(x, length) {
 /** Return the textbook's balls, pale, and the name of the highest. */
 export function ghostGroup(drop) {
   const circles = drop.balls.map((_, ball) => s("circle", { class: "ghost", "data-ghost": ball, "--ball": `var(--ball-${ball % 6})` }));
-  return [...circles, s("text", { class: "ghost-name", text: t("textbook") })];
+  return [...circles, s("text", { class: "ghost-name", "text-anchor": "end", text: t("textbook") })];
 }
 
 /** Move the textbook's balls to their positions in m; returns the height of their name in px. */

@@ -5,6 +5,7 @@ import { t } from "../words/language.js";
 import { metres } from "../words/words.js";
 
 const ABOVE = 60; // px above the highest mark
+const NARROW = 420; // px, below which the mark is told by its height alone
 const RULER = 50; // px of its numbers at the right
 const STEP = 0.02; // of what the ruler shows, for one press of an arrow
 
@@ -21,7 +22,7 @@ export function mountGuess(root, store, clock) {
   const isAsked = () => store.get().predict && store.get().until === null;
   const isOpen = () => isAsked() && store.get().guess === null && !flies;
   const most = () => (place.zero - ABOVE) / place.scale;
-  const told = () => (height === null ? t("your guess?") : t("your guess: {height}", { height: metres(height) }));
+  const told = () => (height === null ? t("your guess?") : place.width < NARROW ? metres(height) : t("your guess: {height}", { height: metres(height) }));
 
   function letGo() {
     flies = true;
@@ -73,7 +74,10 @@ export function mountGuess(root, store, clock) {
     event.stopPropagation();
     set((height ?? 0.5 * most()) + moves[event.key] * most());
   });
-  store.derive((state, before) => (state.predict && state.drop !== before.drop ? { guess: null } : null)); // another question
+  store.derive(({ predict, guess, drop, closer }, before) => {
+    if (!predict || guess === null || drop === before.drop) return null;
+    return { guess: closer ? NaN : null }; // another question, or in the whole page a slider, whose effect is to be seen
+  });
   store.watch(["predict", "guess", "until", "drop"], ({ drop }, before) => {
     if (drop !== before.drop) height = null;
     flies = false;

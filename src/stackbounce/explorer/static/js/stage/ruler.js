@@ -65,7 +65,7 @@ export function drawRuler(root, { film, camera, result, floor, width, middle, le
 /** Return the mark of a ball's top, with the height that the table of the results has. */
 function topMark(drop, ball, height, width, middle) {
   const look = { "--ball": `var(--ball-${ball % 6})` };
-  return lineOf({ name: "mark top-mark", x: width - BESIDE, x1: middle, width, text: `${ballName(drop, ball)} ${metres(height)}`, look });
+  return lineOf({ name: "mark top-mark", x: width - BESIDE, x1: middle, width, text: width < NARROW ? metres(height) : `${ballName(drop, ball)} ${metres(height)}`, look });
 }
 
 /** Return a line with its words. */
