@@ -146,7 +146,7 @@ class Visit:
         self.page.goto(f"{self.address}{fragment}")
         self.ready()
         if playback:
-            self.page.evaluate("() => { document.querySelector('#film-more').open = true; }")
+            self.page.locator("#film-more").evaluate("(one) => { one.open = true; }")
         return self.page
 
     def ready(self):

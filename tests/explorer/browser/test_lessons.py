@@ -23,8 +23,13 @@ def test_a_step_sets_the_page_beside_the_lesson(visits, size):
     assert page.get_by_role("heading", name="The gap").evaluate(
         "(one) => one === document.activeElement"
     )
+    numbers = page.locator("#numbers table")
+    assert not numbers.is_visible()  # a lesson asks first, and so do its steps
     page.get_by_role("link", name="2 cm apart", exact=True).click()
     page.wait_for_function("() => state.result?.drop.gaps[0] === 0.02")
+    assert not numbers.is_visible()
+    page.evaluate("() => clock.wind(clock.film.length)")
+    numbers.wait_for()
     assert visit.state("drop.balls.map((ball) => ball.name)") == ["big basketball", "tennis ball"]
     assert "lesson=gap" in page.url
     assert page.evaluate("() => scrollY") == 0  # the head stays

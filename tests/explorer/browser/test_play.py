@@ -136,6 +136,7 @@ def test_a_changed_drop_is_shown_at_the_same_moment(visit, page):
 
     now, end, *_ = changed_at(99.0, 0.01)
     assert now == end
+    page.wait_for_function("() => clock.playing")  # what had ended is played again
     now, _, begin, _ = changed_at(page.evaluate("() => 0.5 * clock.begin"), 0.02)
     assert now == pytest.approx(0.5 * begin)
     assert changed_at(0.012, 0.015)[0] == pytest.approx(0.012)
@@ -143,31 +144,6 @@ def test_a_changed_drop_is_shown_at_the_same_moment(visit, page):
     page.evaluate(CHANGE_THE_GAP, 0.005)
     visit.ready()
     assert page.evaluate("() => clock.playing")
-
-
-def test_first_a_guess_and_then_the_film(visit):
-    page = visit.open("#predict=1&speed=4")
-    question = page.locator(".sentence-lead")
-    assert question.inner_text() == "How high will the tennis ball fly?"
-    assert not page.locator("#numbers table").is_visible()
-    mark = page.get_by_role("slider", name="Your guess")
-    grip = page.locator(".guess-grip").bounding_box()
-    page.mouse.move(grip["x"] + 5, grip["y"] + 9)
-    page.mouse.down()
-    page.mouse.move(grip["x"] + 5, grip["y"] - 60, steps=4)
-    page.mouse.up()
-    mark.press("ArrowUp")
-    guess = float(mark.get_attribute("aria-valuenow"))
-    assert guess > 0.5
-    page.get_by_role("button", name="Drop").click()
-    page.wait_for_function("() => clock.time > 0")
-    assert question.inner_text() == "How high will the tennis ball fly?"  # until it has its top
-    page.wait_for_function("() => state.guess !== null")
-    assert page.locator("#numbers table").is_visible()
-    top = page.evaluate("() => clock.film.tops[1].height")
-    assert visit.state("guess") == pytest.approx(guess, abs=1e-3)
-    too = "too low" if guess < top else "too high"
-    assert too in page.locator(".sentence-more").inner_text()
 
 
 def test_a_kept_drop_is_shown_beside_the_present_one(visit, page):
@@ -365,15 +341,6 @@ def test_exports_are_saved_with_the_errors_of_the_numbers(visit, page, tmp_path)
     assert lines.startswith("# Made by stackbounce")
     assert "    'balls.1.mass': (0.057, 0.0005),\n" in lines
     assert "sb.predict(drop, errors)" in lines
-
-
-@pytest.mark.release
-def test_a_phone_has_no_sideways_scrolling_and_large_targets(visits):
-    page = visits(viewport={"width": 360, "height": 780}, has_touch=True, is_mobile=True).open()
-    assert page.evaluate("() => document.documentElement.scrollWidth") <= 360
-    play = page.locator(".play").bounding_box()
-    assert min(play["width"], play["height"]) >= 40.0
-    assert play["y"] < 780.0
 
 
 @pytest.mark.release

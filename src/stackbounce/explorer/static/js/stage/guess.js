@@ -69,10 +69,12 @@ export function mountGuess(root, store, clock) {
   mark.addEventListener("touchstart", (event) => isOpen() && event.preventDefault(), { passive: false }); // the page stays
   mark.addEventListener("keydown", (event) => {
     const moves = { ArrowUp: STEP, ArrowRight: STEP, ArrowDown: -STEP, ArrowLeft: -STEP, PageUp: 5 * STEP, PageDown: -5 * STEP };
-    if (!isOpen() || !moves[event.key]) return;
+    const lets = [" ", "Enter"].includes(event.key);
+    if (!isOpen() || !(lets || moves[event.key])) return;
     event.preventDefault();
     event.stopPropagation();
-    set((height ?? 0.5 * most()) + moves[event.key] * most());
+    if (lets) letGo();
+    else set((height ?? 0.5 * most()) + moves[event.key] * most());
   });
   store.derive(({ predict, guess, drop, closer }, before) => {
     if (!predict || guess === null || drop === before.drop) return null;
