@@ -13,7 +13,7 @@ const HEAD = 58; // px from the top of the stage, below its title
 const NEAR = 0.15; // how near the camera is, from where on speeds are written: in fall and leap the marks have their place
 const LANE = 8; // px between the arrows of balls that are drawn small
 const MOVED = 3; // px from its place, from where a line leads from a name to its ball
-const LETTERS = 16; // of a name
+const LETTERS = 22; // of a name
 
 /** Return a group that shows a ball. */
 export function ballGroup(drop, ball) {
