@@ -142,8 +142,9 @@ class Visit:
             self.complaints.append(text)
 
     def open(self, fragment=PAPER, playback=True):
-        """Open the whole page with the paper's drop, or what a fragment says; show all playback."""
-        self.page.goto(f"{self.address}{fragment}")
+        """Open the whole page with the paper's drop, or a fragment's; show all playback."""
+        first = "" if "balls." in fragment or not fragment else PAPER.removeprefix("#view=play")
+        self.page.goto(f"{self.address}{fragment}{first}")
         self.ready()
         if playback:
             self.page.locator("#film-more").evaluate("(one) => { one.open = true; }")
