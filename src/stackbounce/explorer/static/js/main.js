@@ -8,6 +8,7 @@ import { mountControls } from "./set_up/controls.js";
 import { button, h, write } from "./dom.js";
 import { takeFiles } from "./views/measure/dropped.js";
 import { mountEmbed } from "./embed.js";
+import { onFailure } from "./failure.js";
 import { direct } from "./stage/director.js";
 import { mountFullScreen } from "./stage/full_screen.js";
 import { mountGuess } from "./stage/guess.js";
@@ -39,6 +40,10 @@ const reduced = matchMedia("(prefers-reduced-motion: reduce)");
 const store = createStore(address.read());
 const clock = new Clock(() => reduced.matches);
 window.stackbounce = { store, clock };
+onFailure(({ message }) => {
+  clock.pause();
+  if (!store.get().error) store.set({ error: { detail: t("This drop cannot be drawn: {reason}", { reason: message }) } });
+});
 if (typeof WebAssembly === "object" && typeof Worker === "function") place("old").remove();
 
 translatePage();

@@ -1,6 +1,6 @@
 /** A number of the outcome over two numbers of the drop, in slices. */
 
-import { InvalidValue, nearest, shown } from "../model/errors.js";
+import { InvalidValue } from "../model/errors.js";
 import { known } from "../model/known.js";
 import { numbersOf as pathsOf, valueIn } from "../model/paths.js";
 import { readDrop } from "../model/schema.js";
@@ -57,7 +57,7 @@ export function nameOutcome(drop, show) {
   if (show === "energy_retained") return known.energy;
   const [name, index] = split(show);
   const all = Object.keys(known.outcomes).flatMap((kind) => drop.balls.map((_, i) => `${kind}.${i}`));
-  if (!all.includes(show)) throw new InvalidValue(`${shown(show)} is no outcome; ${nearest(show, ["energy_retained", ...all])}`);
+  if (!all.includes(show)) throw new InvalidValue(`${show} is no outcome`);
   const [words, unit] = known.outcomes[name];
   return [words.replace("{ball}", nameBall(drop, index)).replace("{contact}", nameContact(drop, index)), unit];
 }
