@@ -24,7 +24,6 @@ from stackbounce.json_values import as_json
 from stackbounce.measure.options import options_for
 from stackbounce.model import LAWS, STANDARD_GRAVITY, STEEPEST, ContactLaw, Hysteretic
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stacked
-from stackbounce.run.result import Cause, Status
 from stackbounce.version import __version__
 
 WORDS: dict[str, Any] = tomllib.loads((files(__package__) / "words.toml").read_text("utf-8"))
@@ -143,12 +142,11 @@ def model_json() -> str:
     --------
     >>> import json
     >>> sorted(json.loads(model_json()))[:4]
-    ['advice', 'balls', 'contacts', 'energy']
+    ['balls', 'contacts', 'energy', 'gravity']
     """
     return as_json(
         list_choices()
         | {
-            "advice": {ending.name: ending.advice for ending in (*Status, *Cause)},
             "contacts": _list_contacts(),
             "energy": _ENERGY,
             "gravity": STANDARD_GRAVITY,

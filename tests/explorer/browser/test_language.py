@@ -41,7 +41,7 @@ def test_another_language_keeps_the_drop(visit):
     assert lead(page).startswith("Der Ball fliegt")
     assert visit.state("drop.balls[0].mass") == 0.3
     page.locator("#tab-map").click()
-    page.get_by_role("heading", name="Rückprallgeschwindigkeit durch v₀: Ball 0").wait_for()
+    page.get_by_role("heading", name="Rückprallgeschwindigkeit durch v₀: Ball").wait_for()
     page.get_by_label("Sprache").select_option("en")
     page.wait_for_function("() => document.documentElement.lang === 'en'")
     visit.ready()

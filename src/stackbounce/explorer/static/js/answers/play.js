@@ -53,7 +53,6 @@ function numbers(result) {
   const { speeds, drop } = result;
   return {
     status: result.status,
-    advice: known.advice[result.cause ?? result.status],
     rebound_speeds: plain(speeds),
     rebound_ratios: plain(speeds.map((speed) => speed / drop.speed)),
     rebound_heights: plain(speeds.map((speed) => (speed * Math.abs(speed)) / (2 * known.gravity))),

@@ -37,7 +37,7 @@ function ballCard(drop, ball, tools, field) {
   const entries = (lossy) =>
     tools.catalogue.balls.filter((ball) => ball.lossy === lossy).map((ball) => [ball.name, `${translated(ball.name)}, ${format(ball.mass * 1e3)} g`]);
   const choose = choice({
-    label: t("Ball {place}", { place: ball }),
+    label: t("Ball {place}", { place: ball + 1 }),
     quiet: true,
     key: `ball-${ball}`,
     groups: [["", [[OWN, t("another ball")]]], [t("Balls a class owns"), entries(true)], [t("Balls of the paper"), entries(false)]],

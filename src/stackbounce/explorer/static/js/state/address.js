@@ -126,7 +126,8 @@ export function follow(store) {
 const EXAMPLE = "e"; // an example was loaded, or a link followed
 const VIEW = "v"; // another view, or another lesson
 
-const FIRST_SHOWN = Object.fromEntries(
+/** What a state without a link shows beside its drop. */
+export const FIRST_SHOWN = Object.fromEntries(
   ["view", "until", ...SWITCHES, "guess", "speed", "magnify", "t", "notes", ...Object.keys(SETTINGS)].map((name) => [name, FIRST[name]]),
 );
 

@@ -3,10 +3,13 @@
 import { t, translated } from "./language.js";
 import { LANGUAGES, language } from "./language_choice.js";
 
-/** Return a ball's name, or its place. */
-export function ballName(drop, ball) {
-  const { name } = drop.balls[ball] ?? {};
-  return name ? translated(name) : t("ball {place}", { place: ball });
+/** Return a ball's name, or its place: the lowest is ball 1, and two are the lower and the upper one. */
+export function ballName({ balls }, ball) {
+  const { name } = balls[ball] ?? {};
+  if (name) return translated(name);
+  if (balls.length === 1) return t("ball");
+  if (balls.length === 2) return ball === 1 ? t("upper ball") : t("lower ball");
+  return t("ball {place}", { place: ball + 1 });
 }
 
 /** Return what a contact lies between, such as "floor – tennis". */
@@ -17,13 +20,13 @@ export function contactName(drop, contact) {
 
 /** Return a ball's name as short as a legend of many needs it: its place, whose colour stands beside it. */
 export function shortBall(drop, ball) {
-  return drop.balls.length > 4 ? String(ball) : ballName(drop, ball);
+  return drop.balls.length > 4 ? String(ball + 1) : ballName(drop, ball);
 }
 
 /** Return a contact's name, short where there are many. */
 export function shortContact(drop, contact) {
   if (drop.balls.length <= 3) return contactName(drop, contact);
-  return contact === 0 ? t("floor–0") : `${contact - 1}–${contact}`;
+  return contact === 0 ? t("floor–1") : `${contact}–${contact + 1}`;
 }
 
 /** Return how often a contact met. */
@@ -133,7 +136,8 @@ export function pretty(unit) {
   return unit
     .replace("**exponent", "ᵖ")
     .replace("**1.5", "¹·⁵")
-    .replace("**2", "²");
+    .replace("**2", "²")
+    .replace(" ", "\u00a0");
 }
 
 /** Return a number with about `digits` digits and no needless zeros. */
