@@ -267,3 +267,12 @@ def test_impulses_are_what_momenta_have_gained(page, asked, tmp_path):
         for contact in (0, 1)
     ]
     assert found == pytest.approx(each, rel=1e-6)
+
+
+def test_lines_are_told_apart_without_colours(page, asked, tmp_path):
+    [found] = asked([["simulate", DROPS["six balls"], None, 20]])
+    panels = [["plots/curves", "panels", found["answer"], False]]
+    [position, force, energy] = run_node("ask_language", page, panels, tmp_path, "en")[0]
+    for panel in (position, force, energy):
+        looks = [str(line.get("dash")) for line in panel["lines"] if line["index"] is not None]
+        assert len(set(looks)) == len(looks) == 6
