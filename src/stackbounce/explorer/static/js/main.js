@@ -69,12 +69,14 @@ mountFullScreen(place("play"), place("stage"));
 const giveLessons = mountLessons({ root: place("lesson"), button: place("lessons-open") }, store);
 const loadLine = () => import("./views/line/line.js");
 const loadMap = () => import("./views/map/map.js");
+const loadPaper = () => import("./views/paper.js");
 const MEASURE = "./views/measure/measure.js"; // by its name: a page without a server does not have it
 const loadMeasure = () => import(MEASURE);
 mountTabs(store, {
   line: (section) => open(loadLine, section),
   map: (section) => open(loadMap, section),
-  measure: (section) => hasServer && open(loadMeasure, section),
+  measure: (section) => open(loadMeasure, section),
+  paper: (section) => open(loadPaper, section),
 });
 store.watch(["view"], () => placeSetUp());
 place("skip").addEventListener("click", (event) => {
@@ -92,7 +94,7 @@ const endShow = store.subscribe(({ result, error }) => {
 const end = store.subscribe(({ result }) => {
   if (!result) return;
   end();
-  const views = [loadLine, loadMap].map((load) => load().catch(() => null)); // what fails is tried again when it is opened
+  const views = [loadLine, loadMap, loadPaper].map((load) => load().catch(() => null)); // what fails is tried again when it is opened
   window.stackbounce.whole = Promise.all([api.prepare(result.drop), ...views]); // from here on nothing is loaded
 });
 addEventListener("beforeprint", () => (place("intervals").closest("details").open = true));

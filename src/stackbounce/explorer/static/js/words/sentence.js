@@ -136,18 +136,28 @@ export function mountSentence(root, live, store) {
   const { lead, more } = partsOf(root);
   let timer = 0;
   const show = () => {
-    const { result, until, predict, guess } = store.get();
+    const state = store.get();
+    const { result, until, predict, guess } = state;
     if (!result) return;
-    const asked = predict && until === null;
-    const said = asked && guess === null ? question(result) : storyOf(result, until);
-    const about = asked && guess !== null ? `${judged(result, guess)} ` : "";
+    const said = saidOf(state);
+    const about = predict && until === null && guess !== null ? `${judged(result, guess)} ` : "";
     write(lead, said.lead);
     write(more, `${about}${said.more}`);
-    put(root, "class", asked && guess === null ? "sentence asks" : "sentence");
+    put(root, "class", isAsking(state) ? "sentence asks" : "sentence");
     clearTimeout(timer);
     timer = setTimeout(() => write(live, `${said.lead} ${about}${said.more}`), SETTLED);
   };
   store.watch(["result", "predict", "guess"], show);
+}
+
+/** Return whether a guess is asked for, so that nothing may tell the answer. */
+export function isAsking({ until, predict, guess }) {
+  return predict && until === null && guess === null;
+}
+
+/** Return what is said of a state with a result: the question while a guess is asked for, then the story. */
+export function saidOf(state) {
+  return isAsking(state) ? question(state.result) : storyOf(state.result, state.until);
 }
 
 function question({ drop }) {

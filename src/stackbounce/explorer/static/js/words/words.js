@@ -92,6 +92,11 @@ export function lawName(law) {
   return translated(law.replace(/([a-z])([A-Z])/g, "$1 $2"));
 }
 
+/** Return a text of at most so many letters. */
+export function shortened(text, most) {
+  return text.length > most ? `${text.slice(0, most - 1)}…` : text;
+}
+
 /** Return a text with a capital first letter. */
 export function capital(text) {
   return text ? text[0].toUpperCase() + text.slice(1) : "";
