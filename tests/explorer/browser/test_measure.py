@@ -189,13 +189,8 @@ def test_a_contact_time_becomes_the_stiffness_of_the_ball_that_bounced(visit):
     assert visit.state("drop.contacts[0].stiffness") == pytest.approx(exact, rel=1e-4)
 
 
-def test_a_press_curve_is_plotted_and_used(visit, page):
+def test_a_press_curve_is_used(visit, page):
     given(page, "basketball-press.csv")
-    plot = page.get_by_role("img", name="Force over compression")
-    label = plot.get_attribute("aria-label")
-    assert "pressed in: " in label
-    assert "up to 30.1 N at 12 mm" in label
-    assert plot.locator("canvas").count() == 1
     page.get_by_label("Which ball bounced?").select_option("Basketball")
     page.get_by_role("button", name="Use this as the ball").click()
     page.wait_for_function("() => state.drop.contacts[0].restitution")

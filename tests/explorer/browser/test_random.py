@@ -21,7 +21,7 @@ ACT = """async ([seed, steps]) => {
   };
   const parts = "button, select, input, summary";
   for (let step = 0; step < steps; step += 1) {
-    const where = any(["#controls", "#controls", "#transport", "#history", "#zoom", ".tabs"]);
+    const where = any(["#controls", "#controls", "#transport", "#history", ".tabs"]);
     const all = [...document.querySelectorAll(`${where} :is(${parts})`)];
     const free = all.filter((one) => !one.disabled && one.checkVisibility());
     if (free.length) act(any(free));

@@ -58,7 +58,7 @@ mountMomentum(place("momentum"), store, clock);
 mountSound(store, clock);
 mountSentence(place("sentence"), place("live"), store);
 mountTransport(place("transport"), store, clock);
-mountPlots({ root: place("plots"), zoom: place("zoom") }, store, clock);
+mountPlots(place("plots"), store, clock);
 mountNumbers({ root: place("numbers"), table: place("intervals") }, store);
 mountShare(place("share"), store, api);
 mountLanguage(place("language"), store);

@@ -50,7 +50,7 @@ export class DrawingView {
 
   hear(news) {
     const { figure, message, again } = this.parts;
-    if (news.settings) this.fillForm(news);
+    if (news.settings) this.fillForm({ answer: this.news?.answer, ...news }); // the answer before, until there is another
     figure.classList.toggle("stale", Boolean(news.problem));
     if (!news.answer && !news.problem) return;
     writeTold(message, news.problem ?? "");
