@@ -68,13 +68,21 @@ def _module(origin: str, made: Mapping[str, bytes], path: str) -> str:
     """Return the text of a module."""
     folder, _, name = path.partition("/")
     if path == _LANGUAGES:
-        return f"export const tables = {json.dumps(_tables(), ensure_ascii=False)};"
+        return _tables()
     if folder == "made":
         return made[name].decode()
     return read_static(f"js/origin/{origin}.js" if path == _SERVED else path)
 
 
-def _tables() -> dict[str, dict[str, str]]:
-    """Return the page's sentences in each language, by the English ones."""
+def _tables() -> str:
+    """Return the module with the page's sentences in each language; all have the same keys."""
     found = sorted((_STATIC / "js" / "languages").glob("*.json"))
-    return {path.stem: json.loads(path.read_text("utf-8")) for path in found}
+    tables = {path.stem: json.loads(path.read_text("utf-8")) for path in found}
+    keys = list(next(iter(tables.values())))
+    said = {name: [table[key] for key in keys] for name, table in tables.items()}
+    return f"""const KEYS = {json.dumps(keys, ensure_ascii=False)};
+const SAID = {json.dumps(said, ensure_ascii=False)};
+export function sentencesIn(language) {{
+  return Object.fromEntries((SAID[language] ?? []).map((text, i) => [KEYS[i], text]));
+}}
+"""

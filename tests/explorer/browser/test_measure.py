@@ -200,7 +200,7 @@ def test_a_press_curve_is_used(visit, page):
     assert contact["restitution"] == pytest.approx(0.770, abs=1e-3)
 
 
-def test_a_record_of_one_says_over_what_it_lies_and_can_be_shifted(visit, page):
+def test_a_record_of_one_says_over_what_it_lies(page):
     given(page, "tennis-force.csv")
     over = page.get_by_label("The record is of one contact. Which?")
     assert over.locator("option:checked").inner_text() == "floor – basketball"
@@ -209,11 +209,6 @@ def test_a_record_of_one_says_over_what_it_lies_and_can_be_shifted(visit, page):
     assert page.locator(".fit-row select").first.input_value() == "force.1"
     over.select_option("floor – basketball")
     page.wait_for_function("() => state.overlays[0]?.index === 0")
-    first = visit.state("overlays[0].time[0]")
-    for _ in range(5):
-        page.locator("#record-shift").press("ArrowRight")
-    assert visit.state("overlays[0].time[0]") > first + 1e-4
-    assert page.locator(".record-moved").inner_text().startswith("+")
 
 
 def test_a_record_can_be_taken_away(visit, page):
