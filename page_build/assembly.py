@@ -68,21 +68,24 @@ def _module(origin: str, made: Mapping[str, bytes], path: str) -> str:
     """Return the text of a module."""
     folder, _, name = path.partition("/")
     if path == _LANGUAGES:
-        return _tables()
+        return _language_module(_tables())
     if folder == "made":
         return made[name].decode()
     return read_static(f"js/origin/{origin}.js" if path == _SERVED else path)
 
 
-def _tables() -> str:
-    """Return the module with the page's sentences in each language; all have the same keys."""
+def _language_module(tables: dict[str, dict[str, str]]) -> str:
+    """Return the module that exports the tables: the English sentences stand in it once."""
+    keys = list(dict.fromkeys(key for table in tables.values() for key in table))
+    said = {code: [table.get(key, 0) for key in keys] for code, table in tables.items()}
+    return f"""const keys = {json.dumps(keys, ensure_ascii=False)};
+const said = {json.dumps(said, ensure_ascii=False)};
+const table = (texts) => texts.flatMap((text, i) => (text ? [[keys[i], text]] : []));
+const all = Object.entries(said).map(([code, texts]) => [code, Object.fromEntries(table(texts))]);
+export const tables = Object.fromEntries(all);"""
+
+
+def _tables() -> dict[str, dict[str, str]]:
+    """Return the page's sentences in each language, by the English ones."""
     found = sorted((_STATIC / "js" / "languages").glob("*.json"))
-    tables = {path.stem: json.loads(path.read_text("utf-8")) for path in found}
-    keys = list(next(iter(tables.values())))
-    said = {name: [table[key] for key in keys] for name, table in tables.items()}
-    return f"""const KEYS = {json.dumps(keys, ensure_ascii=False)};
-const SAID = {json.dumps(said, ensure_ascii=False)};
-export function sentencesIn(language) {{
-  return Object.fromEntries((SAID[language] ?? []).map((text, i) => [KEYS[i], text]));
-}}
-"""
+    return {path.stem: json.loads(path.read_text("utf-8")) for path in found}

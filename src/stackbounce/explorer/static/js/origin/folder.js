@@ -1,11 +1,11 @@
 /** Where the page comes from: a folder of files on any web server, which the browser keeps for when it is offline. */
 
-import { sentencesIn } from "../../made/languages.js";
+import { tables } from "../../made/languages.js";
 import { language } from "../words/language_choice.js";
 
 export { loadParts } from "./parts.js";
 
-export const sentences = sentencesIn(language);
+export const sentences = tables[language] ?? {};
 export const hasServer = false;
 
 const program = document.currentScript.src;

@@ -1,10 +1,10 @@
 /** Where the page comes from: the one file, which holds all that it needs, and no server. */
 
-import { sentencesIn } from "../../made/languages.js";
+import { tables } from "../../made/languages.js";
 import { language } from "../words/language_choice.js";
 
 
-export const sentences = sentencesIn(language);
+export const sentences = tables[language] ?? {};
 export const hasServer = false;
 
 const content = (id) => document.getElementById(id).textContent;
