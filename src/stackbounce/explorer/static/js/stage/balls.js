@@ -4,7 +4,7 @@ import { inksOf, patternOf, squash } from "./looks.js";
 import { put, s, write } from "../dom.js";
 import { t } from "../words/language.js";
 import { clamp, flattening, outline } from "./shape.js";
-import { ballName, fixed, shortened } from "../words/words.js";
+import { ballName, fixed } from "../words/words.js";
 
 const ARROW = 46; // px of the fastest ball's arrow
 const STILL = 0.005; // m/s, the speed below which none is written
@@ -14,7 +14,7 @@ const LETTERS = 16; // of a name
 /** Return a group that shows a ball. */
 export function ballGroup(drop, ball) {
   const group = s("g", { class: "ball", "data-ball": ball, "--ball": `var(--ball-${ball % 6})` });
-  const name = s("text", { class: "ball-name", "text-anchor": "end", y: 4, text: shortened(ballName(drop, ball), LETTERS) });
+  const name = s("text", { class: "ball-name", "text-anchor": "end", y: 4, text: shortened(ballName(drop, ball)) });
   group.append(
     s("path", { class: "ball-body" }),
     patternOf(group, drop.balls[ball]),
@@ -24,6 +24,10 @@ export function ballGroup(drop, ball) {
     s("text", { class: "ball-speed", y: 4 }),
   );
   return group;
+}
+
+function shortened(name) {
+  return name.length > LETTERS ? `${name.slice(0, LETTERS - 1)}…` : name;
 }
 
 /** Move the groups of a drop's balls to where `moment` has them in a view. */

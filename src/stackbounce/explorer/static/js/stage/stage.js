@@ -37,7 +37,7 @@ export function mountStage(root, store, clock, onRuler = () => null) {
     const film = clock.film?.result === result ? clock.film : filmOf(result, until);
     const also = other && !film.whole ? filmOf(other) : null;
     const least = predict && !film.whole ? GUESSED * film.at(film.begin).position.at(-1) : 0;
-    const room = { width: also ? 0.7 * width : width, height: Math.max(height - FOOT - HEAD, FOOT) };
+    const room = { width: also ? 0.7 * width : width, height: height - FOOT - HEAD };
     const camera = cameraOf(film, result, { ...room, magnify, also, least });
     const [middle, beside] = also ? PAIR.map((part) => part * width) : [MIDDLE * width];
     const fastest = Math.max(1e-9, ...result.frames.velocity.flat().map(Math.abs));
