@@ -5,7 +5,7 @@ import * as api from "./asking/api.js";
 import { mountLooks } from "./stage/looks.js";
 import { Clock } from "./stage/clock.js";
 import { mountControls } from "./set_up/controls.js";
-import { button, h, write } from "./dom.js";
+import { button, h } from "./dom.js";
 import { takeFiles } from "./views/measure/dropped.js";
 import { mountEmbed } from "./embed.js";
 import { onFailure } from "./failure.js";
@@ -102,38 +102,16 @@ showBanner();
 markStale(store, document.body);
 const catalogueAgain = loadCatalogue();
 
-/** Build a view from its own module when it is first opened; while that fails, say so and try again. */
-function open(load, section) {
-  const said = h("p", { class: "field-error", role: "alert" });
-  const tryAgain = button(t("Try again"), () => again(), { class: "small" });
-  const unopened = h("div", { class: "unopened", hidden: true }, said, tryAgain);
-  section.append(unopened);
-  const again = retry(
-    async () => {
-      const { mount } = await loaded(load);
-      await mount(section, store, api, clock);
-      unopened.remove();
-      placeSetUp();
-    },
-    (error) => {
-      unopened.hidden = false;
-      write(said, t("This view could not be opened yet: {reason}", { reason: translated(error.message) }));
-    },
-  );
-}
-
-/** Return a module; a browser that keeps in mind that it could not be loaded is shown the page anew. */
-async function loaded(load) {
+/** Build a view from its own module when it is first opened; where that fails, say so and offer to show the page anew. */
+async function open(load, section) {
   try {
-    return await load();
-  } catch {
-    const { ok } = await fetch("icon.svg", { cache: "no-store" }).catch(() => ({ ok: false }));
-    if (!ok) throw new Error(t("The server does not answer."));
-    return load().catch((error) => {
-      const [{ type }] = performance.getEntriesByType("navigation");
-      if (type !== "reload") location.reload(); // the address holds what is shown
-      throw error;
-    });
+    const { mount } = await load();
+    await mount(section, store, api, clock);
+    placeSetUp();
+  } catch (error) {
+    const reason = error instanceof TypeError ? t("The server does not answer.") : translated(error.message); // a module was not loaded
+    const said = h("p", { class: "field-error", role: "alert", text: t("This view could not be opened yet: {reason}", { reason }) });
+    section.append(h("div", { class: "unopened" }, said, button(t("Try again"), () => location.reload(), { class: "small" })));
   }
 }
 

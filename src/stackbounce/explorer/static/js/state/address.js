@@ -126,8 +126,7 @@ export function follow(store) {
 const EXAMPLE = "e"; // an example was loaded, or a link followed
 const VIEW = "v"; // another view, or another lesson
 
-/** What a state without a link shows beside its drop. */
-export const FIRST_SHOWN = Object.fromEntries(
+const FIRST_SHOWN = Object.fromEntries(
   ["view", "until", ...SWITCHES, "guess", "speed", "magnify", "t", "notes", ...Object.keys(SETTINGS)].map((name) => [name, FIRST[name]]),
 );
 
@@ -195,3 +194,5 @@ function number(text) {
 function escape(text) {
   return encodeURIComponent(text).replaceAll("%20", "+").replaceAll("%2F", "/");
 }
+
+export { FIRST_SHOWN };
