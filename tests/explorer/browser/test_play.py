@@ -231,9 +231,9 @@ def test_a_drop_of_many_collisions_is_left_to_the_worker(visit, page):
 
 def test_a_number_that_cannot_be_is_told_at_its_field_and_the_one_before_stays(visit, page):
     for path, text, kept, other, ends in (
-        ("balls.1.mass", "-3 g", "57", "60", "0.001 to 1e6 g"),
-        ("impact_speed", "1e6", "3.53", "4", "0.01 to 100 m/s"),
-        ("gaps.0", "many", "0", "1", "0 to 10000 mm"),
+        ("balls.1.mass", "-3 g", "57", "60", "0.001 g to 1000 kg"),
+        ("impact_speed", "1e6", "3.53", "4", "0.01 m/s to 100 m/s"),
+        ("gaps.0", "many", "0", "1", "0 to 10 m"),
     ):
         field = visit.type(path, text)
         error = page.locator(f"#field-{path.replace('.', '-')}-error")

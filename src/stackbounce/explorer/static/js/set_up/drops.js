@@ -4,17 +4,18 @@ import { clean } from "../words/words.js";
 
 export const GRAVITY = 9.80665;
 
-/** The least and the largest number that the page takes of each kind, in SI units. */
+/** The least and the largest number that a field takes of each kind, in SI units; a map or a link may go beyond. */
 export const BOUNDS = {
   mass: [1e-6, 1e3],
   diameter: [1e-3, 10],
   gaps: [0, 10],
   velocities: [-100, 100],
   impact_speed: [0.01, 100],
-  height: [1e-5, 500],
+  height: [1e-6, 600],
   gravity: [0, 100],
   until: [0.01, 60],
 };
+const BEYOND = 1e3; // times
 
 /** Return a copy of a drop with the value at a path such as "balls.0.mass" changed. */
 export function withValue(drop, path, value) {
@@ -47,7 +48,10 @@ export function complete(drop) {
 export function isDrop(drop) {
   const { balls, contacts, gaps = [], velocities = [] } = drop;
   const members = (list) => Array.isArray(list) && list.length > 0 && list.every((member) => typeof member === "object" && member !== null);
-  const fits = (name, value) => value === undefined || (typeof value === "number" && value >= BOUNDS[name][0] && value <= BOUNDS[name][1]);
+  const fits = (name, value) => {
+    const [low, high] = BOUNDS[name];
+    return value === undefined || (typeof value === "number" && value >= Math.min(low / BEYOND, low * BEYOND) && value <= high * BEYOND);
+  };
   const fit = (name, list) => Array.isArray(list) && list.every((value) => fits(name, value));
   if (!members(balls) || !members(contacts) || !contacts.every(({ law }) => typeof law === "string")) return false;
   if (["height", "impact_speed", "velocities"].filter((kind) => drop[kind] !== undefined).length !== 1) return false;
@@ -59,7 +63,7 @@ export function isDrop(drop) {
 /** Return a drop with a lighter ball on top; `first` is its contact if the one below it has no law. */
 export function withBall(drop, first) {
   const top = drop.balls.at(-1);
-  const ball = { mass: clean(Number((top.mass / 2).toPrecision(3))) };
+  const ball = { mass: Math.max(clean(Number((top.mass / 2).toPrecision(3))), BOUNDS.mass[0]) };
   if (top.diameter) ball.diameter = clean(Number((top.diameter * 0.8).toPrecision(2)));
   const last = drop.contacts.at(-1);
   const contact = last.law === "none" ? first : last;

@@ -3,7 +3,7 @@
 import { copyOf, h, partsOf, put, write } from "../dom.js";
 import { t, writeTold } from "../words/language.js";
 import { BOUNDS } from "./drops.js";
-import { capital, clean, format, pretty, read, shownUnit, splitError } from "../words/words.js";
+import { capital, clean, format, formatMeasured, pretty, read, shownUnit, splitError } from "../words/words.js";
 
 const STEPS = 1000; // of a slider, as its HTML has them
 
@@ -100,10 +100,9 @@ export class NumberField {
       this.show(value);
       return;
     }
-    const [low, high] = this.bounds.map((end) => format(clean(end / this.shown.size)));
-    const values = { text, low, high: `${high} ${pretty(this.shown.unit)}`.trim() };
+    const [low, high] = this.bounds.map((end) => (end === 0 ? "0" : formatMeasured(end, null, this.spec.unit)));
     this.show(this.value);
-    this.fail(t("“{text}” cannot be used, the number before stays: it is from {low} to {high}.", values));
+    this.fail(t("“{text}” cannot be used, the number before stays: it is from {low} to {high}.", { text, low, high }));
   }
 
   press(event) {
