@@ -5,7 +5,7 @@ import { put, s, write } from "../dom.js";
 import { spread } from "./labels.js";
 import { t } from "../words/language.js";
 import { clamp, flattening, outline } from "./shape.js";
-import { ballName, fixed } from "../words/words.js";
+import { ballName, fixed, shortened } from "../words/words.js";
 
 const ARROW = 46; // px of the fastest ball's arrow
 const STILL = 0.005; // m/s, the speed below which none is written
@@ -18,7 +18,7 @@ const LETTERS = 22; // of a name
 /** Return a group that shows a ball. */
 export function ballGroup(drop, ball) {
   const group = s("g", { class: "ball", "data-ball": ball, "--ball": `var(--ball-${ball % 6})` });
-  const name = s("text", { class: "ball-name", "text-anchor": "end", y: 4, text: shortened(ballName(drop, ball)) });
+  const name = s("text", { class: "ball-name", "text-anchor": "end", y: 4, text: shortened(ballName(drop, ball), LETTERS) });
   group.append(
     s("path", { class: "ball-body" }),
     patternOf(group, drop.balls[ball]),
@@ -29,10 +29,6 @@ export function ballGroup(drop, ball) {
     s("path", { class: "ball-leader" }),
   );
   return group;
-}
-
-function shortened(name) {
-  return name.length > LETTERS ? `${name.slice(0, LETTERS - 1)}…` : name;
 }
 
 /**

@@ -5,7 +5,7 @@ import { GRAVITY, gapsOf, incidenceOf, speedOf, withSwap, withValue } from "../s
 import { t } from "../words/language.js";
 import { restacked } from "../set_up/restack.js";
 import { radii } from "./shape.js";
-import { ballName, capital, clean, format, numeric } from "../words/words.js";
+import { ballName, capital, clean, format } from "../words/words.js";
 
 const STILL = 4; // px that a pointer may move in a click
 const HOLD = 300; // ms that a finger rests on a ball before it drags it: before, it scrolls the page
@@ -108,7 +108,7 @@ function actOf(store, api, { ball, edge, far, x }, group) {
 
 function lift(store, drop, up) {
   if (incidenceOf(drop) === "velocities") return t("Each ball has a speed of its own: change it in the set-up.");
-  const gravity = numeric(drop.gravity ?? 0, "m/s**2") || GRAVITY;
+  const gravity = drop.gravity || GRAVITY;
   const height = rounded(speedOf(drop) ** 2 / 2 / gravity + up, HEIGHTS);
   const isHeight = incidenceOf(drop) === "height";
   const value = isHeight ? height : clean(Number(Math.sqrt(2 * gravity * height).toPrecision(4)));

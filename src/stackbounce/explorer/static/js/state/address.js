@@ -207,3 +207,5 @@ function number(text) {
 function escape(text) {
   return encodeURIComponent(text).replaceAll("%20", "+").replaceAll("%2F", "/");
 }
+
+export { FIRST_SHOWN };

@@ -1,5 +1,7 @@
 /** One observable state for the whole page. */
 
+import { safely } from "../failure.js";
+
 /** The views, in the order of their tabs. */
 export const VIEWS = ["play", "line", "map", "measure", "paper"];
 
@@ -90,7 +92,7 @@ export function createStore(first = {}) {
     if (Object.entries(patch).every(([name, value]) => before[name] === value)) return;
     state = { ...state, ...patch };
     for (const follows of derivations) state = { ...state, ...follows(state, before) };
-    for (const listener of [...listeners]) listener(state, before);
+    for (const listener of [...listeners]) safely(listener, state, before);
   };
   /** Call a listener with (state, before) after each change; returns what ends that. */
   const subscribe = (listener) => {
