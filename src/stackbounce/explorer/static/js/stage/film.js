@@ -7,7 +7,9 @@ const FALL = 2; // s of film, at most
 const NEAR = 0.9; // s of film before the first touch and after the last separation, in which the camera moves
 const IMPACT = 6; // s of film from the first touch to the last separation
 const BETWEEN = 1.2; // s of film that the flights between contacts may have, in slow motion
-const COUNTED = 0.2; // s of film that each of many flights may have where no contact takes time, so that contacts can be counted
+const MANY = 8; // flights between contacts that take no time, from which on each has as long, so that contacts can be counted
+const COUNTED = 0.2; // s of film that each of them has, at most
+const COUNTING = 4.7; // s of film that all of them have, at most
 const REAL = 1.3; // s of film that the same may have, in real time
 const LEAP = 2.8; // s of film up to the highest top, at most
 const TOP = 1; // s of film at which it stands there
@@ -18,13 +20,13 @@ const INSTANT = 100; // times that an impact without duration is slowed
 /**
  * Return the film of a result. It has `pieces`, `{phase, from, to, start, length}` in drop time and film time in s; the maps
  * `toFilm` and `toTime` between the two; the motion, `at(time)`, and the textbook's, `ghosts`; `slow`, how many times
- * contacts are slowed; `begins`, the times of contacts; and `events`, `{time, what, contact, ball}`, by time.
+ * contacts are slowed; `counted`, whether flights between them are, so that all can be counted; `begins`, the times of contacts; and `events`, `{time, what, contact, ball}`, by time.
  */
 export function filmOf(result, until = null) {
   const whole = until !== null;
   const motion = whole ? wholeMotion(result) : motionOf(result);
   const { time } = result.frames;
-  const { slow, parts } = whole ? { slow: 1, parts: [["whole", time[0], time.at(-1), time.at(-1) - time[0]]] } : partsOf(result, motion);
+  const { slow, parts, counted = false } = whole ? { slow: 1, parts: [["whole", time[0], time.at(-1), time.at(-1) - time[0]]] } : partsOf(result, motion);
   const pieces = [];
   let length = 0;
   for (const [phase, from, to, lasts] of parts) {
@@ -47,6 +49,7 @@ export function filmOf(result, until = null) {
     begin,
     end,
     slow,
+    counted,
     begins: result.intervals.map(({ start }) => start).sort((a, b) => a - b),
     events: eventsOf(result, tops, begin, end),
     toFilm: (value) => {
@@ -95,10 +98,11 @@ function partsOf({ intervals }, { fall, last, rise, leap }) {
   const closed = total(spans.filter((span) => span.closed));
   const open = spans.filter((span) => !span.closed);
   const flown = total(open);
-  const between = closed > 0 ? BETWEEN : Math.max(BETWEEN, Math.min(COUNTED * open.length, IMPACT));
+  const counted = closed === 0 && open.length >= MANY;
+  const between = counted ? Math.min(COUNTED * open.length, COUNTING) : BETWEEN;
   const lasts = ({ from, to, closed: isClosed }, slow) => {
     const most = Math.max(between / open.length, Math.min(1, REAL / flown) * (to - from));
-    return isClosed ? slow * (to - from) : Math.min(slow * (to - from), most);
+    return isClosed ? slow * (to - from) : counted ? most : Math.min(slow * (to - from), most);
   };
   const length = (slow) => spans.reduce((sum, span) => sum + lasts(span, slow), 0);
   const slow = closed > 0 ? Number(Math.max(bisected((times) => length(times) < IMPACT, 0, IMPACT / closed), 1).toPrecision(2)) : INSTANT;
@@ -111,7 +115,7 @@ function partsOf({ intervals }, { fall, last, rise, leap }) {
     ["after", last, last + after, slow * after],
     ...leapFrom(after),
   ];
-  return { slow, parts };
+  return { slow, parts, counted };
 }
 
 /** Return the time from the first touch to the last separation as spans, `{from, to, closed}`: some contact is closed, or none. */

@@ -23,7 +23,6 @@ const NEARLY = 1e-9; // of the film's time: at an event
 const LETTER = 1.25; // times its size, that a line of words takes
 const WOUND = 6; // s of film that a finger winds across the stage: the impact
 const NOTCH = 0.2; // px of a drag, for each px that a wheel would scroll
-const MANY = 8; // contacts, from which they are counted
 
 /** Draw the stage into `root` and keep it at the clock's time; `onRuler` hears in each frame where the ruler is. */
 export function mountStage(root, store, clock, onRuler = () => null) {
@@ -115,8 +114,8 @@ export function mountStage(root, store, clock, onRuler = () => null) {
 }
 
 /** Return how many contacts there were until a time, where there are many. */
-function countOf({ result: { intervals }, film }, time) {
-  if (film.whole || intervals.length < MANY) return "";
+function countOf({ film }, time) {
+  if (!film.counted) return "";
   const { index, fraction } = locate(film.begins, time);
   const met = time < film.begins[0] ? 0 : index + (fraction === 1 ? 2 : 1);
   return t("{count} contacts", { count: met });
@@ -188,7 +187,8 @@ function words({ film, camera, result, width }, clock, view) {
   const now = moment(clock.time, film.whole);
   const some = width >= WORDY && result.drop.balls.some((_, ball) => film.lies(ball, clock.time));
   const lies = some ? t("; its next bounce is not shown") : "";
-  const note = phase === "top" ? t("at the top the film stands still") : `${PHASES[phase]}${speed}${scale}${lies}`;
+  const counts = film.counted && phase === "between";
+  const note = phase === "top" ? t("at the top the film stands still") : counts ? t("slowed so that contacts can be counted") : `${PHASES[phase]}${speed}${scale}${lies}`;
   return { time: event ? `${now}: ${happening(result.drop, event)}` : now, note };
 }
 

@@ -147,7 +147,7 @@ export function mountSentence(root, live, store) {
     clearTimeout(timer);
     timer = setTimeout(() => write(live, `${said.lead} ${about}${said.more}`), SETTLED);
   };
-  store.watch(["result", "predict", "guess", "closer"], show);
+  store.watch(["result", "predict", "guess", "closer", "view"], show);
 }
 
 /** Return whether a guess is asked for, so that nothing may tell the answer. */
@@ -159,7 +159,7 @@ export function isAsking({ until, predict, guess }) {
 export function saidOf(state) {
   if (isAsking(state)) return question(state.result);
   const story = storyOf(state.result, state.until, !state.closer);
-  return state.predict && state.until === null ? { ...story, lead: rise(state.result) ?? story.lead } : story;
+  return state.view === "play" && state.predict && state.until === null ? { ...story, lead: rise(state.result) ?? story.lead } : story;
 }
 
 function question({ drop }) {
