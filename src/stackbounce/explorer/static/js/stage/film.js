@@ -9,6 +9,7 @@ const IMPACT = 6; // s of film from the first touch to the last separation
 const BETWEEN = 1.2; // s of film that the flights between contacts may have, in slow motion
 const MANY = 8; // flights between contacts that take no time, from which on each has as long, so that contacts can be counted
 const COUNTED = 0.2; // s of film that each of them has, at most
+const SLOWEST = 1e6; // times that such a flight is slowed, at most: those of balls that come to rest pass at once
 const COUNTING = 4.7; // s of film that all of them have, at most
 const REAL = 1.3; // s of film that the same may have, in real time
 const LEAP = 2.8; // s of film up to the highest top, at most
@@ -102,7 +103,7 @@ function partsOf({ intervals }, { fall, last, rise, leap }) {
   const between = counted ? Math.min(COUNTED * open.length, COUNTING) : BETWEEN;
   const lasts = ({ from, to, closed: isClosed }, slow) => {
     const most = Math.max(between / open.length, Math.min(1, REAL / flown) * (to - from));
-    return isClosed ? slow * (to - from) : counted ? most : Math.min(slow * (to - from), most);
+    return isClosed ? slow * (to - from) : Math.min((counted ? SLOWEST : slow) * (to - from), most);
   };
   const length = (slow) => spans.reduce((sum, span) => sum + lasts(span, slow), 0);
   const slow = closed > 0 ? Number(Math.max(bisected((times) => length(times) < IMPACT, 0, IMPACT / closed), 1).toPrecision(2)) : INSTANT;
