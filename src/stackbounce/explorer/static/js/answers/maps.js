@@ -2,9 +2,9 @@
 
 import { InvalidValue } from "../model/errors.js";
 import { known } from "../model/known.js";
+import { nameBall } from "../model/names.js";
 import { numbersOf as pathsOf, valueIn } from "../model/paths.js";
 import { readDrop } from "../model/schema.js";
-import { ballName } from "../words/words.js";
 import { Points, checkPath, spread } from "./points.js";
 
 const UNMAPPED = ["diameter", "young_modulus", "poisson_ratio"];
@@ -38,15 +38,15 @@ export function listNumbers(drop) {
 
 function nameNumber(drop, { part, index, field }) {
   const what = field.replaceAll("_", " ");
-  if (part === "balls") return `${what} of ${ballName(drop, index)}`;
+  if (part === "balls") return `${what} of ${nameBall(drop, index)}`;
   if (part === "contacts") return `${what} of ${nameContact(drop, index)}`;
-  if (part === "gaps") return `gap above ${ballName(drop, index)}`;
-  if (part === "velocities") return `velocity of ${ballName(drop, index)}`;
+  if (part === "gaps") return `gap above ${nameBall(drop, index)}`;
+  if (part === "velocities") return `velocity of ${nameBall(drop, index)}`;
   return what;
 }
 
 function nameContact(drop, index) {
-  return `${index === 0 ? "floor" : ballName(drop, index - 1)} and ${ballName(drop, index)}`;
+  return `${index === 0 ? "floor" : nameBall(drop, index - 1)} and ${nameBall(drop, index)}`;
 }
 
 /** Return label and unit of an outcome. */
@@ -56,7 +56,7 @@ export function nameOutcome(drop, show) {
   const all = Object.keys(known.outcomes).flatMap((kind) => drop.balls.map((_, i) => `${kind}.${i}`));
   if (!all.includes(show)) throw new InvalidValue(`${show} is no outcome`);
   const [words, unit] = known.outcomes[name];
-  return [words.replace("{ball}", ballName(drop, index)).replace("{contact}", nameContact(drop, index)), unit];
+  return [words.replace("{ball}", nameBall(drop, index)).replace("{contact}", nameContact(drop, index)), unit];
 }
 
 function split(show) {

@@ -13,8 +13,9 @@ export const PATTERNS = [
   "collisions of {contact}",
   "gap above {ball}",
   "{number} of {place}",
+  "ball {place}",
   "{lower} and {upper} in series",
 ];
 
 /** What stands at a place of these, such as the balls of a contact; a sentence of its own can look the same by chance. */
-export const PARTS = ["floor and {ball}", "{lower} and {upper}", "ball {place}"];
+export const PARTS = ["floor and {ball}", "{lower} and {upper}", "ball", "lower ball", "upper ball"];

@@ -1,15 +1,12 @@
 /** What balls and contacts are called on screen, and how numbers and units are written there and read: elsewhere they are SI. */
 
+import { nameBall } from "../model/names.js";
 import { t, translated } from "./language.js";
 import { LANGUAGES, language } from "./language_choice.js";
 
-/** Return a ball's name, or its place: the lowest is ball 1, and two are the lower and the upper one. */
-export function ballName({ balls }, ball) {
-  const { name } = balls[ball] ?? {};
-  if (name) return translated(name);
-  if (balls.length === 1) return t("ball");
-  if (balls.length === 2) return ball === 1 ? t("upper ball") : t("lower ball");
-  return t("ball {place}", { place: ball + 1 });
+/** Return a ball's name, or its place, in the page's language. */
+export function ballName(drop, ball) {
+  return translated(nameBall(drop, ball));
 }
 
 /** Return what a contact lies between, such as "floor – tennis". */
