@@ -82,6 +82,9 @@ def test_full_screen_shows_the_film_larger(visit, address_of_server):
     leave = page.get_by_role("button", name="Leave full screen")
     leave.wait_for()
     assert page.evaluate(size) > 1.5 * before
+    page.evaluate("() => clock.pause()")
+    page.keyboard.press(" ")  # plays, and does not leave
+    assert page.evaluate("() => clock.playing")
     assert page.locator(".sentence-lead").is_visible()
     assert page.locator("#controls:visible, .results:visible").count() == 0
     leave.click()

@@ -52,3 +52,24 @@ def test_look_closer_opens_the_whole_page_and_the_address_remembers_it(visit):
     page.go_back()
     page.locator("#tab-map").wait_for(state="hidden")
     assert page.locator(".sentence-lead").inner_text() == QUESTION
+
+
+def test_who_plays_by_keyboard_does_not_lose_the_place(visits):
+    page = visits(viewport={"width": 390, "height": 844}).open("", playback=False)
+    focused = "() => document.activeElement.id || document.activeElement.dataset.part"
+    places = []
+    for part in ("[data-part=mark]", "[data-part=again]", "#closer"):
+        page.locator(part).press("Enter")
+        places.append(page.evaluate(focused))
+        page.evaluate("() => { clock.pause(); clock.wind(clock.film.length); }")
+    assert places == ["stage-box", "mark", "stage-box"]
+
+
+def test_no_name_is_cut_and_no_number_stands_at_the_door(visits):
+    page = visits(viewport={"width": 390, "height": 844}).open("")
+    assert not page.locator("#stage [data-part=room]").text_content()
+    page.evaluate("() => { clock.replay(); clock.pause(); clock.wind(clock.film.length / 2); }")
+    left = "(one) => one.getBoundingClientRect().left"
+    names = page.locator(".ball-name").all()
+    assert len(names) == 2
+    assert min(name.evaluate(left) for name in names) >= page.locator("#stage").evaluate(left)

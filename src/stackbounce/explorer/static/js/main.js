@@ -78,7 +78,10 @@ mountTabs(store, {
   measure: (section) => open(loadMeasure, section),
   paper: (section) => open(loadPaper, section),
 });
-place("closer").addEventListener("click", () => store.set({ closer: true, predict: false }));
+place("closer").addEventListener("click", () => {
+  store.set({ closer: true, predict: false });
+  place("stage-box").focus(); // the button is gone
+});
 const showWhole = ({ closer }) => document.body.classList.toggle("first", !closer);
 store.watch(["closer"], showWhole);
 store.derive(({ error, closer }) => (error && !error.offline && !closer ? { closer: true } : null)); // where it is told

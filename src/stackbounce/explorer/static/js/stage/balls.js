@@ -14,6 +14,7 @@ const NEAR = 0.15; // how near the camera is, from where on speeds are written: 
 const LANE = 8; // px between the arrows of balls that are drawn small
 const MOVED = 3; // px from its place, from where a line leads from a name to its ball
 const LETTERS = 22; // of a name
+const WIDE = 0.45; // of its line, that a letter is wide: a name stays on the stage
 
 /** Return a group that shows a ball. */
 export function ballGroup(drop, ball) {
@@ -52,7 +53,7 @@ export function moveBalls(groups, moment, { view, floor, middle, fastest, legibl
     const velocity = moment.velocity[ball];
     const down = names[ball] - places[ball];
     const isMoved = Math.abs(down) > MOVED;
-    const column = isMoved ? -widest - 24 : -side - 10;
+    const column = Math.max(isMoved ? -widest - 24 : -side - 10, WIDE * letter * name.textContent.length - middle);
     const lane = side + 17 + LANE * ball * (1 - view.near);
     put(group, "data-position", moment.position[ball]);
     put(group, "transform", `translate(${middle} ${places[ball].toFixed(2)})`);

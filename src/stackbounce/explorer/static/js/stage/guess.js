@@ -13,7 +13,10 @@ const STEP = 0.02; // of what the ruler shows, for one press of an arrow
 export function mountGuess(root, store, clock) {
   const { layer: svg, mark, text, go, again } = partsOf(root);
   go.addEventListener("click", letGo);
-  again.addEventListener("click", () => store.set({ guess: null }));
+  again.addEventListener("click", () => {
+    store.set({ guess: null });
+    mark.focus();
+  });
   let height = null; // m, where the mark was put; null until somebody has
   let place = null; // of the ruler in px: {zero, scale, width}, as the stage has it
 
@@ -25,8 +28,10 @@ export function mountGuess(root, store, clock) {
   const told = () => (height === null ? t("your guess?") : place.width < NARROW ? metres(height) : t("your guess: {height}", { height: metres(height) }));
 
   function letGo() {
+    const isHere = [go, mark].includes(document.activeElement);
     flies = true;
     show();
+    if (isHere) again.closest("section").focus(); // what goes away has the keys no more: they drive the film
     clock.replay();
   }
   /** Take the guess for good as soon as the film has shown the answer. */

@@ -1,8 +1,8 @@
-/** The room in which the balls fall: a door of two metres, the balls' shadow, and the floor. */
+/** The room in which the balls fall: a door, the balls' shadow, and the floor. */
 
 import { put, s } from "../dom.js";
 
-const DOOR = { width: 0.9, height: 2 }; // m
+const DOOR = { width: 0.9, height: 2 }; // m, without its number: the ruler counts from the highest ball, not from the floor
 const SKIRTING = 0.08; // m
 const LEAST = 24; // px, of a door that can be seen
 const NARROW = 480; // px, below which the door stands at the wall's end
@@ -15,19 +15,16 @@ export function drawRoom(root, { film, floor, foot, width }) {
     return () => null;
   }
   const door = s("path", { class: "door", d: doorPath(), "vector-effect": "non-scaling-stroke" });
-  const name = s("text", { class: "scene-note", "text-anchor": "middle", text: "2 m" });
   const skirting = s("rect", { class: "skirting", x: 0, width });
   const shadow = s("ellipse", { class: "shadow", ry: 4, cy: floor + 4 });
   const ground = [s("rect", { class: "ground-fill", x: 0, y: floor, width, height: foot }), s("line", { class: "ground-line", x1: 0, x2: width, y1: floor, y2: floor })];
-  root.replaceChildren(skirting, door, name, ...ground, shadow);
+  root.replaceChildren(skirting, door, ...ground, shadow);
   const at = (width < NARROW ? 0.03 : 0.18) * width;
   return (view, { position }, middle) => {
     const far = Math.max(0, 1 - 3 * view.near);
     const high = DOOR.height * view.scale;
     const fits = high > LEAST && high < floor && !film.whole;
-    for (const part of [door, name]) put(part, "opacity", fits ? far.toFixed(2) : 0);
-    put(name, "x", (at + 0.5 * DOOR.width * view.scale).toFixed(1));
-    put(name, "y", (floor - high - 5).toFixed(1));
+    put(door, "opacity", fits ? far.toFixed(2) : 0);
     put(door, "transform", `translate(${at.toFixed(1)} ${floor}) scale(${view.scale.toFixed(3)})`);
     const strip = Math.min(SKIRTING * view.scale, 14);
     put(skirting, "y", (floor - strip).toFixed(1));
