@@ -14,7 +14,7 @@ const NEAR = 0.15; // how near the camera is, from where on speeds are written: 
 const LANE = 8; // px between the arrows of balls that are drawn small
 const MOVED = 3; // px from its place, from where a line leads from a name to its ball
 const LETTERS = 22; // of a name
-const WIDE = 0.45; // of its line, that a letter is wide: a name stays on the stage
+const WIDE = 0.42; // of its line, that a letter is wide: a name stays on the stage
 
 /** Return a group that shows a ball. */
 export function ballGroup(drop, ball) {
