@@ -134,6 +134,14 @@ def test_random_stacks_of_all_laws(seed):
     assert found == pytest.approx(small, abs=1e-5 * most)
 
 
+@pytest.mark.parametrize("drop", [PAPER, THREE, PAPER.replace(contacts=[sb.Rigid(0.9)] * 2)])
+def test_plain_python_gives_the_same_bits(drop, monkeypatch):
+    result = sb.simulate(drop)
+    found = result.sideways().transfer.values
+    monkeypatch.setattr("stackbounce.engine.native.available", lambda: False)
+    assert found.tobytes() == result.sideways().transfer.values.tobytes()
+
+
 @pytest.mark.parametrize("drop", [PAPER, SUPERBALLS, THREE])
 def test_the_floor_pushes_straight_up(drop):
     mass = [ball.mass for ball in drop.balls]
