@@ -18,12 +18,12 @@ The rows and columns of an array are sums of products of sizes: ``{"": 3, "balls
 from collections.abc import Callable, Sequence
 from typing import Any, get_type_hints
 
-from stackbounce.engine import codes, records, slots, two_springs
+from stackbounce.engine import codes, records, sideways, slots, two_springs
 from stackbounce.engine.codes import LOG_COLUMNS
 from stackbounce.engine.entries import ENTRIES, arguments
 from stackbounce.engine.kernels import FloatTable, IntegerColumn, Integers, IntegerTable
 from stackbounce.engine.records import Drops, Outcomes, Workspace
-from stackbounce.engine.sideways import LEVELS, Pushes, new_pushes
+from stackbounce.engine.sideways import Pushes, new_pushes
 from stackbounce.engine.stack import (
     RigidStack,
     Samples,
@@ -60,7 +60,8 @@ def layout() -> dict[str, Any]:
             "Drops": _rows_of_drops(Drops),
             "Outcomes": _rows_of_drops(Outcomes),
         },
-        "sizes": {"scratch": two_springs.SCRATCH, "log_columns": LOG_COLUMNS, "levels": LEVELS},
+        "sizes": {"scratch": two_springs.SCRATCH, "log_columns": LOG_COLUMNS},
+        "pushes": {name: getattr(sideways, name) for name in ("LEVELS", "FEW", "MANY", "ENOUGH")},
         "stages": {
             name: getattr(records, name) for name in ("CONTINUE", "BEGIN", "BEGIN_WITH_PEAKS")
         },

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from stackbounce.engine import codes, native
 from stackbounce.engine.memory import kernel_named
-from stackbounce.engine.sideways import LEVELS, new_pushes
+from stackbounce.engine.sideways import ENOUGH, FEW, LEVELS, MANY, new_pushes
 from stackbounce.engine.stack import as_arrays
 from stackbounce.engine.tables import Table
 from stackbounce.errors import InvalidType, InvalidValue, finite, shown, whole
@@ -29,10 +29,6 @@ _Array = NDArray[np.float64]
 
 LIMIT = math.radians(15.0)  # an exact angle of 16.5 degrees is 16.1 to first order
 REMARK = "an angle is above 15 degrees, where first order ends"
-
-_FEW = 128  # pushes in a stretch between two events: half of all stacks need no more
-_MANY = 4096
-_ENOUGH = 1e-9  # of the largest sideways speed: the error
 
 
 def leave_sideways(
@@ -113,7 +109,7 @@ def _carried(result: "Result", begun: _Array) -> tuple[_Array, _Array]:
         return _carry(pushes, begun, 1, result.end_time)[:2]
     times = rows[:, [codes.TIME, codes.START, codes.PEAK_TIME]].ravel()
     moments = np.unique([0.0, *times[(times > 0.0) & (times < result.end_time)]])  # and no nan
-    count = _FEW
+    count = FEW
     while True:
         pushes = _pushes(result, count * len(moments))
         pushes.time[::count] = moments
@@ -123,7 +119,7 @@ def _carried(result: "Result", begun: _Array) -> tuple[_Array, _Array]:
             tables[name].T.ravel() for name in ("force", "compression")
         )
         offset, speed, error = _carry(pushes, begun, LEVELS, result.end_time)
-        if error <= _ENOUGH * np.max(np.abs(speed)) or count == _MANY:
+        if error <= ENOUGH * np.max(np.abs(speed)) or count == MANY:
             return offset, speed
         count *= 2
 

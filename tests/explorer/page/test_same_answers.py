@@ -91,6 +91,34 @@ def test_all_cases_of_the_paper_play_with_the_same_numbers(asked):
     compare_cases(asked, [case.drop.to_mapping() for case in list_cases()], None, 200)
 
 
+def test_balls_off_the_middle_leave_alike(asked):
+    questions, told = [], []
+    for case in [*list_cases()][::5]:
+        drop = case.drop.to_mapping()
+        offsets = {i: 1e-3 * i for i in range(1, len(drop["balls"]))}
+        for i, ball in enumerate(drop["balls"]):
+            ball.setdefault("diameter", 0.16 / (i + 1))
+        result = play.run_drop(sb.Drop.from_mapping(drop), None)
+        moved = [ball | {"offset": 1e-3 * i} for i, ball in enumerate(drop["balls"])]
+        questions.append(["simulate", drop | {"balls": moved}, None, 2])
+        told.append(result.sideways(offsets))
+        if offsets:
+            x = {"path": "balls.1.offset", "low": 0.0, "high": 1e-3, "log": False}
+            questions.append(["line", {"drop": drop | {"balls": moved}, "x": x, "show": "angle"}])
+            told.append(result.sideways(offsets))
+    for (kind, *_), ours, theirs in zip(questions, asked(questions), told, strict=True):
+        found = ours["answer"]
+        if kind == "line":
+            up = theirs.angle.where(abs(theirs.angle) < 0.5 * math.pi)
+            angles = [curve["values"][-1] for curve in found["curves"]]
+            assert np.array(angles, float) == pytest.approx(np.degrees(up.values), nan_ok=True)
+        elif len(theirs.ball) > 1:
+            for name, values in found["sideways"].items():
+                if name in ("offset", "angle", "landing"):
+                    near = pytest.approx(theirs[name].values, rel=1e-9, abs=1e-15, nan_ok=True)
+                    assert np.array(values, float) == near
+
+
 @pytest.mark.parametrize("until", [0.5, 0.05])
 def test_a_whole_drop_with_gravity_plays_the_same(asked, until):
     drops = [case.drop.to_mapping() | {"gravity": 9.80665} for case in [*list_cases()][::4]]

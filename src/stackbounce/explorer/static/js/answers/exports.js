@@ -1,6 +1,7 @@
 /** A drop as texts: its data, its scenario, and lines of Python. */
 
 import { lawCode } from "../model/calibration.js";
+import { aligned } from "../model/drop.js";
 import { InvalidValue, between, repr, writeFloat } from "../model/errors.js";
 import { known } from "../model/known.js";
 import { dropAt, numbersOf, valueIn } from "../model/paths.js";
@@ -11,7 +12,7 @@ const SAMPLES = 1001;
 
 /** Return a drop as a text, csv, toml or python; the last two have the errors of its numbers, by path. */
 export function exportText(kind, mapping, until_, errors = {}) {
-  const drop = readDrop(mapping);
+  const drop = readDrop(aligned(mapping));
   const until = checkUntil(until_);
   if (kind === "csv") return writeTable(drop, until);
   const pairs = addValues(drop, errors).filter(({ error }) => error > 0);

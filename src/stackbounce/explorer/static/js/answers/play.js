@@ -5,6 +5,7 @@ import { InvalidValue } from "../model/errors.js";
 import { known } from "../model/known.js";
 import { readDrop } from "../model/schema.js";
 import { simulate } from "../run/result.js";
+import { leaveSideways } from "../run/sideways.js";
 
 const INTERVALS = 60; // most contact intervals that get frames of their own
 const BEFORE = 0.15; // margins, over the duration of the impact
@@ -38,8 +39,19 @@ export function playDrop(mapping, until_, frames, eventLimit) {
     intervals: result.intervals.map((interval) => plain(interval)),
     impact: [0, Math.max(0, ...ends)],
     frames: { time: times, ...sampleWithEnergy(result, times) },
+    ...(until === null && drop.balls.some(({ offset }) => offset) ? { sideways: playSideways(result) } : {}),
     separate: drop.rigid ? null : playSeparate(drop, until, times, eventLimit),
   };
+}
+
+/** Return how balls off the middle leave, or why that is not known. */
+function playSideways(result) {
+  try {
+    return leaveSideways(result, [result.drop.balls.map(({ offset }) => offset ?? 0)])[0];
+  } catch (error) {
+    if (error instanceof InvalidValue) return { error: error.message };
+    throw error;
+  }
 }
 
 /** Return numbers with null for those that are not finite. */

@@ -105,6 +105,19 @@ class Engine {
     }
   }
 
+  /** Lend pushes that move a stack sideways: `use` gets `{put(numbers), read(name), call(entry, ...given)}`. */
+  lendPushes(balls, times, use) {
+    return this.room.lend((room) => {
+      const pushes = room.make("Pushes", { balls, times });
+      for (const name of Object.keys(pushes.arrays)) room.floats(pushes, name).fill(0);
+      return use({
+        put: (numbers) => Object.entries(numbers).forEach(([name, values]) => room.write(pushes, name, values)),
+        read: (name) => room.read(pushes, name),
+        call: (entry, ...given) => this.call(entry, pushes, ...given),
+      });
+    });
+  }
+
   /** Return the limits of a run: events, and the work that a run may cost, which is more where more events are asked for. */
   limits(eventLimit) {
     const { work, events: usual } = this.layout.limits;

@@ -29,11 +29,12 @@ export class Drop {
   }
 
   /** Return a ball of values in SI units, checked. */
-  static ball({ mass, diameter, name, young_modulus: modulus, poisson_ratio: ratio }) {
+  static ball({ mass, diameter, name, offset, young_modulus: modulus, poisson_ratio: ratio }) {
     const ball = { mass: positive("mass", mass, "kilograms") };
     if (diameter !== undefined) ball.diameter = positive("diameter", diameter, "metres");
     if (modulus !== undefined) ball.young_modulus = positive("young_modulus", modulus, "pascals");
     if (name !== undefined) ball.name = name;
+    if (offset) ball.offset = nonNegative("offset", offset, "metres"); // off the middle: of the page alone
     if (ratio === -1) throw new InvalidValue("poisson_ratio must be above -1, got -1.0");
     if (ratio !== undefined) ball.poisson_ratio = between("poisson_ratio", ratio, -1, 0.5);
     return ball;
@@ -75,8 +76,13 @@ export class Drop {
   }
 }
 
-function inOrder({ mass, diameter, name, young_modulus, poisson_ratio }) {
-  const all = { mass, diameter, name, young_modulus, poisson_ratio };
+/** Return plain values of a drop whose balls all lie on the middle: what the package takes. */
+export function aligned(drop) {
+  return { ...drop, balls: drop.balls.map(({ offset: _offset, ...ball }) => ball) };
+}
+
+function inOrder({ mass, diameter, name, young_modulus, poisson_ratio, offset }) {
+  const all = { mass, diameter, name, young_modulus, poisson_ratio, offset };
   return Object.fromEntries(Object.entries(all).filter(([, value]) => value !== undefined));
 }
 

@@ -54,7 +54,8 @@ export function mountControls(root, store, api, catalogue) {
       const { contact: changed, note } = await asMeasured(api, catalogue, drop, contact, values);
       change(withValue(drop, `contacts.${contact}`, changed), placed(contact, note));
     });
-  const tools = { catalogue, set, errorAt, choose, arrange, relaw, measured };
+  const whole = () => store.get().until !== null;
+  const tools = { catalogue, set, errorAt, choose, arrange, relaw, measured, whole };
 
   const rebuild = () => {
     const { drop, until, notes } = store.get();

@@ -8,6 +8,7 @@ export const GRAVITY = 9.80665;
 export const BOUNDS = {
   mass: [1e-6, 1e3],
   diameter: [1e-3, 10],
+  offset: [0, 0.01],
   gaps: [0, 10],
   velocities: [-100, 100],
   impact_speed: [0.01, 100],
@@ -56,7 +57,7 @@ export function isDrop(drop) {
   if (!members(balls) || !members(contacts) || !contacts.every(({ law }) => typeof law === "string")) return false;
   if (["height", "impact_speed", "velocities"].filter((kind) => drop[kind] !== undefined).length !== 1) return false;
   const fitAlone = ["height", "impact_speed", "gravity"].every((name) => fits(name, drop[name]));
-  const fitBalls = balls.every(({ mass, diameter }) => fits("mass", mass ?? NaN) && fits("diameter", diameter));
+  const fitBalls = balls.every(({ mass, diameter, offset }) => fits("mass", mass ?? NaN) && fits("diameter", diameter) && fits("offset", offset));
   return fitAlone && fitBalls && fit("gaps", gaps) && fit("velocities", velocities);
 }
 

@@ -9,8 +9,8 @@ const STEPS = 1000; // of a slider, as its HTML has them
 
 export class NumberField {
   /**
-   * @param {object} spec `{path, label, term, of, unit, low, high, bounds, large, says, optional, set(path, value, error), errorAt(path),
-   * follow(value)}`; with `errorAt` a text such as "63 ± 1 cm" has an error, which is null where none is typed; `bounds` are
+   * @param {object} spec `{path, label, term, of, unit, low, high, bounds, large, says, optional, usual, useless, set(path, value, error),
+   * errorAt(path), follow(value)}`; `usual` stands for none, and `useless` says why there is nothing to set; with `errorAt` a text such as "63 ± 1 cm" has an error, which is null where none is typed; `bounds` are
    * by default those of the path
    */
   constructor(spec) {
@@ -25,7 +25,7 @@ export class NumberField {
     this.slider.addEventListener("input", () => this.slide(Number(this.slider.value)));
   }
 
-  build({ path, term, label: word, of, says }) {
+  build({ path, term, label: word, of, says, useless }) {
     const name = term ? `${word} (${term})` : word;
     const spoken = of ? t("{number} of {place}", { number: name, place: of }) : name;
     const id = `field-${path.replaceAll(".", "-")}`;
@@ -40,12 +40,15 @@ export class NumberField {
     put(slider, "aria-label", t("{number}, slider", { number: spoken }));
     slider.dataset.slider = path;
     error.id = `${id}-error`;
-    if (says) explainBy(explain, note, says, term ?? word, `${id}-says`);
+    for (const control of [input, slider]) control.disabled = Boolean(useless);
+    if (useless) Object.assign(note, { textContent: useless, hidden: false });
+    if (useless) explain.remove();
+    else if (says) explainBy(explain, note, says, term ?? word, `${id}-says`);
     else for (const part of [explain, note]) part.remove();
   }
 
   /** Follow a value of the drop, which somebody may be typing. */
-  update(value) {
+  update(value = this.spec.usual) {
     const next = [value, this.spec.errorAt?.(this.path), document.activeElement === this.input];
     if (this.latest.length && next.every((part, i) => part === this.latest[i])) return;
     this.latest = next;

@@ -12,7 +12,8 @@ const BEYOND = 1e4; // times beyond its slider's ends that a number of a law can
 
 /**
  * Return `{items, fields}` of the tower of a drop.
- * @param {object} tools `{catalogue, set(path, value), choose(ball, name), arrange(act), relaw(contact, name), measured(contact, values)}`
+ * @param {object} tools `{catalogue, set(path, value), choose(ball, name), arrange(act), relaw(contact, name), measured(contact, values),
+ * whole()}`: the last tells whether a whole drop is shown, with all its bounces
  */
 export function towerOf(drop, tools, notes) {
   const fields = [];
@@ -57,11 +58,29 @@ function ballCard(drop, ball, tools, field) {
   if (incidenceOf(drop) === "velocities") {
     rows.push(field({ path: `velocities.${ball}`, label: t("velocity"), of: name, unit: "m/s", low: -10, high: 10, says: t("Up is positive, down negative.") }));
   }
+  if (ball > 0 || drop.balls[ball].offset) rows.push(field({ ...offsetField(drop, tools), path: `balls.${ball}.offset`, of: name }));
   changed.before(...rows);
   const shown = { path: `balls.${ball}.diameter`, label: t("size"), term: t("diameter"), of: name, unit: "m", low: 0.01, high: 0.4, optional: true };
   size.dataset.key = `size-${ball}`;
-  size.append(field({ ...shown, says: t("For the picture only: it changes nothing of the bounce.") }));
+  size.append(field({ ...shown, says: t("It changes the picture and where a ball off the middle goes, and nothing else of the bounce.") }));
   return card;
+}
+
+/** Return what the fields of the balls' offsets have in common. */
+function offsetField(drop, { set, whole }) {
+  const lacks = drop.balls.every(({ diameter }) => diameter) ? "" : t("Needs the size of each ball.");
+  return {
+    label: t("off the middle"),
+    term: t("offset"),
+    unit: "m",
+    low: 0,
+    high: 0.01,
+    usual: 0,
+    useless: whole() ? t("Only where the film shows one impact.") : lacks,
+    says: t("How far to the side the ball lies. Counted to first order, without friction and spin."),
+    set: (path, value) => set(path, value || undefined),
+    errorAt: undefined,
+  };
 }
 
 /** Return a function that keeps a ball's name true while its mass changes. */
@@ -138,6 +157,7 @@ export function shapeOf(drop) {
   return JSON.stringify([
     incidenceOf(drop),
     drop.balls.map(({ name }) => name ?? null),
+    drop.balls.every(({ diameter }) => diameter),
     drop.contacts.map((contact) => [contact.law, Object.keys(contact).sort(), contact.exponent === 1]),
   ]);
 }

@@ -40,6 +40,7 @@ export function moveBalls(groups, moment, { view, floor, middle, fastest, legibl
   const speaks = whole || view.near > NEAR;
   const flat = flattening(moment.compression, view);
   const places = moment.position.map((position, ball) => Number(height(view, floor, ball, position)));
+  const across = moment.position.map((_, ball) => middle + besideOf(view, moment, ball));
   const ghost = theirs ? [moveGhosts(ghosts, theirs, { view, floor, middle })] : [];
   const names = spread([...places, ...ghost], letter, floor - 0.5 * letter);
   put(ghosts, "visibility", theirs ? "visible" : "hidden");
@@ -53,10 +54,10 @@ export function moveBalls(groups, moment, { view, floor, middle, fastest, legibl
     const velocity = moment.velocity[ball];
     const down = names[ball] - places[ball];
     const isMoved = Math.abs(down) > MOVED;
-    const column = Math.max(isMoved ? -widest - 24 : -side - 10, WIDE * letter * name.textContent.length - middle);
+    const column = Math.max(isMoved ? -widest - 24 : -side - 10, WIDE * letter * name.textContent.length - across[ball]);
     const lane = side + 17 + LANE * ball * (1 - view.near);
     put(group, "data-position", moment.position[ball]);
-    put(group, "transform", `translate(${middle} ${places[ball].toFixed(2)})`);
+    put(group, "transform", `translate(${across[ball]} ${places[ball].toFixed(2)})`);
     put(body, "d", path);
     put(light, "d", path);
     squash(pattern, side, radius - flat[ball].upper, radius - flat[ball].lower);
@@ -74,6 +75,11 @@ export function moveBalls(groups, moment, { view, floor, middle, fastest, legibl
 /** Return a ball's height in px on the stage, at a position in m from its place in the stack. */
 export function height(view, floor, ball, position) {
   return (floor - view.lift - view.rest[ball] - view.move * position).toFixed(2);
+}
+
+/** Return how far a ball is off the middle on the stage, in px: what it has moved is shown as much larger as its height. */
+export function besideOf({ scale, move }, { sideways, begun }, ball) {
+  return sideways ? Number((scale * begun[ball] + move * (sideways[ball] - begun[ball])).toFixed(2)) : 0;
 }
 
 /** Return an arrow from a height of 0 to `length` px down, at `x`. */
@@ -117,6 +123,6 @@ export function moveKept(group, moment, { view, floor, middle }) {
   view.radius.forEach((_, ball) => {
     const body = group.children[ball];
     put(body, "d", outline(view.radius[ball], flat[ball]).path);
-    put(body, "transform", `translate(${middle} ${height(view, floor, ball, moment.position[ball])})`);
+    put(body, "transform", `translate(${middle + besideOf(view, moment, ball)} ${height(view, floor, ball, moment.position[ball])})`);
   });
 }

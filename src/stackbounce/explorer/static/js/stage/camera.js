@@ -16,7 +16,7 @@ export function cameraOf(film, result, { width, height: room, magnify, also = nu
   const height = Math.max(room, LEAST);
   const radius = radii(result.drop);
   const sinks = (position) => (film.floor ? 0 : Math.max(0, -position[0])); // m below the place on the floor
-  const far = farView(radius, { width, height, ...reach(film, result, also, least) });
+  const far = farView(radius, { width, height, ...reach(film, result, also, least), aside: asideOf(film) });
   const near = film.whole ? far : closeUp(result, { width, height, asked: magnify });
   const view = (zoom) => {
     const scale = far.scale ** (1 - zoom) * near.scale ** zoom;
@@ -49,7 +49,13 @@ function reach(film, result, also, least) {
 }
 
 function ends(film) {
-  return { start: film.at(film.begin).position, final: film.at(film.end).position };
+  const { position, sideways } = film.at(film.end);
+  return { start: film.at(film.begin).position, final: film.floor && sideways ? [] : position }; // some lie beside the stack, on the floor
+}
+
+/** Return how far off the middle a ball of a film comes, in m. */
+function asideOf(film) {
+  return Math.max(0, ...(film.at(film.end).sideways ?? []).map(Math.abs));
 }
 
 function tops({ tops: all }) {

@@ -1,5 +1,6 @@
 /** The room in which the balls fall: a door, the balls' shadow, and the floor. */
 
+import { besideOf } from "./balls.js";
 import { put, s } from "../dom.js";
 
 const DOOR = { width: 0.9, height: 2 }; // m, without its number: the ruler counts from the highest ball, not from the floor
@@ -20,7 +21,7 @@ export function drawRoom(root, { film, floor, foot, width }) {
   const ground = [s("rect", { class: "ground-fill", x: 0, y: floor, width, height: foot }), s("line", { class: "ground-line", x1: 0, x2: width, y1: floor, y2: floor })];
   root.replaceChildren(skirting, door, ...ground, shadow);
   const at = (width < NARROW ? 0.03 : 0.18) * width;
-  return (view, { position }, middle) => {
+  return (view, now, middle) => {
     const far = Math.max(0, 1 - 3 * view.near);
     const high = DOOR.height * view.scale;
     const fits = high > LEAST && high < floor && !film.whole;
@@ -29,8 +30,8 @@ export function drawRoom(root, { film, floor, foot, width }) {
     const strip = Math.min(SKIRTING * view.scale, 14);
     put(skirting, "y", (floor - strip).toFixed(1));
     put(skirting, "height", strip.toFixed(1));
-    const above = Math.max(0, view.lift + view.move * position[0]) / view.radius[0];
-    put(shadow, "cx", middle);
+    const above = Math.max(0, view.lift + view.move * now.position[0]) / view.radius[0];
+    put(shadow, "cx", middle + besideOf(view, now, 0));
     put(shadow, "rx", (Math.max(...view.radius) * (0.8 + 0.1 * Math.min(above, 4))).toFixed(1));
     put(shadow, "opacity", (DARKEST / (1 + 0.5 * above)).toFixed(3));
   };

@@ -4,6 +4,7 @@ const DENSITY = 1000; // kg/m³ of a ball of unknown size, for its picture only
 const MOST_FLAT = 0.85; // most flattening of a side, as a fraction of the radius
 const MAGNIFICATIONS = [1, 1.5, 2, 3, 5, 8, 10, 15, 20, 30, 50];
 const LEAST_RADIUS = 5; // px, so that every ball can be seen
+const BESIDE = 0.4; // of the width, that the way of a ball off the middle may take
 
 /** Return each ball's radius in m, of a sphere of its mass where no diameter is given. */
 export function radii(drop) {
@@ -55,8 +56,8 @@ export function closeUp(result, { width, height, asked }) {
 }
 
 /** Return the far view that holds a stack whose highest ball moves between two heights in m: all to scale. */
-export function farView(radius, { width, height, low, high }) {
-  const scale = Math.min(height / (heightOf(radius) + high - low), widest(radius, width));
+export function farView(radius, { width, height, low, high, aside = 0 }) {
+  const scale = Math.min(height / (heightOf(radius) + high - low), widest(radius, width), (BESIDE * width) / aside);
   const free = height - heightOf(stacked(radius, scale).radius);
   return { scale, move: Math.min(scale, Math.max(free, 0.3 * height) / Math.max(high - low, 1e-9)), times: 1 };
 }

@@ -6,7 +6,7 @@ import { filmOf, pieceAt } from "./film.js";
 import { cameraOf } from "./camera.js";
 import { t } from "../words/language.js";
 import { radii, stacked } from "./shape.js";
-import { ballGroup, ghostGroup, height as heightAt, keptGroups, moveBalls, moveKept } from "./balls.js";
+import { ballGroup, besideOf, ghostGroup, height as heightAt, keptGroups, moveBalls, moveKept } from "./balls.js";
 import { drawForces } from "./forces.js";
 import { drawRoom } from "./room.js";
 import { drawRuler } from "./ruler.js";
@@ -152,14 +152,15 @@ function moveTrails(root, { film, floor, middle }, view, time) {
   const flies = !film.whole && time > film.last;
   put(root, "visibility", flies ? "visible" : "hidden");
   if (!flies) return;
-  const now = film.at(time).position;
+  const now = film.at(time);
   [...root.children].forEach((line, ball) => {
     const top = film.tops[ball];
-    put(line, "x1", middle);
-    put(line, "x2", middle);
+    const moment = top && time > top.time ? film.at(top.time) : now;
+    put(line, "x1", middle + besideOf(view, { sideways: now.begun, begun: now.begun }, ball));
+    put(line, "x2", middle + besideOf(view, moment, ball));
     const lowest = (position) => (Number(heightAt(view, floor, ball, position)) + view.radius[ball]).toFixed(2);
     put(line, "y1", lowest(0));
-    put(line, "y2", lowest(top && time > top.time ? top.height : now[ball]));
+    put(line, "y2", lowest(moment === now ? now.position[ball] : top.height));
   });
 }
 

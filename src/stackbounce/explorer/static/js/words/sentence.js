@@ -11,6 +11,9 @@ const NOTHING = 5e-4; // a rebound ratio that is none
 /** How a run ended whose last speeds are known. */
 export const ENDED = ["FINISHED", "COLLAPSED", "SETTLED"];
 
+/** The angle in degrees up to which the first order in the offsets is near: an exact angle of 16.5 degrees is 16.1. */
+export const FIRST_ORDER = 15;
+export const ROUGH = t("Above 15° this is a rough estimate: it counts the offset to first order.");
 const SETTLED = 700; // ms without a new result before it is said
 const WITH_BALL = new Set(["tennis", "table tennis", "golf"]);
 
@@ -31,7 +34,7 @@ export function storyOf(result, until = null, brief = false) {
   const theirs = textbookOf(result);
   const how = motion(drop, top, own[top]);
   const lead = theirs && top > 0 ? `${how}, ${compared(own[top], theirs[top])}.` : `${how}.`;
-  return { lead, more: more(result, own, theirs, top, brief) };
+  return { lead, more: [sideways(result, top), more(result, own, theirs, top, brief)].filter(Boolean).join(" ") };
 }
 
 /** Return what a ball is called within a sentence: "the tennis ball", "B1", "the lower ball", "ball 3". */
@@ -83,6 +86,20 @@ function compared(own, theirs) {
   const much = { value, times: times >= 10 ? format(times, 2) : fixed(times, 1) };
   if (times >= MUCH) return t("{times} times as fast as the textbook’s {value}", much);
   return times > 1 ? t("faster than the textbook’s {value}", { value }) : t("slower than the textbook’s {value}", { value });
+}
+
+/** Return what a ball off the middle does to the highest one; empty without one. */
+function sideways({ drop, sideways: found, rebound_speeds: speeds }, top) {
+  if (!found) return "";
+  if (found.error) return t("Where balls off the middle go is not known here: that takes the size of each ball, and collisions that come to an end.");
+  if (!(speeds[top] > 0)) return "";
+  const angle = (Math.abs(found.angle[top]) * 180) / Math.PI;
+  const values = { ball: called(drop, top), angle: fixed(angle, 1), far: metres(Number(Math.abs(found.landing[top]).toPrecision(2))), offset: metres(drop.balls[top].offset ?? 0) };
+  const isAlone = drop.balls.every(({ offset }, ball) => Boolean(offset) === (ball === top));
+  const said = isAlone
+    ? t("{offset} to the side: {ball} leaves {angle}° off, and lands {far} away.", values)
+    : t("With balls off the middle, {ball} leaves {angle}° off, and lands {far} away.", values);
+  return angle > FIRST_ORDER ? `${said} ${ROUGH}` : said;
 }
 
 function factor(ratio) {

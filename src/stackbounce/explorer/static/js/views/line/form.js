@@ -6,6 +6,7 @@ import { t, translated } from "../../words/language.js";
 import { drawingForm } from "../drawing/form.js";
 import { sideForm } from "../drawing/side_form.js";
 import { SHOWS } from "./in_words.js";
+import { isOffset } from "./request.js";
 
 /**
  * Fill the form in an element, as `drawingForm` does.
@@ -29,7 +30,7 @@ export function lineForm(element, figures, figureOf, { set, use }) {
       choice({
         label: t("Shown"),
         key: "line-show",
-        groups: [["", [...SHOWS]]],
+        groups: [["", [...SHOWS].filter(([show]) => (show === "angle") === isOffset(settings.x))]],
         value: settings.show,
         set: (show) => change({ show }),
       }),
