@@ -80,7 +80,7 @@ function drawAcross(answer, frame, place, colors) {
 function drawUp({ show, unit }, all, frame, place, colors) {
   const found = all.filter(({ value }) => show !== "collisions" || Number.isInteger(value));
   const scale = show === "energy_retained" ? 100 : 1;
-  const ending = show === "energy_retained" ? " %" : unit ? ` ${pretty(unit)}` : "";
+  const ending = show === "energy_retained" ? " %" : show === "angle" ? unit : unit ? ` ${pretty(unit)}` : "";
   return found.flatMap(({ value }, i) => [
     rule(frame.left, place.y(value), frame.left + frame.width, place.y(value), value === 0 ? colors.muted : colors.line),
     s("text", {
