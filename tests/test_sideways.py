@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
 
-ENOUGH = {"rtol": 3e-12, "atol": 1e-22, "method": "DOP853"}
+ENOUGH = {"rtol": 3e-12, "atol": 1e-16, "method": "DOP853"}
 
 
 def stack(masses, radii, laws, gaps, speed):
@@ -31,8 +31,9 @@ THREE = stack(
 
 
 def push(law, c, rate):
-    """Return a law's force in N while its contact is closed."""
-    c = max(c, 0.0)
+    """Return a law's force in N."""
+    if c <= 0.0:
+        return 0.0
     match law:
         case sb.Spring(k):
             return k * c
@@ -48,11 +49,8 @@ def push(law, c, rate):
             return max(0.0, k * c**p * (1.0 + x * rate))
 
 
-def integrated(drop, moved, offset):
-    """Return the sideways speeds per offset of a ball, with the exact geometry of circles.
-
-    Contacts are closed when the run has them closed: some forces would jump within a step.
-    """
+def integrated(drop, moved, offset, lowered=0.0):
+    """Return offsets, positions and both speeds, with the exact geometry of circles."""
     mass = np.array([ball.mass for ball in drop.balls])
     radius = np.array([0.5 * ball.diameter for ball in drop.balls])
     count = len(mass)
@@ -62,12 +60,13 @@ def integrated(drop, moved, offset):
     for i in range(1, count):
         apart = radius[i - 1] + radius[i] + drop.gaps[i - 1]
         y[i] = y[i - 1] + apart
+    y[moved] -= lowered
 
-    def change(_, state, closed):
+    def change(_, state):
         x, y, u, v = state.reshape(4, count)
         ax, ay = np.zeros(count), np.zeros(count)
-        ay[0] = push(drop.contacts[0], radius[0] - y[0], -v[0]) / mass[0] * (0 in closed)
-        for i in closed - {0}:
+        ay[0] = push(drop.contacts[0], radius[0] - y[0], -v[0]) / mass[0]
+        for i in range(1, count):
             dx, dy = x[i] - x[i - 1], y[i] - y[i - 1]
             apart = math.hypot(dx, dy)
             nx, ny = dx / apart, dy / apart
@@ -81,16 +80,14 @@ def integrated(drop, moved, offset):
     start = np.concatenate([x, y, np.zeros(count), np.full(count, -drop.reference_speed)])
     result = sb.simulate(drop, rtol=1e-12)
     for begin, end in zip(moments := kinks(result), moments[1:], strict=False):
-        middle, spans = 0.5 * (begin + end), result.intervals
-        closed = {*spans["contact"][(spans["start"] < middle) & (middle < spans["end"])].tolist()}
-        start = solve_ivp(change, (begin, end), start, args=(closed,), **ENOUGH).y[:, -1]
-    return start.reshape(4, count)[2] / offset
+        start = solve_ivp(change, (begin, end), start, **ENOUGH).y[:, -1]
+    return start.reshape(4, count)
 
 
 def kinks(result):
-    """Return the times in s at which contacts open and close."""
-    times = [0.0, *result.intervals["start"], *result.intervals["end"], result.end_time]
-    return np.unique([time for time in times if 0.0 <= time <= result.end_time])
+    """Return the times in s at which contacts open and close, and one after them."""
+    times = [0.0, *result.intervals["start"], *result.intervals["end"], 1.1 * result.end_time]
+    return np.unique([time for time in times if time >= 0.0])
 
 
 @pytest.mark.parametrize(
@@ -134,8 +131,27 @@ def test_random_stacks_of_all_laws(seed):
     moved = int(random.integers(1, count))
     found = sb.simulate(drop, rtol=1e-11).sideways().transfer.values[:, moved]
     most = max(abs(found))
-    small = integrated(drop, moved, 1e-4 / most)  # what is left out is of second order
-    assert found == pytest.approx(small, abs=1e-6 * most)
+    small = 1e-4 / most  # what is left out is of second order
+    speeds = integrated(drop, moved, small)[2] / small
+    assert found == pytest.approx(speeds, abs=1e-6 * most)
+
+
+@pytest.mark.parametrize(
+    ("drop", "offset", "angle", "first", "loss"),  # as docs/straight.md has them
+    [
+        (PAPER, 5e-3, 8.27, 8.22, 0.033),
+        (PAPER, 0.01, 16.47, 16.12, 0.126),
+        (SUPERBALLS, 5e-3, 9.93, 9.80, 0.041),
+    ],
+)
+def test_how_far_first_order_goes_and_what_the_height_loses(drop, offset, angle, first, loss):
+    apart = 0.5 * (drop.balls[0].diameter + drop.balls[1].diameter) + drop.gaps[0]
+    lowered = apart - math.sqrt(apart**2 - offset**2)  # for the gap to be that of the drop
+    _, _, sideways, upward = integrated(drop, 1, offset, lowered)[:, 1]
+    assert math.degrees(math.atan2(sideways, upward)) == pytest.approx(angle, abs=0.006)
+    result = sb.simulate(drop)
+    assert np.degrees(result.sideways({1: offset}).angle[1]) == pytest.approx(first, abs=0.006)
+    assert 1.0 - (upward / result.rebound_speeds[1]) ** 2 == pytest.approx(loss, abs=6e-4)
 
 
 @pytest.mark.parametrize("drop", [PAPER, THREE, PAPER.replace(contacts=[sb.Rigid(0.9)] * 2)])
