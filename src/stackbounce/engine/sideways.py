@@ -20,7 +20,7 @@ from stackbounce.engine.kernels import Floats, kernel
 
 LEVELS = 4  # of the extrapolation, in which every push, every second, fourth and eighth counts
 FEW = 128  # pushes in a stretch, of which most stacks need no more; they are doubled until the
-MANY = 4096  # error is small, or there are so many
+MANY = 65536  # error is small, or all stretches together have so many
 ENOUGH = 1e-9  # of the largest sideways speed: an error that is small
 
 

@@ -119,7 +119,7 @@ def _carried(result: "Result", begun: _Array) -> tuple[_Array, _Array]:
             tables[name].T.ravel() for name in ("force", "compression")
         )
         offset, speed, error = _carry(pushes, begun, LEVELS, result.end_time)
-        if error <= ENOUGH * np.max(np.abs(speed)) or count == MANY:
+        if error <= ENOUGH * np.max(np.abs(speed)) or len(pushes.time) >= MANY:
             return offset, speed
         count *= 2
 

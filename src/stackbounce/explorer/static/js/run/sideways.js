@@ -3,6 +3,8 @@
 import { InvalidValue } from "../model/errors.js";
 import { theEngine } from "../model/one_ball.js";
 
+const MOST = 400; // stretches between events: a run of these takes some 50 ms
+
 /**
  * Return what becomes of each list of offsets in m at the start of a run: `{offset, speed}` of each ball at its end, and how it came
  * there, `path` by ball over `time`.
@@ -22,6 +24,7 @@ function carried(result, begun) {
   const { LEVELS, FEW, MANY, ENOUGH } = layout.pushes;
   const times = rows.flatMap((row) => [row[log.TIME], row[log.START], row[log.PEAK_TIME]]).filter((time) => time > 0 && time < end);
   const moments = [...new Set([0, ...times])].sort((a, b) => a - b);
+  if (moments.length > MOST) throw new InvalidValue(`sideways motion needs a run of at most ${MOST} stretches between events, got ${moments.length}`);
   for (let count = FEW; ; count *= 2) {
     const { found, error } = theEngine().lendPushes(radii.length, count * moments.length, (room) => {
       room.put({ time: moments.flatMap((moment) => [moment, ...new Array(count - 1).fill(0)]) });
@@ -30,7 +33,7 @@ function carried(result, begun) {
       return carry(room, { ...stack, force, compression }, begun, LEVELS, end);
     });
     const most = Math.max(...found.flatMap(({ speed }) => speed.map(Math.abs)));
-    if (error <= ENOUGH * most || count >= MANY) return found;
+    if (error <= ENOUGH * most || count * moments.length >= MANY) return found;
   }
 }
 

@@ -91,7 +91,7 @@ function compared(own, theirs) {
 /** Return what a ball off the middle does to the highest one; empty without one. */
 function sideways({ drop, sideways: found, rebound_speeds: speeds }, top) {
   if (!found) return "";
-  if (found.error) return t("Where balls off the middle go is not known here: that takes the size of each ball, and collisions that come to an end.");
+  if (found.error) return t("Where balls off the middle go is not known here: that takes the size of each ball, and not too many collisions.");
   if (!(speeds[top] > 0)) return "";
   const angle = (Math.abs(found.angle[top]) * 180) / Math.PI;
   const values = { ball: called(drop, top), angle: fixed(angle, 1), far: metres(Number(Math.abs(found.landing[top]).toPrecision(2))), offset: metres(drop.balls[top].offset ?? 0) };
