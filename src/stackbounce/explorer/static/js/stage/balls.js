@@ -14,6 +14,7 @@ const NEAR = 0.15; // how near the camera is, from where on speeds are written: 
 const LANE = 8; // px between the arrows of balls that are drawn small
 const MOVED = 3; // px from its place, from where a line leads from a name to its ball
 const LETTERS = 22; // of a name
+const OUTSIDE = 1e4; // px to the side, at most, that a ball is drawn
 const WIDE = 0.42; // of its line, that a letter is wide: a name stays on the stage
 
 /** Return a group that shows a ball. */
@@ -79,7 +80,7 @@ export function height(view, floor, ball, position) {
 
 /** Return how far a ball is off the middle on the stage, in px: what it has moved is shown as much larger as its height. */
 export function besideOf({ scale, move }, { sideways, begun }, ball) {
-  return sideways ? Number((scale * begun[ball] + move * (sideways[ball] - begun[ball])).toFixed(2)) : 0;
+  return sideways ? Number(clamp(scale * begun[ball] + move * (sideways[ball] - begun[ball]), -OUTSIDE, OUTSIDE).toFixed(2)) : 0;
 }
 
 /** Return an arrow from a height of 0 to `length` px down, at `x`. */

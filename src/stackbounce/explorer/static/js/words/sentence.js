@@ -13,6 +13,7 @@ export const ENDED = ["FINISHED", "COLLAPSED", "SETTLED"];
 
 /** The angle in degrees up to which the first order in the offsets is near: an exact angle of 16.5 degrees is 16.1. */
 export const FIRST_ORDER = 15;
+const NO_ORDER = 45; // degrees, from which on numbers of first order would say nothing
 export const ROUGH = t("Above 15° this is a rough estimate: it counts the offset to first order.");
 const SETTLED = 700; // ms without a new result before it is said
 const WITH_BALL = new Set(["tennis", "table tennis", "golf"]);
@@ -94,6 +95,7 @@ function sideways({ drop, sideways: found, rebound_speeds: speeds }, top) {
   if (found.error) return t("Where balls off the middle go is not known here: that takes the size of each ball, and not too many collisions.");
   if (!(speeds[top] > 0)) return "";
   const angle = (Math.abs(found.angle[top]) * 180) / Math.PI;
+  if (angle > NO_ORDER) return t("So far off the middle the balls fly apart sideways: first order cannot say how.");
   const values = { ball: called(drop, top), angle: fixed(angle, 1), far: metres(Number(Math.abs(found.landing[top]).toPrecision(2))), offset: metres(drop.balls[top].offset ?? 0) };
   const isAlone = drop.balls.every(({ offset }, ball) => Boolean(offset) === (ball === top));
   const said = isAlone
