@@ -9,7 +9,7 @@ The rows and columns of an array are sums of products of sizes: ``{"": 3, "balls
 
 - ``balls``: the height of a stack,
 - ``drops``: the rows of `Drops` and `Outcomes`,
-- ``times``: the times of samples,
+- ``times``: the times of samples, or pushes,
 - ``scratch``: the numbers that `run_two_springs` needs in ``Workspace.floats``. For other entries
   ``floats`` and ``integers`` of the workspace are all floats and all integers of the stack, which
   lie one array after the other in the order of the record.
@@ -18,11 +18,12 @@ The rows and columns of an array are sums of products of sizes: ``{"": 3, "balls
 from collections.abc import Callable, Sequence
 from typing import Any, get_type_hints
 
-from stackbounce.engine import codes, records, slots, two_springs
+from stackbounce.engine import codes, records, sideways, slots, two_springs
 from stackbounce.engine.codes import LOG_COLUMNS
 from stackbounce.engine.entries import ENTRIES, arguments
 from stackbounce.engine.kernels import FloatTable, IntegerColumn, Integers, IntegerTable
 from stackbounce.engine.records import Drops, Outcomes, Workspace
+from stackbounce.engine.sideways import Pushes, new_pushes
 from stackbounce.engine.stack import (
     RigidStack,
     Samples,
@@ -39,7 +40,7 @@ _STATUSES = "RUNNING FINISHED SETTLED COLLAPSED TIME_REACHED EVENT_LIMIT INVALID
 _EVENTS = "TOUCH RELEASE COLLISION PEAK DIP LINEARISED CURVED RETURNED CLIPPED RESUMED JOINED"
 _COLUMNS = "TIME CONTACT KIND LOWER_VELOCITY UPPER_VELOCITY START PEAK_FORCE PEAK_COMPRESSION"
 
-_TRIALS = ((1, 1), (2, 1), (1, 2), (2, 2), (5, 7))  # balls and times
+_TRIALS = ((1, 1), (2, 1), (1, 2), (2, 2), (5, 7))  # balls and times, or pushes
 
 Terms = dict[str, int]
 
@@ -54,11 +55,13 @@ def layout() -> dict[str, Any]:
             "Stack": _fields(Stack, lambda balls, _: new_stack(balls)),
             "RigidStack": _fields(RigidStack, lambda balls, _: new_rigid_stack(balls)),
             "Samples": _fields(Samples, lambda balls, times: new_samples([0.0] * times, balls)),
+            "Pushes": _fields(Pushes, new_pushes),
             "Workspace": _workspace(),
             "Drops": _rows_of_drops(Drops),
             "Outcomes": _rows_of_drops(Outcomes),
         },
         "sizes": {"scratch": two_springs.SCRATCH, "log_columns": LOG_COLUMNS},
+        "pushes": {name: getattr(sideways, name) for name in ("LEVELS", "FEW", "MANY", "ENOUGH")},
         "stages": {
             name: getattr(records, name) for name in ("CONTINUE", "BEGIN", "BEGIN_WITH_PEAKS")
         },

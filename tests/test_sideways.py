@@ -172,6 +172,14 @@ def test_stiff_springs_that_do_not_overlap_in_time_are_rigid():
     assert found[0] == pytest.approx(found[1], rel=1e-4)
 
 
+@pytest.mark.parametrize("drop", [PAPER, THREE, PAPER.replace(contacts=[sb.Rigid(0.9)] * 2)])
+def test_plain_python_gives_the_same_bits(drop, monkeypatch):
+    result = sb.simulate(drop)
+    found = result.sideways().transfer.values
+    monkeypatch.setattr("stackbounce.engine.native.available", lambda: False)
+    assert found.tobytes() == result.sideways().transfer.values.tobytes()
+
+
 def test_a_tennis_ball_1_mm_off_the_middle():
     result = sb.simulate(PAPER)
     found = result.sideways({1: "1 mm"})

@@ -1,25 +1,20 @@
 """How balls leave sideways that do not stand exactly above each other, to first order.
 
-To first order in the offsets the vertical motion is that of the aligned stack, so that the sideways
-motion follows from a run that is known, whatever the contact laws. The normal of contact i leans by
-(s_i - s_(i-1)) / L_i, with the distance of the centres L_i = R_(i-1) + R_i - c_i, so that
-
-    m_i s_i'' = F_i (s_i - s_(i-1)) / L_i - F_(i+1) (s_(i+1) - s_i) / L_(i+1)
-
-for the offsets s_i, with the force F_i and the overlap c_i of the run. There is no friction, and
-the floor pushes straight up. A rigid collision changes the sideways speeds at one instant, by its
-impulse in place of the force.
+It follows from a run that is known, whatever the contact laws: `engine/sideways.py` has the method.
 """
 
-import functools
 import math
-from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.engine import codes
+from stackbounce.engine import codes, native
+from stackbounce.engine.memory import kernel_named
+from stackbounce.engine.sideways import ENOUGH, FEW, LEVELS, MANY, new_pushes
+from stackbounce.engine.stack import as_arrays
+from stackbounce.engine.tables import Table
 from stackbounce.errors import InvalidType, InvalidValue, finite, shown, whole
 from stackbounce.model import STANDARD_GRAVITY
 from stackbounce.units import in_unit
@@ -38,10 +33,6 @@ UNITS = {"sideways_speed": "m/s", "angle": "rad"} | dict.fromkeys(
 )
 REMARK = "an angle is above 15 degrees, where first order ends"
 
-_NODES = 32  # of a stretch between two events or peaks: 16 give 3e-7 of a speed, 24 give 2e-10
-_SWEEPS = 100  # of Picard's iteration, whose error falls as 1/(2 n)!
-_ENOUGH = 1e-15  # relative
-
 
 def leave_sideways(
     result: "Result", offsets: Mapping[int, Any] | None, speeds: Mapping[int, Any] | None
@@ -49,20 +40,20 @@ def leave_sideways(
     """Return how the balls of a run leave sideways; see `Result.sideways`."""
     import xarray as xr
 
-    found = _transfer_of(result)
     count = len(result.drop.balls)
     ball, attrs = np.arange(count), {"stackbounce": __version__, "drop": result.drop.to_toml()}
     if not offsets and not speeds:
+        offset, sideways = _carried(result, np.eye(count, 2 * count))
         return xr.Dataset(
             {
-                "transfer": (("ball", "moved"), found.speed[:, :count], {"units": "1/s"}),
-                "amplification": (("ball", "moved"), found.offset[:, :count], {"units": "1"}),
+                "transfer": (("ball", "moved"), sideways, {"units": "1/s"}),
+                "amplification": (("ball", "moved"), offset, {"units": "1"}),
             },
             {"ball": ball, "moved": ball},
             attrs,
         )
     begun = [*_given("offsets", offsets, "m", count), *_given("speeds", speeds, "m/s", count)]
-    offset, sideways = found.offset @ begun, found.speed @ begun
+    offset, sideways = (values[:, 0] for values in _carried(result, np.array([begun])))
     upward = np.array(result.final_velocities)
     angle = np.arctan2(sideways, upward)
     pull = result.drop.gravity or STANDARD_GRAVITY
@@ -99,8 +90,11 @@ def _given(name: str, values: Mapping[int, Any] | None, unit: str, count: int) -
     return found
 
 
-def _transfer_of(result: "Result") -> "Transfer":
-    """Return what becomes of offsets and sideways speeds in a run."""
+def _carried(result: "Result", begun: _Array) -> tuple[_Array, _Array]:
+    """Return the offsets in m and sideways speeds in m/s at the end of a run, (balls, rows).
+
+    Each row of `begun` has the offsets at the start and the sideways speeds.
+    """
     balls, rows = result.drop.balls, result._rows
     for i, ball in enumerate(balls):
         if ball.diameter is None:
@@ -109,117 +103,53 @@ def _transfer_of(result: "Result") -> "Transfer":
     if invalid or any(result.infinite):
         what = "is INVALID" if invalid else "had infinitely many collisions"
         raise InvalidValue(f"sideways motion needs all impulses of a run: this one {what}")
+    struck = rows[rows[:, codes.KIND] == codes.COLLISION]
+    if len(struck):
+        pushes = _pushes(result, len(struck))
+        pushes.time[:], pushes.share[:] = struck[:, codes.TIME], 1.0
+        at = np.arange(len(struck)) * len(balls) + struck[:, codes.CONTACT].astype(int)
+        pushes.force[at] = struck[:, codes.IMPULSE]
+        return _carry(pushes, begun, 1, result.end_time)[:2]
     times = rows[:, [codes.TIME, codes.START, codes.PEAK_TIME]].ravel()
-    inside = (times > 0.0) & (times < result.end_time)  # and no nan
-    return transfer(
-        [ball.mass for ball in balls],
-        [0.5 * (ball.diameter or 0.0) for ball in balls],
-        np.unique([0.0, *times[inside], result.end_time]),
-        [
-            (row[codes.TIME], int(row[codes.CONTACT]), row[codes.IMPULSE])
-            for row in rows[rows[:, codes.KIND] == codes.COLLISION].tolist()
-        ],
-        result.sampled,
-    )
+    moments = np.unique([0.0, *times[(times > 0.0) & (times < result.end_time)]])  # and no nan
+    count = FEW
+    while True:
+        pushes = _pushes(result, count * len(moments))
+        pushes.time[::count] = moments
+        _call("place_pushes", pushes, count, result.end_time)
+        tables = result.sampled(pushes.time)
+        pushes.force[:], pushes.compression[:] = (
+            tables[name].T.ravel() for name in ("force", "compression")
+        )
+        offset, speed, error = _carry(pushes, begun, LEVELS, result.end_time)
+        if error <= ENOUGH * np.max(np.abs(speed)) or len(pushes.time) >= MANY:
+            return offset, speed
+        count *= 2
 
 
-class Transfer(NamedTuple):
-    """What offsets and sideways speeds before a run make of themselves, linearly.
-
-    Parameters
-    ----------
-    offset : ndarray
-        (balls, 2 balls) offset in m at the run's end, per m of the offset and per m/s of the speed
-        with which each ball begins.
-    speed : ndarray
-        (balls, 2 balls) sideways speed in m/s then.
-    """
-
-    offset: _Array
-    speed: _Array
+def _pushes(result: "Result", count: int) -> Any:
+    """Return room for so many pushes on the balls of a run."""
+    balls = result.drop.balls
+    pushes = as_arrays(new_pushes(len(balls), count))
+    pushes.mass[:] = [ball.mass for ball in balls]
+    radii = [0.5 * (ball.diameter or 0.0) for ball in balls]
+    pushes.distance[:] = np.add(radii, [0.0, *radii[:-1]])
+    return pushes
 
 
-def transfer(
-    mass: Sequence[float],
-    radii: Sequence[float],
-    moments: _Array,
-    impulses: Sequence[tuple[float, int, float]],
-    sampled: Callable[[_Array], dict[str, _Array]],
-) -> Transfer:
-    """Return what becomes of offsets and sideways speeds.
-
-    Parameters
-    ----------
-    mass, radii : sequence of float
-        (balls,) in kg and in m.
-    moments : ndarray
-        Ascending times in s from the start to the end of the run, with all at which a force may
-        begin, end or have a kink.
-    impulses : sequence of tuple
-        Time in s, contact and impulse in N s of each rigid collision, in order.
-    sampled : callable
-        From times in s to `force` in N and `compression` in m, (contacts, times); not used if there
-        are rigid collisions.
-    """
-    weights, distance = np.array(mass), np.convolve(radii, [1.0, 1.0])[:-1]
-    offset, speed = np.eye(len(mass), 2 * len(mass)), np.eye(len(mass), 2 * len(mass), len(mass))
-    if impulses:
-        now = moments[0]
-        for time, contact, impulse in impulses:
-            offset, now = offset + (time - now) * speed, time
-            if contact > 0:
-                lean = impulse * (offset[contact] - offset[contact - 1]) / distance[contact]
-                speed[contact] += lean / mass[contact]
-                speed[contact - 1] -= lean / mass[contact - 1]
-        return Transfer(offset + (moments[-1] - now) * speed, speed)
-    nodes, slopes, weigh, inner = _quadrature()
-    spans = np.diff(moments)
-    tables = sampled((moments[:-1, None] + spans[:, None] * nodes).ravel())
-    lean = tables["force"] / (distance[:, None] - tables["compression"])
-    lean[0] = 0.0  # the floor pushes straight up
-    lean = lean.reshape(len(mass), len(spans), _NODES)
-    for stretch, span in enumerate(spans):
-        rates = lean[:, stretch, :, None]
-        if not np.any(rates):
-            offset = offset + span * speed
-            continue
-        steps = span * slopes  # of time, at the nodes
-        rule = inner * steps
-        base = offset[:, None] + (rule @ np.ones(_NODES))[:, None] * speed[:, None]
-        path = base
-        for _ in range(_SWEEPS):
-            before, path = path, base + rule @ (rule @ _pushed(path, rates, weights))
-            if np.max(np.abs(path - before)) <= _ENOUGH * np.max(np.abs(path)):
-                break
-        gained = rule @ _pushed(path, rates, weights)
-        last = weigh * steps
-        offset = offset + span * speed + np.einsum("k,bkc->bc", last, gained)
-        speed = speed + np.einsum("k,bkc->bc", last, _pushed(path, rates, weights))
-    return Transfer(offset, speed)
+def _carry(pushes: Any, begun: _Array, levels: int, end: float) -> tuple[_Array, _Array, float]:
+    """Return the offsets and speeds at the end, (balls, rows), and the error of the speeds."""
+    found, error = [], 0.0
+    for row in begun:
+        pushes.begin[:] = row
+        _call("carry_sideways", pushes, levels, end)
+        coarse, last = np.reshape([*row, *pushes.end], (LEVELS + 1, -1))[levels - 1 : levels + 1]
+        error = max(error, np.max(np.abs(last - coarse)[len(pushes.mass) :]))
+        found.append(last)
+    offset, speed = np.split(np.transpose(found), 2)
+    return offset, speed, error
 
 
-def _pushed(path: _Array, rates: _Array, mass: _Array) -> _Array:
-    """Return the accelerations (balls, nodes, columns) of balls at offsets of the same shape."""
-    push = rates * np.diff(path, axis=0, prepend=0.0)
-    push[:-1] -= push[1:].copy()
-    return push / mass[:, None, None]
-
-
-@functools.cache
-def _quadrature() -> tuple[_Array, _Array, _Array, _Array]:
-    """Return nodes from 0 to 1, the derivative of their map, and the rules of its integrals.
-
-    The map t(x) = x^4 (35 - 84 x + 70 x^2 - 20 x^3) has flat ends, so that forces that begin as a
-    root of time are smooth in x. The rules integrate polynomials of x: over all, and up to each
-    node.
-    """
-    x, weigh = np.polynomial.legendre.leggauss(_NODES)
-    powers = np.polynomial.legendre.legvander(x, _NODES)
-    series = (np.arange(_NODES) + 0.5)[:, None] * (powers[:, :-1] * weigh[:, None]).T
-    upto = np.empty((_NODES, _NODES))
-    upto[:, 0] = 1.0 + x
-    for order in range(1, _NODES):
-        upto[:, order] = (powers[:, order + 1] - powers[:, order - 1]) / (2 * order + 1)
-    x, inner = 0.5 * (x + 1.0), 0.5 * upto @ series
-    nodes = x**4 * (35.0 - 84.0 * x + 70.0 * x**2 - 20.0 * x**3)
-    return nodes, 140.0 * (x * (1.0 - x)) ** 3, 0.5 * weigh, inner
+def _call(kernel: str, pushes: Any, *numbers: float) -> None:
+    compiled = native.available()
+    kernel_named(kernel, compiled)(Table(pushes) if compiled else pushes, *numbers)

@@ -67,5 +67,32 @@ def test_on_a_phone_the_ball_and_the_number_that_changes_it_are_on_one_screen(vi
     wait_for_stage("> 100")
     slider.scroll_into_view_if_needed()
     wait_for_stage("=== 0")
-    slider.evaluate("(one) => one.blur()")
-    wait_for_stage("< 0")
+
+
+PLACES = """() => [...document.querySelectorAll('#stage .ball')].map((ball) =>
+  Number(ball.getAttribute('transform').match(/[-\\d.]+/)))"""
+
+
+def test_a_ball_off_the_middle_leaves_aside_and_lands_on_the_floor(visit):
+    page = visit.open()
+    visit.type("balls.1.offset", "1 mm")
+    page.wait_for_function("() => state.result.sideways && !state.busy")
+    page.evaluate("() => { clock.pause(); clock.seek(clock.end); }")
+    page.wait_for_function("() => clock.asked === 0")
+    lower, upper = page.evaluate(PLACES)
+    assert lower < upper - 5.0  # px
+    page.wait_for_function("() => location.hash.includes('balls.1.offset=0.001&')")
+    page.reload()
+    visit.ready()
+    slider = page.locator("[data-slider='balls.1.offset']")
+    slider.fill("1000")
+    page.locator("#sentence", has_text="rough estimate").wait_for()
+    page.get_by_role("button", name="Undo").click()
+    page.locator("#sentence", has_text="1 mm to the side: the tennis ball").wait_for()
+    page.get_by_role("tab", name="Line").click()
+    page.locator("[data-key='line-x']").select_option("balls.1.offset")
+    page.locator("#line-summary", has_text="largest 16.1° at 10 mm").wait_for()
+    page.locator("[data-key='size-0'] summary").click()
+    visit.type("balls.0.diameter", "")
+    assert page.get_by_text("Needs the size of each ball.").is_visible()
+    assert slider.is_disabled()

@@ -24,7 +24,7 @@ function shown(film, result) {
   return Array.from({ length: SAMPLES + 1 }, (_, i) => {
     const reel = (film.length * i) / SAMPLES;
     const time = film.toTime(reel);
-    const { position, velocity, compression } = film.at(time);
+    const { position, velocity, compression, sideways } = film.at(time);
     const view = camera.at(time, position);
     const centres = position.map((one, ball) => view.lift + view.rest[ball] + view.move * one);
     return {
@@ -34,6 +34,7 @@ function shown(film, result) {
       position,
       velocity,
       compression,
+      sideways,
       ghosts: film.ghosts?.at(time) ?? null,
       top: centres.at(-1) + view.radius.at(-1),
       bottom: centres[0] - view.radius[0] + view.move * Math.max(0, compression[0]),

@@ -5,6 +5,7 @@ import { learn } from "../model/known.js";
 import { useEngine } from "../model/one_ball.js";
 import { calibrateLaw, convertLaw, stackBalls } from "./catalogue.js";
 import { exportText } from "./exports.js";
+import { AngleJob } from "./angles.js";
 import { LineJob } from "./lines.js";
 import { MapJob, listPaths } from "./maps.js";
 import { playDrop } from "./play.js";
@@ -21,6 +22,6 @@ export async function openDesk({ engine, layout, model }) {
     mapPaths: listPaths,
     exportText,
     mapJob: (request) => new MapJob(request),
-    lineJob: (request) => new LineJob(request),
+    lineJob: (request) => (request.show === "angle" ? new AngleJob(request) : new LineJob(request)),
   };
 }

@@ -1,10 +1,11 @@
 /** The motion of a drop at each moment, and the textbook's beside it: as stackbounce/explorer/answers/play.py. */
 
 import { separate } from "../model/calibration.js";
-import { InvalidValue, Wrong, shownAsGiven } from "../model/errors.js";
+import { InvalidValue } from "../model/errors.js";
 import { known } from "../model/known.js";
 import { readDrop } from "../model/schema.js";
 import { simulate } from "../run/result.js";
+import { leaveSideways } from "../run/sideways.js";
 
 const INTERVALS = 60; // most contact intervals that get frames of their own
 const BEFORE = 0.15; // margins, over the duration of the impact
@@ -21,7 +22,7 @@ export function checkUntil(until) {
   if (until === null || until === undefined) return null;
   if (typeof until === "number" && until > 0 && until <= known.limits.duration) return until;
   const right = `a positive number of seconds, at most ${known.limits.duration}`;
-  throw new InvalidValue(`until must be ${right}, got ${shownAsGiven(until)}`);
+  throw new InvalidValue(`until must be ${right}, got ${until}`);
 }
 
 /** Drop a stack of balls: numbers, intervals, frames, and the separate collisions of the same drop. */
@@ -38,8 +39,19 @@ export function playDrop(mapping, until_, frames, eventLimit) {
     intervals: result.intervals.map((interval) => plain(interval)),
     impact: [0, Math.max(0, ...ends)],
     frames: { time: times, ...sampleWithEnergy(result, times) },
+    ...(until === null && drop.balls.some(({ offset }) => offset) ? { sideways: playSideways(result) } : {}),
     separate: drop.rigid ? null : playSeparate(drop, until, times, eventLimit),
   };
+}
+
+/** Return how balls off the middle leave, or why that is not known. */
+function playSideways(result) {
+  try {
+    return leaveSideways(result, [result.drop.balls.map(({ offset }) => offset ?? 0)])[0];
+  } catch (error) {
+    if (error instanceof InvalidValue) return { error: error.message };
+    throw error;
+  }
 }
 
 /** Return numbers with null for those that are not finite. */
@@ -53,7 +65,6 @@ function numbers(result) {
   const { speeds, drop } = result;
   return {
     status: result.status,
-    advice: known.advice[result.cause ?? result.status],
     rebound_speeds: plain(speeds),
     rebound_ratios: plain(speeds.map((speed) => speed / drop.speed)),
     rebound_heights: plain(speeds.map((speed) => (speed * Math.abs(speed)) / (2 * known.gravity))),
@@ -148,7 +159,7 @@ function playSeparate(drop, until, times, eventLimit) {
       position,
     };
   } catch (error) {
-    if (error instanceof Wrong) return { error: error.message };
+    if (error instanceof InvalidValue) return { error: error.message };
     throw error;
   }
 }

@@ -2,6 +2,7 @@
 
 import { AtOnce } from "../engine/at_once.js";
 import { Client } from "../engine/client.js";
+import { aligned } from "../model/drop.js";
 import { pictureOf } from "../plots/export_picture.js";
 import { t } from "../words/language.js";
 import { hasServer, loadParts, startWorker } from "../origin/served.js";
@@ -85,6 +86,6 @@ export async function predict(drop, errors, until = null) {
   return ask("api/predict", {
     method: "POST",
     headers: { "Content-Type": "application/json" },
-    body: JSON.stringify({ drop, errors, until }),
+    body: JSON.stringify({ drop: aligned(drop), errors, until }),
   });
 }

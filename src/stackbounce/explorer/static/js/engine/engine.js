@@ -48,11 +48,9 @@ class Engine {
         parts.push(room.floats(space, "log").slice(0, rows * sizes.log_columns));
       }
       const ends = room.read(space, "after");
-      const limited = status === statuses.EVENT_LIMIT;
       return {
         status,
         time: ends[after.END],
-        cause: limited ? room.read(stack, "counter")[counter.CAUSE] : 0,
         velocity: ends.slice(after.AFTER),
         log: joined(parts),
         infinite: drop.rigid ? room.read(stack, "infinite") : new Int32Array(balls),
@@ -105,6 +103,19 @@ class Engine {
       const each = values.length / rows.length;
       rows.forEach((row, k) => outcomes[name].set(values.subarray(k * each, (k + 1) * each), row * each));
     }
+  }
+
+  /** Lend pushes that move a stack sideways: `use` gets `{put(numbers), read(name), call(entry, ...given)}`. */
+  lendPushes(balls, times, use) {
+    return this.room.lend((room) => {
+      const pushes = room.make("Pushes", { balls, times });
+      for (const name of Object.keys(pushes.arrays)) room.floats(pushes, name).fill(0);
+      return use({
+        put: (numbers) => Object.entries(numbers).forEach(([name, values]) => room.write(pushes, name, values)),
+        read: (name) => room.read(pushes, name),
+        call: (entry, ...given) => this.call(entry, pushes, ...given),
+      });
+    });
   }
 
   /** Return the limits of a run: events, and the work that a run may cost, which is more where more events are asked for. */

@@ -4,6 +4,7 @@ import { button, copyOf, fillFrom, h, tableBox, write } from "../dom.js";
 import { embedded } from "../embed.js";
 import { t } from "../words/language.js";
 import { language } from "../words/language_choice.js";
+import { asksFirst } from "../state/address.js";
 import { LESSON_LIST } from "../state/store.js";
 
 /** Show the store's lesson in `root`, and let the button open the list; returns what gives the lessons, by language. */
@@ -27,6 +28,11 @@ export function mountLessons({ root, button }, store) {
   };
   button.addEventListener("click", () => open(isOpen() ? null : LESSON_LIST));
   root.addEventListener("keydown", ({ key }) => key === "Escape" && open(null));
+  store.derive((state, before) => {
+    if (state.lesson === before.lesson) return null;
+    const asks = asksFirst({ ...state, closer: true });
+    return { closer: state.closer || state.lesson !== null, ...(asks || state.lesson === null ? { predict: asks, guess: null } : {}) };
+  });
   store.watch(["lesson"], () => {
     const focused = root.contains(document.activeElement);
     show();
@@ -92,9 +98,9 @@ function told(text, lesson, open) {
   });
 }
 
-/** Bring the view into sight once the link is followed. */
+/** Bring the view and the head of the page into sight once the link is followed. */
 function lookThere() {
-  addEventListener("hashchange", () => document.querySelector("main > [role=tabpanel]:not([hidden])").scrollIntoView(), { once: true });
+  addEventListener("hashchange", () => scrollTo(0, 0), { once: true });
 }
 
 function taskOf({ text, table: rows, grid, after }) {

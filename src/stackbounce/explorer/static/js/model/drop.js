@@ -1,8 +1,7 @@
 /** A drop, checked, as stackbounce/model/drop.py has it. */
 
-import { InvalidType, InvalidValue, between, finite, nonNegative, positive, shown, writeFloat } from "./errors.js";
+import { InvalidValue, between, finite, nonNegative, positive, writeFloat } from "./errors.js";
 import { known } from "./known.js";
-import { stripped } from "./units.js";
 
 const INCIDENCE = ["impact_speed", "height", "velocities"];
 
@@ -12,7 +11,7 @@ export class Drop {
     const { balls, contacts } = values;
     this.balls = balls;
     this.contacts = contacts;
-    const gaps = values.gaps === undefined ? balls.slice(1).map(() => 0) : list("gaps", values.gaps);
+    const gaps = values.gaps ?? balls.slice(1).map(() => 0);
     if (!balls.length) throw new InvalidValue("balls must hold at least one ball, got none");
     checkContacts(contacts, balls.length);
     if (gaps.length !== balls.length - 1) {
@@ -30,15 +29,14 @@ export class Drop {
   }
 
   /** Return a ball of values in SI units, checked. */
-  static ball({ mass, diameter, name, young_modulus: modulus, poisson_ratio: ratio }) {
+  static ball({ mass, diameter, name, offset, young_modulus: modulus, poisson_ratio: ratio }) {
     const ball = { mass: positive("mass", mass, "kilograms") };
     if (diameter !== undefined) ball.diameter = positive("diameter", diameter, "metres");
     if (modulus !== undefined) ball.young_modulus = positive("young_modulus", modulus, "pascals");
-    if (name !== undefined) ball.name = checkName(name);
-    if (ratio !== undefined) {
-      ball.poisson_ratio = between("poisson_ratio", ratio, -1, 0.5);
-      if (ratio === -1) throw new InvalidValue(`poisson_ratio must be above -1, got ${shown(ratio)}`);
-    }
+    if (name !== undefined) ball.name = name;
+    if (offset) ball.offset = nonNegative("offset", offset, "metres"); // off the middle: of the page alone
+    if (ratio === -1) throw new InvalidValue("poisson_ratio must be above -1, got -1.0");
+    if (ratio !== undefined) ball.poisson_ratio = between("poisson_ratio", ratio, -1, 0.5);
     return ball;
   }
 
@@ -78,14 +76,14 @@ export class Drop {
   }
 }
 
-function inOrder({ mass, diameter, name, young_modulus, poisson_ratio }) {
-  const all = { mass, diameter, name, young_modulus, poisson_ratio };
-  return Object.fromEntries(Object.entries(all).filter(([, value]) => value !== undefined));
+/** Return plain values of a drop whose balls all lie on the middle: what the package takes. */
+export function aligned(drop) {
+  return { ...drop, balls: drop.balls.map(({ offset: _offset, ...ball }) => ball) };
 }
 
-function list(name, values) {
-  if (Array.isArray(values)) return values;
-  throw new InvalidType(`${name} must be a list, got ${shown(values)}`);
+function inOrder({ mass, diameter, name, young_modulus, poisson_ratio, offset }) {
+  const all = { mass, diameter, name, young_modulus, poisson_ratio, offset };
+  return Object.fromEntries(Object.entries(all).filter(([, value]) => value !== undefined));
 }
 
 function checkContacts(contacts, count) {
@@ -104,13 +102,6 @@ function checkContacts(contacts, count) {
   );
 }
 
-function checkName(name) {
-  if (typeof name !== "string") throw new InvalidType(`name must be a string, got ${shown(name)}`);
-  if (!stripped(name)) throw new InvalidValue(`name must not be empty, got ${shown(name)}`);
-  if (/\p{Cs}/u.test(name)) throw new InvalidValue(`name must be text that UTF-8 can write, got ${shown(name)}`);
-  return name;
-}
-
 function incidence(values, count) {
   const given = INCIDENCE.filter((name) => values[name] !== undefined);
   if (given.length !== 1) {
@@ -119,7 +110,7 @@ function incidence(values, count) {
   }
   if (values.impact_speed !== undefined) return { impact_speed: positive("impact_speed", values.impact_speed, "m/s") };
   if (values.height !== undefined) return { height: positive("height", values.height, "metres") };
-  const velocities = list("velocities", values.velocities);
+  const { velocities } = values;
   if (velocities.length !== count) {
     throw new InvalidValue(`velocities must hold one number per ball (${count}), got ${velocities.length}`);
   }

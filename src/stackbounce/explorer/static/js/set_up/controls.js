@@ -4,7 +4,7 @@ import { fillFrom, write } from "../dom.js";
 import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withBall, withIncidence, withValue } from "./drops.js";
 import { NumberField, choice, sayProblem } from "./fields.js";
 import { t, translated, writeTold } from "../words/language.js";
-import { asMeasured, changeLaw, firstContact, lawMemory } from "./laws.js";
+import { asMeasured, changeLaw, firstContact } from "./laws.js";
 import { withError } from "../asking/prediction.js";
 import { restacked } from "./restack.js";
 import { withExample } from "../state/store.js";
@@ -17,7 +17,6 @@ export function mountControls(root, store, api, catalogue) {
   let fields = [];
   let falls = []; // those of them that say how the tower comes in
   let shape = "";
-  const laws = lawMemory();
 
   const change = (drop, notes = []) => store.set({ drop, notes });
   const set = (path, value, error) => {
@@ -46,7 +45,7 @@ export function mountControls(root, store, api, catalogue) {
     });
   const relaw = (contact, name) =>
     attempt(async () => {
-      const { drop, note } = await changeLaw(api, catalogue.laws, store.get().drop, contact, name, laws);
+      const { drop, note } = await changeLaw(api, catalogue.laws, store.get().drop, contact, name);
       change(drop, placed(contact, note));
     });
   const measured = (contact, values) =>
@@ -55,7 +54,8 @@ export function mountControls(root, store, api, catalogue) {
       const { contact: changed, note } = await asMeasured(api, catalogue, drop, contact, values);
       change(withValue(drop, `contacts.${contact}`, changed), placed(contact, note));
     });
-  const tools = { catalogue, set, errorAt, choose, arrange, relaw, measured };
+  const whole = () => store.get().until !== null;
+  const tools = { catalogue, set, errorAt, choose, arrange, relaw, measured, whole };
 
   const rebuild = () => {
     const { drop, until, notes } = store.get();

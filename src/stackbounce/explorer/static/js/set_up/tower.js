@@ -8,10 +8,12 @@ import { isOfCatalogue } from "./restack.js";
 import { ballName, contactName, format, lawName } from "../words/words.js";
 
 const OWN = "";
+const BEYOND = 1e4; // times beyond its slider's ends that a number of a law can be typed
 
 /**
  * Return `{items, fields}` of the tower of a drop.
- * @param {object} tools `{catalogue, set(path, value), choose(ball, name), arrange(act), relaw(contact, name), measured(contact, values)}`
+ * @param {object} tools `{catalogue, set(path, value), choose(ball, name), arrange(act), relaw(contact, name), measured(contact, values),
+ * whole()}`: the last tells whether a whole drop is shown, with all its bounces
  */
 export function towerOf(drop, tools, notes) {
   const fields = [];
@@ -36,7 +38,7 @@ function ballCard(drop, ball, tools, field) {
   const entries = (lossy) =>
     tools.catalogue.balls.filter((ball) => ball.lossy === lossy).map((ball) => [ball.name, `${translated(ball.name)}, ${format(ball.mass * 1e3)} g`]);
   const choose = choice({
-    label: t("Ball {place}", { place: ball }),
+    label: t("Ball {place}", { place: ball + 1 }),
     quiet: true,
     key: `ball-${ball}`,
     groups: [["", [[OWN, t("another ball")]]], [t("Balls a class owns"), entries(true)], [t("Balls of the paper"), entries(false)]],
@@ -56,11 +58,29 @@ function ballCard(drop, ball, tools, field) {
   if (incidenceOf(drop) === "velocities") {
     rows.push(field({ path: `velocities.${ball}`, label: t("velocity"), of: name, unit: "m/s", low: -10, high: 10, says: t("Up is positive, down negative.") }));
   }
+  if (ball > 0 || drop.balls[ball].offset) rows.push(field({ ...offsetField(drop, tools), path: `balls.${ball}.offset`, of: name }));
   changed.before(...rows);
   const shown = { path: `balls.${ball}.diameter`, label: t("size"), term: t("diameter"), of: name, unit: "m", low: 0.01, high: 0.4, optional: true };
   size.dataset.key = `size-${ball}`;
-  size.append(field({ ...shown, says: t("For the picture only: it changes nothing of the bounce.") }));
+  size.append(field({ ...shown, says: t("It changes the picture and where a ball off the middle goes, and nothing else of the bounce.") }));
   return card;
+}
+
+/** Return what the fields of the balls' offsets have in common. */
+function offsetField(drop, { set, whole }) {
+  const lacks = drop.balls.every(({ diameter }) => diameter) ? "" : t("Needs the size of each ball.");
+  return {
+    label: t("off the middle"),
+    term: t("offset"),
+    unit: "m",
+    low: 0,
+    high: 0.01,
+    usual: 0,
+    useless: whole() ? t("Only where the film shows one impact.") : lacks,
+    says: t("How far to the side the ball lies. Counted to first order, without friction and spin."),
+    set: (path, value) => set(path, value || undefined),
+    errorAt: undefined,
+  };
 }
 
 /** Return a function that keeps a ball's name true while its mass changes. */
@@ -104,10 +124,11 @@ function lawFields(drop, contact, law, field) {
   const own = drop.contacts[contact];
   return law.fields
     .filter(({ name, low, required }) => typeof low === "number" && (required || own[name] !== undefined))
-    .map(({ name, low, high, words, says, explains, unit: unitOfLaw }) => {
+    .map(({ name, low, high, least, most, words, says, explains, unit: unitOfLaw }) => {
       const unit = unitOfLaw === "N/m**exponent" && own.exponent === 1 ? "N/m" : unitOfLaw;
       const term = says === words ? undefined : translated(says);
-      const spec = { label: translated(words ?? says), term, of: contactName(drop, contact), unit, low, high, says: translated(explains) };
+      const bounds = [Math.max(least, low / BEYOND), Math.min(most, high * BEYOND)];
+      const spec = { label: translated(words ?? says), term, of: contactName(drop, contact), unit, low, high, bounds, says: translated(explains) };
       return field({ path: `contacts.${contact}.${name}`, ...spec });
     });
 }
@@ -121,8 +142,8 @@ function measuredBox(contact, law, tools) {
     field.update(values[spec.name]);
     return field.element;
   };
-  const boxes = [local({ name: "restitution", label: t("how bouncy"), term: t("restitution"), unit: "", low: 0.05, high: 1 })];
-  if (!law.rigid) boxes.push(local({ name: "contact_time", label: t("contact time"), unit: "s", low: 5e-4, high: 5e-2 }));
+  const boxes = [local({ name: "restitution", label: t("how bouncy"), term: t("restitution"), unit: "", low: 0.05, high: 1, bounds: [0.001, 1] })];
+  if (!law.rigid) boxes.push(local({ name: "contact_time", label: t("contact time"), unit: "s", low: 5e-4, high: 5e-2, bounds: [1e-6, 1] }));
   const { box, about, apply } = partsOf(copyOf("measured-box"));
   box.dataset.key = `measured-${contact}`;
   write(about, `${law.formula} – ${translated(law.says)} (${law.source})`);
@@ -136,6 +157,7 @@ export function shapeOf(drop) {
   return JSON.stringify([
     incidenceOf(drop),
     drop.balls.map(({ name }) => name ?? null),
+    drop.balls.every(({ diameter }) => diameter),
     drop.contacts.map((contact) => [contact.law, Object.keys(contact).sort(), contact.exponent === 1]),
   ]);
 }

@@ -2,22 +2,24 @@
  * Where the balls are at each moment of a drop: fall, impact and leap.
  *
  * The engine computes the impact. Before the first touch and after its last separation a ball flies freely, which is a
- * closed form with the drop's gravity, or the standard one where the drop has none during its impact. The leap ends soon
- * after the highest ball's top. Balls do not meet in flight: a drop is finished when none approaches another, and all
+ * closed form with the drop's gravity, or the standard one where the drop has none during its impact. The leap ends where
+ * the highest ball is back. Balls do not meet in flight: a drop is finished when none approaches another, and all
  * fall alike. A ball that comes back to where it lay on the stack stays there, as its next bounce is not computed.
  * A drop that the engine did not finish has no leap.
  */
 
 import { between, locate } from "./clock.js";
 import { GRAVITY } from "../set_up/drops.js";
+import { radii } from "./shape.js";
 
-const DOWN = 0.12; // s after the highest top
+const DOWN = 0.12; // s after the highest top, where there is no floor to come back to
 const STILL = 0.4; // s of a leap in which no ball rises
 const ENDED = ["FINISHED", "COLLAPSED", "SETTLED"]; // what the engine computed to its end
 
 /**
  * Return a drop's motion: `at(time)` is `{position, velocity, compression}` by ball, in SI units from where each ball lies
- * in the stack; `fall`, `last` and `leap` in s: how long before the touch at 0, the last separation, how long after it.
+ * in the stack, and with balls off the middle how far they are, `sideways`, and were, `begun`; `fall`, `last`, `rise` and `leap` in s: how long before the touch at 0, the last separation, how long after it
+ * until the highest top, or null without one, and until the end.
  */
 export function motionOf(result) {
   const { frames, drop, intervals, status } = result;
@@ -31,12 +33,16 @@ export function motionOf(result) {
     intervals.filter(({ contact }) => contact === ball || contact === ball + 1).reduce((most, { end }) => Math.max(most, end ?? 0), 0),
   );
   const flights = ended ? flightsOf({ ...frames, leaves: leaving(result, drop) }, freed, last, g, floor) : [];
+  const aside = result.sideways?.path && ended ? asideOf(result) : null;
+  if (aside && floor) landBeside(flights, aside, radii(drop), last, g);
   const falling = (time) => ({
     position: touch.position.map((p, ball) => p + touch.velocity[ball] * time - 0.5 * g * time * time),
     velocity: touch.velocity.map((v) => v - g * time),
     compression: touch.position.map(() => 0),
   });
-  const at = (time) => {
+  const begun = aside && drop.balls.map((_, ball) => aside(ball, 0));
+  const at = (time) => (aside ? { ...upright(time), begun, sideways: flights.map(({ lands }, ball) => aside(ball, Math.min(time, lands))) } : upright(time));
+  const upright = (time) => {
     if (time < 0) return falling(time);
     const found = sampled(frames, Math.min(time, last));
     flights.forEach((flight, ball) => {
@@ -52,10 +58,26 @@ export function motionOf(result) {
     at,
     last,
     fall: fallTime(touch, g, floor),
-    leap: leapTime(flights, last, g),
+    ...leapOf(flights, last),
     tops: flights.map(({ top }) => top),
     lies: (ball, time) => time >= (flights[ball]?.lands ?? Infinity),
   };
+}
+
+/** Return a function of ball and time that gives how far off the middle a ball is, in m. */
+function asideOf({ sideways: { time: times, path, offset, speed }, end_time: end }) {
+  return (ball, time) => (time < end ? between(path[ball], locate(times, time)) : offset[ball] + speed[ball] * (time - end));
+}
+
+/** Let balls that come down beside what is below them fall on to the floor. */
+function landBeside(flights, aside, radius, last, g) {
+  let below = 0; // m from the floor to where a ball lay
+  flights.forEach((flight, ball) => {
+    const { from, position, velocity, lands } = flight;
+    const apart = ball && Math.abs(aside(ball, lands) - aside(ball - 1, lands));
+    if (apart > radius[ball] + radius[ball - 1]) Object.assign(flight, { level: -below, lands: landing(from, position, velocity, -below, last, g) });
+    below += 2 * radius[ball];
+  });
 }
 
 /** Return a whole drop's motion: all of it is in its frames. */
@@ -65,7 +87,7 @@ export function wholeMotion({ frames }) {
 
 /**
  * Return the textbook's positions, `{at(time), tops}`, or null where it has none: its separate collisions, then flights.
- * `at` is null before the touch, when there is no difference yet, and after balls would meet again.
+ * `at` is null before the touch, when there is no difference yet.
  */
 export function ghostMotion(result, whole) {
   const { separate, frames, drop } = result;
@@ -82,9 +104,8 @@ export function ghostMotion(result, whole) {
   const inside = last <= frames.time.at(-1);
   const positions = { time: frames.time, position: separate.position, leaves: leaving(separate, drop) };
   const flights = inside ? flightsOf(positions, freed, last, g, floor) : [];
-  const end = inside ? last + leapTime(flights, last, g) : frames.time.at(-1);
   const at = (time) => {
-    if (time < 0 || time > end + DOWN) return null;
+    if (time < 0 || (!inside && time > frames.time.at(-1))) return null;
     const found = sample(Math.min(time, last));
     flights.forEach((flight, ball) => {
       if (time > flight.from) found[ball] = flightAt(flight, time, g).position;
@@ -127,8 +148,12 @@ function leaving({ status, rebound_speeds: speeds, end_time: end }, { gravity })
 function withTop({ from, position, velocity }, last, g, floor) {
   const top = velocity > 0 ? { time: from + velocity / g, height: position + velocity ** 2 / 2 / g } : null;
   const level = velocity ** 2 + 2 * g * position >= 0 ? 0 : position;
-  const back = (velocity + Math.sqrt(velocity ** 2 + 2 * g * (position - level))) / g;
-  return { from, position, velocity, top, level, lands: floor ? Math.max(last, from + back) : Infinity };
+  return { from, position, velocity, top, level, lands: floor ? landing(from, position, velocity, level, last, g) : Infinity };
+}
+
+/** Return the time at which a ball comes down to a level. */
+function landing(from, position, velocity, level, last, g) {
+  return Math.max(last, from + (velocity + Math.sqrt(velocity ** 2 + 2 * g * (position - level))) / g);
 }
 
 function flightAt({ from, position, velocity, level, lands }, time, g) {
@@ -148,10 +173,11 @@ function fallTime({ position, velocity }, g, floor) {
   return floor ? Math.max(0, Math.min(longest, (-v + Math.sqrt(v * v + 2 * g * p)) / g)) : longest;
 }
 
-/** Return how long after the last separation the highest ball is past its top. */
-function leapTime(flights, last, g) {
-  const tops = flights.map(({ top }) => top).filter((top) => top && top.time > last);
-  const highest = tops.reduce((one, other) => (one && one.height > other.height ? one : other), null);
-  if (!flights.length) return 0;
-  return highest ? highest.time - last + DOWN : STILL;
+/** Return how long after the last separation the highest ball has its top, and is back. */
+function leapOf(flights, last) {
+  const rising = flights.filter(({ top }) => top && top.time > last);
+  const highest = rising.reduce((one, other) => (one && one.top.height > other.top.height ? one : other), null);
+  if (!highest) return { rise: null, leap: flights.length ? STILL : 0 };
+  const rise = highest.top.time - last;
+  return { rise, leap: Number.isFinite(highest.lands) ? highest.lands - last : rise + DOWN };
 }

@@ -4,6 +4,8 @@ const DENSITY = 1000; // kg/m³ of a ball of unknown size, for its picture only
 const MOST_FLAT = 0.85; // most flattening of a side, as a fraction of the radius
 const MAGNIFICATIONS = [1, 1.5, 2, 3, 5, 8, 10, 15, 20, 30, 50];
 const LEAST_RADIUS = 5; // px, so that every ball can be seen
+const BESIDE = 0.4; // of the width, that the way of a ball off the middle may take
+const FARTHEST = 2; // times the height of the picture: what flies farther aside leaves it
 
 /** Return each ball's radius in m, of a sphere of its mass where no diameter is given. */
 export function radii(drop) {
@@ -55,8 +57,8 @@ export function closeUp(result, { width, height, asked }) {
 }
 
 /** Return the far view that holds a stack whose highest ball moves between two heights in m: all to scale. */
-export function farView(radius, { width, height, low, high }) {
-  const scale = Math.min(height / (heightOf(radius) + high - low), widest(radius, width));
+export function farView(radius, { width, height, low, high, aside = 0 }) {
+  const scale = Math.min(height / (heightOf(radius) + high - low), widest(radius, width), (BESIDE * width) / Math.min(aside, FARTHEST * (high - low)));
   const free = height - heightOf(stacked(radius, scale).radius);
   return { scale, move: Math.min(scale, Math.max(free, 0.3 * height) / Math.max(high - low, 1e-9)), times: 1 };
 }
@@ -78,7 +80,7 @@ function heightOf(radius) {
 
 /** Return the largest scale at which names and speeds have room beside the balls. */
 function widest(radius, width) {
-  return Math.min(0.44 * width, width - 210) / (2 * Math.max(...radius));
+  return clamp(width - 210, 0.2 * width, 0.44 * width) / (2 * Math.max(...radius));
 }
 
 /** Return how far each ball's lower and upper side give way, in px. */

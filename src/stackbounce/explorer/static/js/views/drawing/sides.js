@@ -69,6 +69,7 @@ const ENDS = {
   restitution: { low: 0.05, high: 1, log: false },
   exponent: { low: 1, high: 3, log: false },
   gaps: { low: 0, high: 0.01, log: false },
+  offset: { low: 0, high: 0.01, log: false },
   impact_speed: { low: 0.5, high: 10, log: false },
   height: { low: 0.1, high: 3, log: false },
   gravity: { low: 0, high: 20, log: false },

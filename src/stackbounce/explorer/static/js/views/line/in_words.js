@@ -3,6 +3,7 @@
 import { t, translated } from "../../words/language.js";
 import { between, locate } from "../../stage/clock.js";
 import { brief, extremes, quantity, sideOf } from "../drawing/sides.js";
+import { FIRST_ORDER, ROUGH } from "../../words/sentence.js";
 import { ballName, capital, contactName, count, format, height, percent } from "../../words/words.js";
 
 const FEW = 3; // curves whose textbook is told, too
@@ -13,6 +14,7 @@ export const SHOWS = new Map([
   ["rebound_height", t("Rebound heights")],
   ["energy_retained", t("Kinetic energy retained")],
   ["collisions", t("Collisions of each contact")],
+  ["angle", t("Angle from straight up")],
 ]);
 
 /** Return what a curve is of: a ball, a contact, or all. */
@@ -55,6 +57,7 @@ function written(show, value, times = true) {
   const ratio = format(Math.abs(value) < 5e-4 ? 0 : value, 3);
   if (show === "rebound_ratio") return times ? t("{times} times", { times: ratio }) : ratio;
   if (show === "rebound_height") return height(value);
+  if (show === "angle") return `${format(value, 3)}°`;
   return show === "collisions" ? count(value) : percent(value);
 }
 
@@ -72,5 +75,6 @@ export function summary(answer) {
     return t("{name}: smallest {low} at {where}, largest {high} at {there}.", { name, low: said(low), where: at(low), high: said(high), there: at(high) });
   });
   const open = unfinished ? ` ${t("{some} of {all} points could not be finished: there the curves have gaps.", { some: unfinished, all: x.values.length })}` : "";
-  return `${sentences.join(" ")}${open}`;
+  const steep = show === "angle" && curves.some(({ values }) => values.some((angle) => Math.abs(angle) > FIRST_ORDER));
+  return `${sentences.join(" ")}${open}${steep ? ` ${ROUGH}` : ""}`;
 }

@@ -95,7 +95,7 @@ export class FitForm {
   request(drop) {
     const form = new FormData();
     const append = (name, value) => form.append(name, JSON.stringify(value));
-    append("drop", drop);
+    append("drop", aligned(drop));
     append("measured", this.rows.values());
     append("vary", this.vary.chosen());
     if (this.record?.file) {
