@@ -17,7 +17,7 @@ from stackbounce.cli import main
 
 FILM = Path(__file__).parents[1] / "_static" / "film.gif"
 VIEW = {"width": 640, "height": 570}  # px
-FRAME = 60  # ms, of each picture
+FRAME = 80  # ms, of each picture
 REST = 900  # ms, of the last one
 COLORS = Image.Quantize.MAXCOVERAGE  # others lose white and the arrows' green
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")

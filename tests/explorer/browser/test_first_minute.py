@@ -62,7 +62,8 @@ def test_who_plays_by_keyboard_does_not_lose_the_place(visits):
         page.locator(part).press("Enter")
         places.append(page.evaluate(focused))
         page.evaluate("() => { clock.pause(); clock.wind(clock.film.length); }")
-    assert places == ["stage-box", "mark", "stage-box"]
+    page.locator("[data-key=preset]").press("Escape")
+    assert [*places, page.evaluate(focused)] == ["stage-box", "mark", "stage-box", "stage-box"]
 
 
 def test_no_name_is_cut_and_no_number_stands_at_the_door(visits):

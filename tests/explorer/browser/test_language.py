@@ -39,6 +39,7 @@ def test_another_language_keeps_the_drop(visit):
     visit.ready()
     assert "lang=de" in page.url
     assert lead(page).startswith("Der Ball fliegt")
+    assert page.evaluate("() => document.activeElement.dataset.key") == "language"
     assert visit.state("drop.balls[0].mass") == 0.3
     page.locator("#tab-map").click()
     page.get_by_role("heading", name="Rückprallgeschwindigkeit durch v₀: Ball").wait_for()

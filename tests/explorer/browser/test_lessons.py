@@ -15,6 +15,11 @@ def opened(page, name):
     page.get_by_role("button", name=read_lesson(name)["title"]).click()
 
 
+def looked(page):
+    assert not page.get_by_role("link", name="2 cm apart", exact=True).is_visible()  # not yet
+    page.get_by_text("Look (10").click()
+
+
 @pytest.mark.parametrize("size", [{"width": 1440, "height": 900}, PHONE], ids=["wide", "phone"])
 def test_a_step_sets_the_page_beside_the_lesson(visits, size):
     visit = visits(viewport=size)
@@ -23,6 +28,7 @@ def test_a_step_sets_the_page_beside_the_lesson(visits, size):
     assert page.get_by_role("heading", name="The gap").evaluate(
         "(one) => one === document.activeElement"
     )
+    looked(page)
     numbers = page.locator("#numbers table")
     assert not numbers.is_visible()  # a lesson asks first, and so do its steps
     page.get_by_role("link", name="2 cm apart", exact=True).click()
@@ -46,6 +52,7 @@ def test_a_step_sets_the_page_beside_the_lesson(visits, size):
 def test_back_goes_through_the_lessons_and_closes_them(visit, page):
     first = visit.state("drop.gaps")
     opened(page, "gap")
+    looked(page)
     page.get_by_role("link", name="2 cm apart", exact=True).click()
     page.wait_for_function("() => state.drop.gaps[0] === 0.02")
     states = []

@@ -98,7 +98,8 @@ def test_nothing_moves_while_the_page_opens_and_a_film_plays(visits, width, in_f
     assert opening.open(playback=False).locator("#sentence").is_visible()
     assert opening.page.evaluate("() => window.shifts") == []
     page = playing.open("#momentum=1&centre=1&speed=4")
-    page.evaluate(WATCH_THE_LAYOUT)
+    page.evaluate("() => new Promise((drawn) => setTimeout(drawn, 99))")
+    page.evaluate(WATCH_THE_LAYOUT)  # once what the visit opened has been drawn
     page.evaluate("() => { clock.seek(clock.begin); clock.play(); }")
     page.wait_for_function("() => !clock.playing")
     assert page.evaluate("() => window.shifts") == []

@@ -190,8 +190,8 @@ SENTENCES = {
     ),
     "rigid balls": (
         tower([0.1, 0.05], LOSSY),
-        f"""The upper ball flies up at 0.50 {UP}. These are the textbook's collisions: one after the
-        other, each in no time.""",
+        f"""The upper ball flies up at 0.50 {UP}. These are the textbook's collisions: 3
+        of them, one after the other, each in no time.""",
     ),
     "a gap": (
         changed(gaps=[0.2]),

@@ -80,13 +80,18 @@ function showLesson(root, lesson, open) {
   parts.all.addEventListener("click", () => open(LESSON_LIST));
   parts.time.append(minutes(lesson));
   parts.printer.addEventListener("click", printWorksheet);
-  parts.steps.append(...lesson.steps.map((step) => h("li", {}, h("strong", {}, `${step.title} (`, minutes(step), "). "), say(step.text))));
+  parts.steps.append(...lesson.steps.map((step, place) => h("li", {}, stepOf(step, say, place === 0))));
   for (const part of [parts.exampleTitle, parts.example]) part.hidden = !lesson.example;
   parts.example.append(...say(lesson.example ?? []));
   if (lesson.table) parts.teacher.append(tableBox("group", t("Answers for the teacher"), ...lesson.table));
   parts.teacher.append(...lesson.remarks.map((text) => h("p", {}, say(text))));
   write(parts.name, lesson.title);
   parts.worksheet.append(...lesson.worksheet.map(taskOf));
+}
+
+/** Return a step, of which only the title is seen until it is opened: a later one tells what an earlier one asks. */
+function stepOf(step, say, open) {
+  return h("details", { open }, h("summary", {}, h("strong", {}, `${step.title} (`, minutes(step), ")")), h("p", {}, say(step.text)));
 }
 
 /** Return the parts of a text: of a link either the page's own address, which sets its state, or another lesson. */

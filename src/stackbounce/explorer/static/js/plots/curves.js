@@ -5,7 +5,7 @@ import { t } from "../words/language.js";
 import { format, shortBall, shortContact } from "../words/words.js";
 
 /** Dashes of the lines of balls and of the contacts below them, so that nobody needs their colours. */
-const DASHES = [undefined, [9, 4], [2, 3], [14, 4, 2, 4], [5, 3], [1, 5]];
+const DASHES = [undefined, [9, 4], [2, 3], [14, 4, 2, 4, 2, 4], [4, 4], [1, 6]];
 
 /**
  * Return the panels of a result: `{what, title, unit, times, lines, stems, factor}`; a line is

@@ -4,6 +4,7 @@ import { fillFrom, write } from "../dom.js";
 import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withBall, withIncidence, withValue } from "./drops.js";
 import { NumberField, choice, sayProblem } from "./fields.js";
 import { t, translated, writeTold } from "../words/language.js";
+import { isAsking } from "../words/sentence.js";
 import { asMeasured, changeLaw, firstContact } from "./laws.js";
 import { withError } from "../asking/prediction.js";
 import { restacked } from "./restack.js";
@@ -95,11 +96,13 @@ export function mountControls(root, store, api, catalogue) {
     writeTold(said, preset.says);
     example = complete(preset.drop);
     store.set(withExample(store.get(), example));
+    if (isAsking(store.get())) scrollTo(0, 0); // to the question
   });
   root.prepend(presets);
   add.addEventListener("click", () => arrange((now) => withBall(now, firstContact(catalogue.laws))));
   for (const radio of radios) radio.addEventListener("change", () => change(withIncidence(store.get().drop, radio.value)));
   pull.addEventListener("change", () => set("gravity", pull.checked ? GRAVITY : 0));
+  root.addEventListener("keydown", ({ key }) => key === "Escape" && document.getElementById("stage-box").focus()); // for the film's keys
   new IntersectionObserver(([{ isIntersecting }]) => root.classList.toggle("seen", isIntersecting)).observe(root);
   const tell = ({ notice }) => write(said, notice ?? "");
   store.watch(["notice"], tell);

@@ -31,7 +31,7 @@ export function mountGuess(root, store, clock) {
     const isHere = [go, mark].includes(document.activeElement);
     flies = true;
     show();
-    if (isHere) again.closest("section").focus(); // what goes away has the keys no more: they drive the film
+    if (isHere) again.closest("section").focus({ preventScroll: true }); // what goes away has the keys no more: they drive the film
     clock.replay();
   }
   /** Take the guess for good as soon as the film has shown the answer. */

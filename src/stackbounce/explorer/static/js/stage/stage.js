@@ -113,12 +113,12 @@ export function mountStage(root, store, clock, onRuler = () => null) {
   showParts();
 }
 
-/** Return how many contacts there were until a time, where there are many. */
+/** Return how many collisions there were until a time, where there are many. */
 function countOf({ film }, time) {
   if (!film.counted) return "";
   const { index, fraction } = locate(film.begins, time);
   const met = time < film.begins[0] ? 0 : index + (fraction === 1 ? 2 : 1);
-  return t("{count} contacts", { count: met });
+  return t("{count} collisions", { count: met });
 }
 
 /** Let a drag across the stage wind the film by hand, and the wheel where it does not scroll the page. */
@@ -189,7 +189,7 @@ function words({ film, camera, result, width }, clock, view) {
   const some = width >= WORDY && result.drop.balls.some((_, ball) => film.lies(ball, clock.time));
   const lies = some ? t("; its next bounce is not shown") : "";
   const counts = film.counted && phase === "between";
-  const note = phase === "top" ? t("at the top the film stands still") : counts ? t("slowed so that contacts can be counted") : `${PHASES[phase]}${speed}${scale}${lies}`;
+  const note = phase === "top" ? t("at the top the film stands still") : counts ? t("slowed so that collisions can be counted") : `${PHASES[phase]}${speed}${scale}${lies}`;
   return { time: event ? `${now}: ${happening(result.drop, event)}` : now, note };
 }
 

@@ -112,13 +112,19 @@ function factor(ratio) {
 function more(result, own, theirs, top, brief) {
   const { drop, separate } = result;
   if (top === 0) return "";
-  if (!separate) return t("These are the textbook’s collisions: one after the other, each in no time.");
+  if (!separate) return textbooks(result);
   if (!theirs) return separate.error ? t("The textbook’s way has no answer here: {reason}.", { reason: translated(separate.error) }) : "";
   const apart = own.map((ratio, ball) => Math.abs(ratio - theirs[ball]));
   const differs = (ball) => apart[ball] > Math.max(NOTHING, SAME * Math.max(Math.abs(own[ball]), Math.abs(theirs[ball])));
   const other = apart.reduce((most, one, ball) => (ball !== top && (most < 0 || one > apart[most]) ? ball : most), -1);
   const shown = differs(other) ? `${motion(drop, other, own[other])}, ${compared(own[other], theirs[other])}. ` : "";
   return `${brief ? "" : shown}${reason(drop, togetherOf(result), shown !== "" || differs(top))}`;
+}
+
+function textbooks({ intervals, status }) {
+  const count = intervals.length;
+  if (count < 3 || status !== "FINISHED") return t("These are the textbook’s collisions: one after the other, each in no time.");
+  return t("These are the textbook’s collisions: {count} of them, one after the other, each in no time.", { count });
 }
 
 function reason({ balls }, together, differs) {
@@ -196,13 +202,10 @@ function rise({ drop, status, rebound_heights: heights, separate }) {
 }
 
 /** Return how far off a guess in m was. */
-function judged(result, guess) {
-  const { drop, rebound_heights: heights } = result;
-  const top = drop.balls.length - 1;
-  const reached = Math.max(0, heights[top] ?? 0);
-  const off = guess - reached;
-  const values = { guess: metres(guess), ball: called(drop, top), height: metres(reached), apart: metres(Math.abs(off)) };
-  if (Math.abs(off) < 0.005) return t("You thought {guess}; {ball} rises {height}: just there.", values);
-  if (off > 0) return t("You thought {guess}; {ball} rises {height}: {apart} too high.", values);
-  return t("You thought {guess}; {ball} rises {height}: {apart} too low.", values);
+function judged({ status, rebound_heights: heights }, guess) {
+  const off = guess - Math.max(0, heights.at(-1) ?? 0);
+  const values = { guess: metres(guess), apart: metres(Math.abs(off)) };
+  if (!ENDED.includes(status)) return t("You thought {guess}.", values);
+  if (Math.abs(off) < 0.005) return t("You thought {guess}: just there.", values);
+  return off > 0 ? t("You thought {guess}: {apart} too high.", values) : t("You thought {guess}: {apart} too low.", values);
 }
