@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, StackbounceError, a_or_an, nearest, shown
-from stackbounce.explorer.answers.play import run_drop
+from stackbounce.explorer.answers.predictions import run_drop
 from stackbounce.fitting import Fit, fit
 from stackbounce.fitting.series import fit_series
 from stackbounce.json_values import as_json
