@@ -46,7 +46,7 @@ def run(
         compared, speed = _compare(problem, given), calibration_speed(problem.drops)
         output.draw_picture(plot, overwrite, "compared", compared)
         if as_json:
-            output.print_json(comparison_tables.comparison_as_dict(compared, speed))
+            output.print_json({**compared.as_dict(), "calibration_speed": speed})
         else:
             comparison_tables.print_comparison(output.console(), compared, speed)
             _print_end(compared, stack, given, plot)
