@@ -171,21 +171,14 @@ def _dataset(
 
 def _repeated(readings: "pd.DataFrame") -> "pd.DataFrame | None":
     """Return a row for each height and bounce with all readings, padded; None if none repeats."""
-    import pandas as pd
-
-    alike = readings.start.map(lambda start: float(f"{start:.{_SAME}g}"))
-    found = readings.groupby([alike, "number"], sort=True)
-    most = int(found.size().max())
-    if most < 2:
+    alike = ["drop", "number"]
+    own = readings.assign(drop=readings.start.map(lambda start: float(f"{start:.{_SAME}g}")))
+    each = own.groupby(alike)
+    read = own.assign(turn=each.cumcount()).pivot(index=alike, columns="turn", values="value")
+    if len(read.columns) < 2:
         return None
-    rows = []
-    for (same, number), own in found:
-        read = [*own.value, *[math.nan] * (most - len(own))]
-        rows.append(
-            {"start": own.start.mean(), "drop": same, "number": number, "values_read": read}
-            | {"start_error": own.start_error.mean()}
-        )
-    return pd.DataFrame(rows)
+    found = each[["start", "start_error"]].mean().reset_index()
+    return found.assign(values_read=read.to_numpy().tolist())
 
 
 def _pooled(merged: "pd.DataFrame") -> float:
