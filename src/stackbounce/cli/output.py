@@ -47,11 +47,6 @@ def check_picture(path: Path | None, overwrite: bool, option: str = "--plot") ->
         need(option, "matplotlib")
 
 
-def check_scenario(path: Path | None, overwrite: bool, read: Sequence[str] = ()) -> None:
-    """Refuse a path of --save; see `check_file`."""
-    check_file(path, overwrite, "--save", (".toml",), read)
-
-
 def check_file(
     path: Path | None,
     overwrite: bool,
