@@ -5,7 +5,6 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidValue
 from stackbounce.explorer.limits import LIMITS, RTOL
 from stackbounce.json_values import as_json
 from stackbounce.model import Drop
@@ -44,8 +43,6 @@ def predict_drop(drop: Drop, errors: Mapping[str, float | str], until: float | N
         JSON with what `Prediction.as_dict` has but for the shares, and `band`: `time` in s, and the
         lower and the upper ends of one standard deviation of `position` and `force`.
     """
-    if not 0 < len(errors) <= LIMITS.varied:
-        raise InvalidValue(f"errors must be of 1 to {LIMITS.varied} numbers, got {len(errors)}")
     found = predict(
         drop,
         add_values(drop, errors),

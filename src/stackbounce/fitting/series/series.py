@@ -315,9 +315,8 @@ def _flights(drag: float, data: "xr.Dataset") -> _Measured:
     variance worse: n of them as n / (1 + 2 r**2) others, with the correlation r of neighbours.
     """
     leaving, landing = _speeds_of_flight(drag, data.flight_time.values)
-    after = (
-        np.flatnonzero(np.diff(data.flight.values) == 1) + 1
-    )  # whose flight follows that of the row above
+    # the rows whose flight follows that of the row above
+    after = np.flatnonzero(np.diff(data.flight.values) == 1) + 1
     ratios = leaving[after] / landing[after - 1]
     values = ratios.mean(axis=1)
     apart = ratios - values[:, None]

@@ -198,17 +198,12 @@ def _said_of_scatter(readings: "pd.DataFrame", values: Array, scatter: float, me
         f"The error of one {what}{of} is the scatter of repeated readings, "
         f"{with_unit(scatter, unit)}, with {counted(freedom, 'degree of freedom')}."
     )
-    apart = np.abs(values - np.nanmedian(values, axis=1, keepdims=True))
-    counts = np.isfinite(values).sum(axis=1, keepdims=True)
-    usual = (
-        _ROBUST * float(np.nanmedian(np.where(counts > 2, apart, math.nan)))
-        if (counts > 2).any()
-        else 0.0
-    )
-    for row, column in zip(*np.nonzero((apart > _FAR * usual) & (counts > 2)), strict=True):
-        if usual > 0.0:
-            line = readings.line[np.isclose(readings.value, values[row, column], rtol=1e-12)].iloc[
-                0
-            ]
-            said += f" Row {line} is far from the other readings of its height: it is kept."
+    several = values[np.isfinite(values).sum(axis=1) > 2]
+    if not len(several):
+        return said
+    apart = np.abs(several - np.nanmedian(several, axis=1, keepdims=True))
+    usual = _ROBUST * float(np.nanmedian(apart))
+    for value in several[apart > _FAR * usual] if usual > 0.0 else ():
+        line = readings.line[np.isclose(readings.value, value, rtol=1e-12)].iloc[0]
+        said += f" Row {line} is far from the other readings of its height: it is kept."
     return said
