@@ -4,7 +4,7 @@ import pytest
 from rich.console import Console
 
 import stackbounce as sb
-from stackbounce.cli.comparison_tables import print_comparison
+from stackbounce.cli.fit_tables import print_comparison
 
 
 def test_a_data_set_is_fitted_by_its_name(told):

@@ -302,9 +302,8 @@ def _read(data: "xr.Dataset", name: str) -> _Column:
         scatter = float(np.nansum((values - means[:, None]) ** 2)) / freedom / counts
         values = means
     errors = data[f"{name}_error"].values if f"{name}_error" in data else np.zeros(values.size)
-    return _Column(
-        values, np.asarray(errors) ** 2, scatter, freedom, variable.attrs.get("assumed_error", 0.0)
-    )
+    assumed = variable.attrs.get("assumed_error", 0.0)
+    return _Column(values, np.asarray(errors) ** 2, scatter, freedom, assumed)
 
 
 def _flights(drag: float, data: "xr.Dataset") -> _Measured:
