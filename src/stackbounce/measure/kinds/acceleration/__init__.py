@@ -8,7 +8,7 @@ _AXES = ("acceleration", "acceleration_absolute", "acceleration_z", "acceleratio
 ACCELERATION = Kind(
     "acceleration",
     "drop height, restitution, contact times of fast sensors",
-    f"{__name__}.kind",
+    f"{__name__}.analysis",
     options=("gravity",),
     columns=(("time",), (*_AXES, "acceleration_x")),
 )

@@ -25,7 +25,7 @@ def _recognised(columns: "Sequence[Column]") -> bool:
 PRESS = Kind(
     "press curve",
     "static stiffness, exponent, loss",
-    f"{__name__}.kind",
+    f"{__name__}.analysis",
     options=("tabulated",),
     columns=(("force",), ("compression",)),
     dimension="point",
