@@ -2,8 +2,6 @@
 
 from stackbounce.measure.kind import Kind
 
-__all__ = ["ACCELERATION"]
-
 _AXES = ("acceleration", "acceleration_absolute", "acceleration_z", "acceleration_y")
 ACCELERATION = Kind(
     "acceleration",

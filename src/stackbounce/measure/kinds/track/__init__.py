@@ -2,8 +2,6 @@
 
 from stackbounce.measure.kind import IN_AIR, Kind
 
-__all__ = ["TRACK"]
-
 TRACK = Kind(
     "track",
     "drop height, speeds, restitution, rebound ratios, a check of clock and ruler",
