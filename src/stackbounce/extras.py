@@ -14,12 +14,12 @@ EXTRAS = {"lab": _LAB, "sweep": ("dask", "distributed", "zarr"), "app": (*_LAB, 
 """The modules that each extra brings; ``all`` has them all, and a plain install none."""
 
 
-def has(extra: str) -> bool:
+def is_installed(extra: str) -> bool:
     """Return whether all modules of an extra are installed.
 
     Examples
     --------
-    >>> has("lab")
+    >>> is_installed("lab")
     True
     """
     return all(find_spec(module) for module in EXTRAS[extra])

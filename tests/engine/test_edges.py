@@ -250,3 +250,16 @@ def test_a_fast_ball_on_a_hard_contact_late():
     result = sb.simulate(drop, compiled=True)
     assert result.status is sb.Status.FINISHED
     assert result.collisions.tolist() == [1571, 1570]
+
+
+@pytest.mark.parametrize("exponent", [1.5, 2.5, 3.5])
+@pytest.mark.parametrize("stiffness", [3e4, 1e7, 3.5e9])
+def test_a_steep_power_that_begins_at_a_speed(exponent, stiffness):
+    """In the root of time all but one of 2 p + 2 terms of the series may be 0."""
+    contacts = [sb.PowerLaw(1e7, exponent), sb.PowerLaw(stiffness, exponent)]
+    for gap in (0.0, 9e-4):
+        drop = sb.Drop([sb.Ball(0.1), sb.Ball(0.2)], contacts, gaps=[gap], impact_speed=4.0)
+        known = sb.simulate(drop, rtol=1e-12).rebound_ratios
+        for rtol in (1e-4, 1e-6, 1e-8):
+            ratios = sb.simulate(drop, rtol=rtol).rebound_ratios
+            assert ratios == pytest.approx(known, abs=10.0 * rtol)

@@ -35,19 +35,21 @@ def run(
     from stackbounce.errors import whole
     from stackbounce.explorer import LIMITS
     from stackbounce.explorer.serve import serve
-    from stackbounce.extras import has
+    from stackbounce.extras import is_installed
     from stackbounce.version import __version__
+
+    measures = is_installed("app")
 
     def tell(address: str, others: "list[Place]") -> None:
         if as_json:
             known = {"address": address, "others": [place.address for place in others]}
-            print_json({"stackbounce": __version__, **known, "measures": has("app")})
+            print_json({"stackbounce": __version__, **known, "measures": measures})
             return
         typer.echo(f"The explorer: {address} (Ctrl+C ends it)")
-        if not has("app"):
+        if not measures:
             typer.echo("It plays. To measure and fit in it: pip install 'stackbounce[app]'")
         if others:
-            code = " (the page shows a QR code)" if has("app") else ""
+            code = " (the page shows a QR code)" if measures else ""
             typed = " or ".join(place.address for place in others)
             typer.echo(f"For others on the same network: {typed}{code}")
         elif host in ("0.0.0.0", "::"):

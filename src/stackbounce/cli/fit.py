@@ -90,6 +90,8 @@ def _check_together(given: Mapping[str, Any]) -> None:
     """Refuse options that mean nothing without another one, or beside it."""
     if given["sample"] is not None:
         need("--sample", "emcee")
+    if given["corner"] is not None:
+        need("--corner", "corner")
     for name, does in (("corner", "draws the posterior"), ("draws", "writes the draws")):
         if given["sample"] is None and given[name] is not None:
             raise InvalidValue(f"--{name} {does} of --sample: give both")

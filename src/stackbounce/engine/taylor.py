@@ -5,8 +5,8 @@ integrator, dense output and event search. Order by order, forces follow from co
 rates, accelerations from forces, velocities and compressions from accelerations. If a contact
 begins at a speed and p is a multiple of 1/2, c^p has a series in the square root of time instead,
 and so has the whole motion up to the next step. A step is the time for which the last two terms of
-every velocity (five, in the root of time) stay below the tolerance (Jorba and Zou, Exp. Math. 14,
-99, 2005), and those of every creep. It is also limited so that no power grows beyond what these
+every velocity (2 p + 2, in the root of time) stay below the tolerance (Jorba and Zou, Exp. Math.
+14, 99, 2005), and those of every creep. It is also limited so that no power grows beyond what these
 terms represent, and no compression falls by much more than itself, or rises by more than the last
 term of its power allows. If all contacts are springs and dashpots the series is that of the matrix
 exponential, whatever its eigenvalues; the tolerance is then round-off, whatever the user asks for.
@@ -46,13 +46,15 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
     """Expand the motion of the cluster with pressing contacts low..high-1; return the safe step."""
     bottom = max(low - 1, 0)
     root = stack.root[bottom]
-    exact = True
+    exact, steepest = True, 0.0
     for i in range(low, high):
         stack.compression_series[i][0] = stack.compression[i]
         stack.compression_series[i][1] = 0.0  # remains 0 in a series in the root of time
         stack.creep_series[i][0] = stack.creep[i]
         stack.creep_series[i][1] = 0.0  # the same
         stack.power[i] = power_needed(stack, i) if stack.linearised[i] == 0 else 0.0
+        if stack.compression[i] == 0.0:
+            steepest = max(steepest, stack.power[i])
         ratio = stack.compression[i] / stack.curve_unit[i]
         begin = ratio > 0.0 and stack.power[i] > 0.0
         stack.power_series[i][0] = raised(ratio, stack.power[i]) if begin else 0.0
@@ -85,9 +87,9 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
     if not exact and allowed > _ROUGH * _fastest(stack, low, high):
         own_speed = _own_speed(stack, low, high)
         allowed = min(allowed, max(_ROUGH * own_speed, _SLOW * speed))
-    # in the root of time, four of five terms may be 0
+    # in the root of time, 2 p + 1 terms of 2 p + 2 may be 0
     before, x = 0.0, step if root == 1 else math.sqrt(step)
-    for k in range(order - 1 if root == 1 else order - 4, order + 1):
+    for k in range(order - 1 if root == 1 else order - 1 - int(2.0 * steepest), order + 1):
         size = 0.0
         for b in range(bottom, high):
             size = max(size, abs(stack.velocity_series[b][k]))

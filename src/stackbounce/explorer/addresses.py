@@ -5,7 +5,7 @@ import ipaddress
 import socket
 from typing import NamedTuple
 
-from stackbounce.extras import has
+from stackbounce.extras import is_installed
 
 _ALL = ("0.0.0.0", "::")
 _OUTSIDE = "192.0.2.1"  # RFC 5737; nothing is sent there
@@ -58,7 +58,7 @@ def list_places(host: str, port: int) -> list[Place]:
 
 def _code(address: str) -> list[str]:
     """Return the rows of an address's QR code; none without the library for it."""
-    if not has("app"):
+    if not is_installed("app"):
         return []
     import segno
 
@@ -79,7 +79,7 @@ def _own_hosts() -> list[str]:
     Without the library that lists them it is that one alone.
     """
     first = _way_out()
-    if not has("app"):
+    if not is_installed("app"):
         return [] if first is None else [first]
     import psutil
 

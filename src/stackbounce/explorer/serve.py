@@ -20,7 +20,7 @@ from stackbounce.explorer.addresses import Place, list_places, url
 from stackbounce.explorer.framing import frame_rule
 from stackbounce.explorer.limits import Limits
 from stackbounce.explorer.made import HEADERS, one_file
-from stackbounce.extras import has
+from stackbounce.extras import is_installed
 
 HOST = "127.0.0.1"
 """The default address: it can be reached from this machine only."""
@@ -77,7 +77,7 @@ def serve(
     with contextlib.closing(_open_socket(host, port)) as listening:
         port = listening.getsockname()[1]
         address, others = url(_OWN.get(host, host), port), list_places(host, port)
-        if has("app"):
+        if is_installed("app"):
             run = _measuring_server(listening, limits, others, framed_by)
         else:
             run = _playing_server(listening, framed_by)

@@ -112,6 +112,8 @@ def _parsed(chunk: str, text: Text, used: Sequence[int]) -> Array | None:
     The parser is that of pandas, which rounds every number to the nearest float, as Python's
     ``float`` does: by its own choice since 3.1, where it is asked to before.
     """
+    if "\0" in chunk:
+        return None  # pandas before 3 ends a number there
     import pandas as pd
 
     blanks = text.delimiter == " "
@@ -141,8 +143,6 @@ def _parsed(chunk: str, text: Text, used: Sequence[int]) -> Array | None:
     if any(kind.kind not in "fiu" for kind in frame.dtypes):
         return None
     block: Array = frame[list(used)].to_numpy(dtype=np.float64)
-    if "\0" in chunk:
-        return None  # pandas before 3 ends a number there
     if quoted and len(block) != sum(not line.isspace() for line in chunk.split("\n") if line):
         return None  # a quotation mark joined lines
     return block
