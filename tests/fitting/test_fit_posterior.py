@@ -1,9 +1,12 @@
 """Draws beside the posterior that is known exactly."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import stackbounce as sb
+from drops import STACK
 from stackbounce.errors import InvalidType, InvalidValue
 
 BALL = sb.Drop([sb.Ball(0.1)], [sb.Rigid(0.6)], impact_speed=1.0)
@@ -120,3 +123,10 @@ def test_short_chains_are_noted_and_a_name_that_was_not_varied_is_refused():
     for values in (draws, found):
         with pytest.raises(InvalidValue, match=r"^'contacts' was not varied"):
             values["contacts"]
+
+
+def test_other_minima_are_told():
+    stack = replace(STACK, contacts=[sb.Spring(2500.0), sb.Spring(3000.0)])
+    vary = {"contacts.1.stiffness": (2800.0, 9500.0)}
+    found = sb.fit(stack, {"rebound_ratios.1": (1.12, 0.002)}, vary)
+    assert "the fit has other minima, which the draws may not reach" in found.sample(1280).notes

@@ -55,12 +55,13 @@ def test_a_message_keeps_its_hints_through_all_that_is_done_with_it():
     assert pickle.loads(pickle.dumps(second)) == str(second)
 
 
-def test_what_is_not_recognised_is_described_with_options_that_are_accepted(refusal, capfd):
+def test_what_is_not_recognised_is_described_with_a_command_that_is_accepted(refusal, capfd):
     said = refusal(table("when,level", np.arange(40) / 25, wave(40)))
     assert "its columns do not tell a kind of measurement: 'when' (0, 0.04, 0.08), 'level'" in said
     command = "--holds track --column 1=time --column 2=y"
-    assert f"For times and heights of a ball: {command}; other kinds" in said
-    assert main(["measure", "a file.csv", *shlex.split(command)]) in (0, 2)
+    assert f": stackbounce measure 'a file.csv' {command}" in said
+    typed = said.partition("stackbounce measure ")[2].partition("; other kinds")[0]
+    assert main(["measure", *shlex.split(typed)]) in (0, 2)
     told = capfd.readouterr().err
     assert not any(words in told for words in ("do not tell a kind", "unexpected", "--"))
 
@@ -101,6 +102,8 @@ def test_a_refusal_says_what_has_words_no_fitting_unit_or_uneven_times(refusal):
     assert "in line 3 the cell '3 N' is no number" in said
     said = refusal(table("a (s),b (µT)", np.arange(9), wave(9)), "--holds", "track")
     assert "by their units none of them is y or x" in said
+    said = refusal(table("Count,Time", np.arange(9), np.round(np.cumsum(0.8 ** np.arange(9)), 3)))
+    assert "--holds knocks --column 2=knock_time" in said
 
 
 def test_doubts_are_said_as_the_interface_in_use_says_them(refusal, read):

@@ -75,7 +75,7 @@ def _has_bounces(path: Path) -> bool:
 
 
 def _wording(hint: OptionHint) -> str:
-    """Return the options of a hint as they are typed."""
+    """Return the options of a hint as they are typed, with the whole command if it names a file."""
     known = {option.name: option.on_command_line for option in OPTIONS}
     typed = []
     for name, value in hint.options.items():
@@ -85,5 +85,7 @@ def _wording(hint: OptionHint) -> str:
             known[name] if text is None else f"{known[name]} {shlex.quote(str(text))}"
             for text in texts
         ]
+    if hint.file:
+        return " ".join(["stackbounce measure", shlex.quote(hint.file), *typed])
     all_names = all(value is None for value in hint.options.values())
     return (", " if all_names else " ").join(typed)

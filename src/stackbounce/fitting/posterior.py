@@ -50,6 +50,8 @@ class Posterior(Shown):
         The seed of the random numbers, as given or as drawn from a Generator.
     unsolved : int
         The number of runs that did not finish; there are no draws at their places.
+    others : int
+        The number of other minima that the fit found.
 
     Notes
     -----
@@ -75,6 +77,7 @@ class Posterior(Shown):
     acceptance: float
     seed: int
     unsolved: int = 0
+    others: int = 0
 
     def _tables(self) -> Sequence[Table]:
         values = [(name, f"{self[name]:.2u}".replace("+/-", " ± ")) for name in self.names]
@@ -167,6 +170,8 @@ class Posterior(Shown):
                 f"{self.unsolved} runs did not finish, and there are no draws at their places: "
                 "give narrower bounds"
             )
+        if self.others:
+            found.append("the fit has other minima, which the draws may not reach")
         return tuple(found)
 
 
@@ -228,6 +233,7 @@ def sample(fit: "Fit", draws: int, *, rng: Any = 0, progress: Any = None) -> Pos
         float(np.mean(sampler.acceptance_fraction)),
         seed,
         objective.unsolved.total() - before,
+        len(fit.minima) - 1,
     )
 
 

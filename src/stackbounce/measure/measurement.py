@@ -12,9 +12,11 @@ from stackbounce.measure.finding import Branch, Curve, Finding, channels
 from stackbounce.measure.kinds import KINDS, TYPED
 from stackbounce.measure.messages import Message, Wording, python_wording
 from stackbounce.measure.options import OPTIONS, options_for
-from stackbounce.measure.quantities import Row, nominal
+from stackbounce.measure.quantities import Number, Row, nominal
 from stackbounce.measure.reading import read, read_content
-from stackbounce.measure.setup import Setup
+from stackbounce.measure.setup import Place, Setup
+from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,7 +31,26 @@ File: TypeAlias = Path | tuple[str, bytes]
 """A file: its path, or its name and its content."""
 
 
-def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
+def analyse(
+    data: "xr.Dataset",
+    *,
+    mass: Number | float | None = None,
+    diameter: Number | float | None = None,
+    contact_time: Number | float | None = None,
+    law: type[ContactLaw] | ContactLaw | str | None = None,
+    exponent: float | None = None,
+    height: Number | float | None = None,
+    speed: Number | float | None = None,
+    height_error: float | None = None,
+    repeated: bool = False,
+    measured_to: Place | tuple[Place, Place] = "bottom",
+    floor: float | None = None,
+    tabulated: bool = False,
+    time_constant: float | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    drag_coefficient: Number | float | None = None,
+    air_density: Number | float | None = None,
+) -> "tuple[Finding, ...]":
     r"""Return the results of the analyses that belong to the kind of a measurement.
 
     Parameters
@@ -102,7 +123,7 @@ def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
     >>> f"{found.mean.nominal_value:.3f}"
     '0.800'
     """
-    given = vars(Setup(**options))
+    options = dict(locals())
     holds = getattr(data, "attrs", {}).get("holds")
     if holds is None:
         raise InvalidType(f"data must be a Dataset from read, got {shown(data)}")
@@ -112,7 +133,7 @@ def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
             f"{', '.join(KINDS)}"
         )
     kind = KINDS[holds]
-    return kind.analyse(data, Setup.of(kind.options, given))
+    return kind.analyse(data, Setup.of(kind.options, options))
 
 
 @dataclass(frozen=True)

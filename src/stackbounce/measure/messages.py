@@ -1,7 +1,7 @@
 """Messages that recommend options, which each user interface words as its users type them."""
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from stackbounce.errors import StackbounceError
@@ -16,9 +16,12 @@ class OptionHint:
     options : mapping
         Values by the names that the options have in Python. A value is a text, a mapping of
         columns to texts, or None where only the option's name is wanted.
+    file : str
+        The file's name, where the whole call is wanted.
     """
 
     options: Mapping[str, Any]
+    file: str = ""
 
 
 Wording: TypeAlias = Callable[[OptionHint], str]
@@ -33,9 +36,10 @@ def python_wording(hint: OptionHint) -> str:
     >>> python_wording(OptionHint({"names": {1: "time"}, "run": None}))
     "names={1: 'time'}, run"
     """
-    return ", ".join(
+    options = ", ".join(
         name if value is None else f"{name}={value!r}" for name, value in hint.options.items()
     )
+    return f"read({hint.file!r}, {options})" if hint.file else options
 
 
 class Message(str):
@@ -72,8 +76,12 @@ class Message(str):
         return Message(*[part for text in texts for part in (self, text)][1:])
 
     def of_file(self, name: str) -> "Message":
-        """Return the message with a file's name before it."""
-        return Message(f"{name}: ", self)
+        """Return the message with a file's name before it and in its hints of whole calls."""
+        named = (
+            replace(part, file=name) if isinstance(part, OptionHint) and part.file else part
+            for part in self.parts
+        )
+        return Message(f"{name}: ", *named)
 
     def worded(self, wording: Wording) -> str:
         """Return the text in the wording of a user interface."""

@@ -103,13 +103,16 @@ def _draw_scores(axes: "Axes", comparison: Any) -> None:
     more = values - values[0]
     axes.barh(np.arange(len(more)), more, color=COLORS[0], height=0.6)
     largest = max(float(more.max()), 1.0)
+    logarithmic = largest > 100.0
     for k, (one, score) in enumerate(zip(more, comparison.scores, strict=True)):
         words = f"{one:.3g}" if k else f"best: χ² = {score.chi_squared:.1f}"
         axes.annotate(
             words, (one, k), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8
         )
-    axes.set_xscale("symlog", linthresh=10.0)
-    axes.set_xlim(0.0, 1.35 * max(largest, largest**1.35))
+    if logarithmic:
+        axes.set_xscale("symlog", linthresh=10.0)
+        axes.set_xticks([0.0, *(10.0**k for k in range(1, 1 + int(np.log10(largest))))])
+    axes.set_xlim(0.0, largest ** (1.35 if logarithmic else 1.0) * 1.35)
     axes.set_xlabel(f"{_NAMES[comparison.criterion]} above the best")
     axes.grid(visible=False, axis="y")
     axes.tick_params(axis="y", length=0)

@@ -247,7 +247,7 @@ def _csv(done: SeriesFit) -> str:
         for found in done.as_dict()["series"]
         for law in found["laws"]
     ]
-    return str(pd.DataFrame(rows).to_csv(index=False))
+    return str(pd.DataFrame(rows).to_csv(index=False, lineterminator="\n"))
 
 
 def _page(done: SeriesFit, figures: dict[str, bytes]) -> str:

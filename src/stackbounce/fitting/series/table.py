@@ -11,6 +11,7 @@ from stackbounce.errors import InvalidValue, counted, nearest, positive, shown
 from stackbounce.fitting.rows import File, rows_of
 from stackbounce.fitting.series.columns import UNITS, role_of
 from stackbounce.fitting.series.readings import MEASURED, STARTS, readings_of, with_unit
+from stackbounce.measure.reading.dataset import dataset_of
 from stackbounce.run.quantities import Array
 from stackbounce.units import quantity, unit_written
 
@@ -122,8 +123,6 @@ def _dataset(
     readings: "pd.DataFrame", measured: str, told: dict[str, float], notes: list[str]
 ) -> "xr.Dataset":
     """Return the readings of a group as a data set, those of the same thing in one row."""
-    import xarray as xr
-
     start = str(readings.start_role.iloc[0])
     readings = readings.assign(
         error=readings.error.fillna(told.get(measured, told.get("", math.nan))),
@@ -167,7 +166,7 @@ def _dataset(
             f"{measured.replace('_', ' ')} is half of the step in which it was written, "
             f"{with_unit(half, unit)}, unless another is given."
         )
-    return xr.Dataset(data)
+    return dataset_of(data, {})
 
 
 def _repeated(readings: "pd.DataFrame") -> "pd.DataFrame | None":

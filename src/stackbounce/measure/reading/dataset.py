@@ -66,11 +66,9 @@ def assemble(
     FileError
         If there is no row of it.
     """
-    import xarray as xr
-
     if holds == "knocks" and len(columns) > 1 and {c.role for c in columns} == {"knock_time"}:
         data, coordinates, doubts = _bounces(values)
-        return xr.Dataset(data, coordinates), doubts
+        return dataset_of(data, coordinates), doubts
     kind = KINDS[holds]
     # An analysis takes the first of several forces: one that an option names comes before others.
     order = sorted(range(len(columns)), key=lambda k: columns[k].named not in ROLES)
@@ -85,7 +83,33 @@ def assemble(
         if column.factor != 1.0 and k != clock:
             values[:, k] *= column.factor
     data, coordinates, more = build(columns, values, run)
-    return xr.Dataset(data, coordinates), doubts + more
+    return dataset_of(data, coordinates), doubts + more
+
+
+def dataset_of(data: Mapping[str, Any], coordinates: Mapping[str, Any]) -> "xr.Dataset":
+    """Return arrays of numpy as a Dataset, for which xarray imports neither dask nor pint.
+
+    It imports them to see if an array is theirs, unless that is an index or takes the fast path.
+
+    Examples
+    --------
+    >>> times = ("time", np.array([0.0, 0.1]), {"units": "s"})
+    >>> dataset_of({"force": ("time", np.zeros(2))}, {"time": times}).force.dims
+    ('time',)
+    """
+    import pandas as pd
+    import xarray as xr
+
+    return xr.Dataset(
+        {
+            name: xr.Variable(own[0], own[1], dict(*own[2:]), fastpath=True)
+            for name, own in data.items()
+        },
+        {
+            name: own if isinstance(own, list) else (own[0], pd.Index(own[1]), own[2])
+            for name, own in coordinates.items()
+        },
+    )
 
 
 def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import FileError
 from stackbounce.measure.quantities import Array
+from stackbounce.measure.reading.dataset import dataset_of
 from stackbounce.measure.reading.limits import CELLS
 
 if TYPE_CHECKING:
@@ -35,8 +36,6 @@ def read_wav(content: bytearray) -> tuple["xr.Dataset", str, list[str]]:
     FileError
         If there is no sound in it, or one that is compressed, or too long.
     """
-    import xarray as xr
-
     form, start, size = _found(content)
     channels, rate, _, frame = struct.unpack_from("<HIIH", form, 2)
     if not 0 < channels <= frame or rate < 1:
@@ -66,7 +65,7 @@ def read_wav(content: bytearray) -> tuple["xr.Dataset", str, list[str]]:
         doubts.append("it reaches full scale: the loudest knocks may be clipped")
     said = {"units": "1", "long_name": "sound", "rate": float(rate)}
     time = ("time", np.arange(frames) / rate, {"units": "s", "long_name": "time"})
-    data = xr.Dataset({"sound": ("time", sound, said)}, {"time": time})
+    data = dataset_of({"sound": ("time", sound, said)}, {"time": time})
     kind = "integers" if integers else "floating point"
     many = f"{channels} channels, averaged" if channels > 1 else "1 channel"
     return data, f"it begins as RIFF WAVE: {depth} bit {kind}, {many}, {rate} Hz", doubts

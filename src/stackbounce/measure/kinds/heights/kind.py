@@ -9,8 +9,10 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds import KINDS
+from stackbounce.measure.kinds.bounces.knocks import SHRINKS
 from stackbounce.measure.kinds.heights.analysis import Heights, heights
 from stackbounce.measure.messages import Message, OptionHint
+from stackbounce.measure.quantities import Array
 from stackbounce.measure.setup import Setup
 
 _MANY = 100  # heights of one drop
@@ -20,7 +22,7 @@ _PLACE = re.compile(
     r"|^[pc]?[yz](_?pix\w*)?$|[ _][yz]$|^h$"
 )
 _NAMELESS = re.compile(r"column \d+")
-_LONGEST_FRAME = 0.2  # s, the step of a video
+_LONGEST_SAMPLE, _LONGEST_FRAME = 1e-3, 0.2  # s, the steps of a sensor and of a video
 _FEWEST_STEPS = 10  # of a track that has a fall and a bounce
 
 
@@ -74,39 +76,54 @@ def _unrecognised(data: Any) -> Message:
     described = ", ".join(map(_described, columns[:_LISTED]))
     more = f" and {len(columns) - _LISTED} more" if len(columns) > _LISTED else ""
     said = f"its columns do not tell a kind of measurement: {described}{more}. "
-    hint = _hint(columns)
-    kinds = ", ".join(name for name in KINDS if name not in ("table", "track" if hint else ""))
+    what, hint = _hint(data, columns)
+    kinds = ", ".join(name for name in KINDS if name not in (what, "table"))
     if hint is None:
         tell = OptionHint({"holds": None, "names": None})
         return Message(f"{said}If it is one of {kinds}: ", tell, " tell so")
-    return Message(f"{said}For times and heights of a ball: ", hint, f"; other kinds: {kinds}")
+    of = "times and heights" if what == "track" else "times"
+    return Message(f"{said}For {of} of a ball: ", hint, f"; other kinds: {kinds}")
 
 
-def _hint(columns: Sequence[Any]) -> OptionHint | None:
-    """Return the options of a track, where names, units and times leave one possible."""
-    clock = next(filter(_is_clock, columns), None)
-    lengths = [c for c in columns if c.attrs["units"] in ("m", "px") or _is_bare(c)]
-    where = _NAMELESS if len(columns) == 2 and _NAMELESS.fullmatch(_name(columns[1])) else _PLACE
-    places = [c for c in lengths if c is not clock and where.search(_name(c))]
-    if clock is None or not places or len(clock) <= _FEWEST_STEPS:
-        return None
-    names = {clock.attrs["column"]: "time", places[0].attrs["column"]: "y"}
-    return OptionHint({"holds": "track", "names": names})
+def _hint(data: Any, columns: Sequence[Any]) -> tuple[str, OptionHint | None]:
+    """Return the kind and the call that names, units and times leave possible, if there is one."""
+    clock = next(filter(_is_clock, sorted(columns, key=_is_bare)), None)
+    if clock is None:
+        return "", None
+    steps = np.diff(clock.values)
+    in_seconds = clock.attrs["units"] == "s"
+    slow = in_seconds and np.median(steps) > _LONGEST_FRAME
+    others = [c for c in columns if c is not clock]
+    lengths = [c for c in others if c.attrs["units"] in ("m", "px") or _is_bare(c)]
+    places = [c for c in lengths if _PLACE.search(re.split(r"\s*[(\[/]", c.attrs["long_name"])[0])]
+    if not places and len(others) == 1 and np.median(steps) > _LONGEST_SAMPLE:
+        places = [
+            c for c in lengths if c.attrs["units"] or _NAMELESS.fullmatch(c.attrs["long_name"])
+        ]
+    if (in_seconds or clock.name == "time") and not places and len(others) < 2 and _faster(steps):
+        what, names = "knocks", {clock.attrs["column"]: "knock_time"}
+    elif places and not slow and len(steps) >= _FEWEST_STEPS:
+        what, names = "track", {clock.attrs["column"]: "time", places[0].attrs["column"]: "y"}
+    else:
+        return "", None
+    file = str(data.attrs.get("source", "FILE"))
+    return what, OptionHint({"holds": what, "names": names}, file)
 
 
 def _is_clock(column: Any) -> bool:
     """Return whether a column can be times: it rises, and its name, unit or steps say so."""
     steps = np.diff(column.values)
-    if column.name == "frame":
-        return bool((steps >= 0.0).all())
-    even = np.ptp(steps) < np.median(steps) if len(steps) else False
-    told = column.attrs["units"] == "s" or _is_bare(column)
-    return bool(told and even and np.median(steps) <= _LONGEST_FRAME)
+    if not ((steps >= 0.0).all() and steps.any()):
+        return False
+    told = column.attrs["units"] == "s" or column.name in ("time", "frame")
+    return told or (_is_bare(column) and np.ptp(steps) < np.median(steps) <= _LONGEST_FRAME)
 
 
-def _name(column: Any) -> str:
-    """Return the name of a column without its unit."""
-    return str(re.split(r"\s*[(\[/]", column.attrs["long_name"])[0])
+def _faster(steps: Array) -> bool:
+    """Return whether intervals are those of a ball, whose bounces come faster and faster."""
+    if not 1 < len(steps) < _MANY or not np.ptp(steps) > np.min(steps) > 0.0:
+        return False
+    return bool((steps[1:] < SHRINKS[1] * steps[:-1]).all())
 
 
 def _is_bare(column: Any) -> bool:

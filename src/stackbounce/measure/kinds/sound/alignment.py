@@ -369,6 +369,9 @@ def _shares(shifts: Array, variances: Array) -> tuple[Array, Array]:
 
 def _convolved(values: Array, window: Array) -> Array:
     """Return the convolution along the last axis, where the whole window lies within the values."""
-    from scipy.signal import fftconvolve
+    from scipy.fft import irfft, next_fast_len, rfft
 
-    return np.asarray(fftconvolve(values, window, mode="valid", axes=-1))
+    long, short = values.shape[-1], window.shape[-1]
+    count = next_fast_len(long + short - 1, real=True)
+    convolved = irfft(rfft(values, count) * rfft(window, count), count)
+    return np.asarray(convolved[..., short - 1 : long])

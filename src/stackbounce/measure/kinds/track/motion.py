@@ -189,12 +189,18 @@ def flight_numbers(fit: Parabolas, shape: Shape) -> Sequence[Numbers]:
     noise = own_noise(fit.times, fit.heights, fit.flights)
     mean, scatter = float(fit.values[0]), shape.scatter * float(fit.values[0])
     found: list[Numbers] = []
-    for flight in fit.flights:
-        alone = Parabolas(fit.times, fit.heights, [flight])
-        covariance = (noise / max(alone.sigma, 1e-300)) ** 2 * alone.covariance
-        share = covariance[0] / (covariance[0, 0] + scatter**2)
-        values = alone.values + share * (mean - alone.values[0])
-        covariance = covariance - np.outer(share, covariance[0])
+    for k, flight in enumerate(fit.flights):
+        if flight.last - flight.first < OWN:
+            some = [0, 1 + 2 * k, 2 + 2 * k]
+            values = fit.values[some]
+            covariance = shape.widening**2 * fit.covariance[np.ix_(some, some)]
+        else:
+            alone = Parabolas(fit.times, fit.heights, [flight])
+            values = alone.values
+            covariance = (noise / max(alone.sigma, 1e-300)) ** 2 * alone.covariance
+            share = covariance[0] / (covariance[0, 0] + scatter**2)
+            values = values + share * (mean - values[0])
+            covariance = covariance - np.outer(share, covariance[0])
         found.append(tuple(correlated_values(values, wider * covariance)))
     return found
 
