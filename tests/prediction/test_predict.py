@@ -213,10 +213,7 @@ UNEQUAL = {"impact_speed": np.ones(500), "contacts.0.restitution": np.ones(400)}
         ({"mass": (1.0, 0.1)}, "mass is not a parameter of this drop"),
         ({"impact_speed": 3.0}, "impact_speed must be a number with an error"),
         ({"impact_speed": "3 ± 1 kg"}, "impact_speed must be a speed"),
-        (
-            {"impact_speed": (3.0, -0.1)},
-            "impact_speed's error must be a number, 0 or above, got -0.1",
-        ),
+        ({"impact_speed": (3.0, -0.1)}, "impact_speed's error must be 0 or above, got -0.1"),
         ({"impact_speed": (3.0, 1e308)}, "impact_speed's error must be at most 1e+100, got 1e+308"),
         ({"impact_speed": np.linspace(1.0, 1e308, 200)}, "impact_speed's error must be at most"),
         ({"impact_speed": (3.0, 0.0)}, "errors must have a number with an error above 0"),

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidValue, non_negative, positive
+from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.units import WORDS, checked, magnitude, quantity, unit_written
 
 # 1.64(2)e3 m: the number, its decimals, the error of its last digits, the power of ten, the unit.
@@ -134,7 +134,9 @@ def deviation(name: str, value: object, *, zero: bool = True) -> float:
     Traceback (most recent call last):
     stackbounce.errors.InvalidValue: mass's error must be at most 1e+100, got 1e+200
     """
-    found = (non_negative if zero else positive)(f"{name}'s error", value)
+    found = (finite if zero else positive)(f"{name}'s error", value)
+    if found < 0.0:
+        raise InvalidValue(f"{name}'s error must be 0 or above, got {found:g}")
     if found > LARGEST:
         raise InvalidValue(f"{name}'s error must be at most {LARGEST:g}, got {found:g}")
     return found
