@@ -68,10 +68,21 @@ def _module(origin: str, made: Mapping[str, bytes], path: str) -> str:
     """Return the text of a module."""
     folder, _, name = path.partition("/")
     if path == _LANGUAGES:
-        return f"export const tables = {json.dumps(_tables(), ensure_ascii=False)};"
+        return _language_module(_tables())
     if folder == "made":
         return made[name].decode()
     return read_static(f"js/origin/{origin}.js" if path == _SERVED else path)
+
+
+def _language_module(tables: dict[str, dict[str, str]]) -> str:
+    """Return the module that exports the tables: the English sentences stand in it once."""
+    keys = list(dict.fromkeys(key for table in tables.values() for key in table))
+    said = {code: [table.get(key, 0) for key in keys] for code, table in tables.items()}
+    return f"""const keys = {json.dumps(keys, ensure_ascii=False)};
+const said = {json.dumps(said, ensure_ascii=False)};
+const table = (texts) => texts.flatMap((text, i) => (text ? [[keys[i], text]] : []));
+const all = Object.entries(said).map(([code, texts]) => [code, Object.fromEntries(table(texts))]);
+export const tables = Object.fromEntries(all);"""
 
 
 def _tables() -> dict[str, dict[str, str]]:

@@ -71,9 +71,9 @@ def _read_engine(folder: Path) -> dict[str, bytes]:
 
 
 def _digest_of_sources(engine: Path) -> str:
-    """Return a hash of all that the files are made of; constraints.txt has the version of pint."""
+    """Return a hash of all that the files are made of."""
     folders = _ROOT / "src" / "stackbounce", _ROOT / "page_build"
-    found = [*(path for folder in folders for path in folder.rglob("*")), _ROOT / "constraints.txt"]
+    found = [path for folder in folders for path in folder.rglob("*")]
     contents = {
         path.relative_to(_ROOT).as_posix(): path.read_bytes()
         for path in found

@@ -1,15 +1,13 @@
 """What the page knows of the package: `model.json`, `options.json`, the code of laws, `laws.js`.
 
-Balls, contact laws, examples, the paper's lines, lessons and units, with the numbers that each
-check lets through, found by asking it. The page reads units as `stackbounce.units.quantity` does,
-which asks pint.
+Balls, contact laws, examples, the paper's lines and lessons, with the numbers that each check lets
+through, found by asking it.
 """
 
 import dataclasses
 import functools
 import itertools
 import math
-import re
 import sys
 import tomllib
 from collections.abc import Callable
@@ -26,8 +24,6 @@ from stackbounce.json_values import as_json
 from stackbounce.measure.options import options_for
 from stackbounce.model import LAWS, STANDARD_GRAVITY, STEEPEST, ContactLaw, Hysteretic
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stacked
-from stackbounce.run.result import Cause, Status
-from stackbounce.units import examples
 from stackbounce.version import __version__
 
 WORDS: dict[str, Any] = tomllib.loads((files(__package__) / "words.toml").read_text("utf-8"))
@@ -35,6 +31,9 @@ WORDS: dict[str, Any] = tomllib.loads((files(__package__) / "words.toml").read_t
 
 _TOLD = ("says", "formula", "source", "form", "rigid", "exact", "loss", "least_restitution")
 """What the page takes of a law as it is."""
+
+_FIRST = "figure-9"
+"""The example that stands above the others: the paper's pair."""
 
 _LOSSY = Hysteretic  # the paper's own way to lose energy
 MAP_RTOL = 1e-8
@@ -44,12 +43,11 @@ _ENERGY = ("kinetic energy retained", "")
 _USUAL = {"contact_time": 5e-3, "exponent": 1.5, "restitution": 0.8}
 """What a law takes over from one that has none of it: in s a tennis ball's, of a solid ball, of a
 floor where there was none."""
-_NAME = re.compile(r"[^\W\d_]+")
 
 
 def list_choices() -> dict[str, Any]:
     """Return balls, contact laws, examples and the limits of a request."""
-    cases = (*list_examples(), *list_cases())
+    cases = sorted((*list_examples(), *list_cases()), key=lambda case: case.name != _FIRST)
     return {
         "stackbounce": __version__,
         "balls": [entry.to_mapping() for entry in (*BALLS, *CLASS_BALLS)],
@@ -147,16 +145,14 @@ def model_json() -> str:
     --------
     >>> import json
     >>> sorted(json.loads(model_json()))[:4]
-    ['advice', 'balls', 'contacts', 'energy']
+    ['balls', 'contacts', 'energy', 'gravity']
     """
     return as_json(
         list_choices()
         | {
-            "advice": {ending.name: ending.advice for ending in (*Status, *Cause)},
             "contacts": _list_contacts(),
             "energy": _ENERGY,
             "gravity": STANDARD_GRAVITY,
-            "kinds": examples(),
             "lessons": list_lessons(),
             "lines": _list_lines(),
             "map_rtol": MAP_RTOL,
@@ -165,7 +161,6 @@ def model_json() -> str:
             "rtol": RTOL,
             "stacks": _list_stacks(),
             "steepest": STEEPEST,
-            "units": list_units(),
             "usual": _USUAL,
         }
     )
@@ -244,37 +239,3 @@ def _list_stacks() -> dict[str, Any]:
             pair["gap"] = two.gaps[0], two.gap_sources[0]
         found[f"{lower} {upper}"] = pair
     return found
-
-
-def list_units() -> dict[str, Any]:
-    """Return the names of units with factor and dimensions, the prefixes, and the dimensions.
-
-    A unit that is no multiple of an SI unit, such as a degree Celsius, has the factor None.
-
-    Examples
-    --------
-    >>> units = list_units()
-    >>> factor, place = units["names"]["inch"]
-    >>> round(factor, 4), units["dimensions"][place]
-    (0.0254, {'[length]': 1})
-    """
-    import pint
-
-    registry: Any = pint.UnitRegistry()
-    dimensions: list[dict[str, float]] = []
-    names: dict[str, tuple[float | None, int]] = {}
-    for name in sorted(filter(_NAME.fullmatch, registry._units)):  # pint's order varies
-        if not registry._units[name].is_multiplicative:
-            names[name] = None, 0
-            continue
-        size = registry.Quantity(1.0, name).to_base_units()
-        own = dict(sorted(size.dimensionality.items()))
-        if own not in dimensions:
-            dimensions.append(own)
-        names[name] = float(size.magnitude), dimensions.index(own)
-    prefixes = [
-        (prefix, float(one.value))
-        for prefix, one in registry._prefixes.items()
-        if _NAME.fullmatch(prefix)
-    ]
-    return {"names": names, "prefixes": prefixes, "dimensions": dimensions}

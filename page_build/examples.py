@@ -6,7 +6,7 @@ from importlib.resources import files
 from typing import Any
 
 from stackbounce.cross2007.cases import Case
-from stackbounce.model import Drop
+from stackbounce.model import Ball, Drop, Rigid
 from stackbounce.model.catalogue import stack
 
 _HEIGHT = 1.0  # m
@@ -27,6 +27,9 @@ def list_examples() -> Iterator[Case]:
 
 def _drop(example: dict[str, Any]) -> Drop:
     """Return the drop of an example; without a floor the lowest ball flies at the others."""
+    if "masses" in example:
+        balls = [Ball(mass) for mass in example["masses"]]
+        return Drop(balls, [Rigid(1.0)] * len(balls), [example["gap"]], height=_HEIGHT)
     drop = stack(*example["balls"], gap=example["gap"], height=_HEIGHT)
     if example.get("floor", True):
         return drop

@@ -17,10 +17,11 @@ from stackbounce.cli import main
 
 FILM = Path(__file__).parents[1] / "_static" / "film.gif"
 VIEW = {"width": 640, "height": 570}  # px
-FRAME = 60  # ms, of each picture
+FRAME = 80  # ms, of each picture
 REST = 900  # ms, of the last one
 COLORS = Image.Quantize.MAXCOVERAGE  # others lose white and the arrows' green
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+PRESSED = ".full-screen, .guess, .guess-go, .sentence-more"  # in a film nothing is pressed
 READY = "() => window.stackbounce?.store.get().result && !window.stackbounce.store.get().busy"
 SHOW = """(time) => {
   window.stackbounce.clock.pause();
@@ -33,7 +34,7 @@ def shoot(page):
     """Return the film's pictures, of sentence and stage."""
     page.wait_for_function(READY)
     page.evaluate("() => window.stackbounce.whole")
-    page.evaluate("() => document.querySelector('.full-screen').remove()")  # nothing to press here
+    page.evaluate(f"() => document.querySelectorAll('{PRESSED}').forEach((one) => one.remove())")
     stage = page.locator("#stage").bounding_box()
     clip = {"x": 0, "y": 0, "width": VIEW["width"], "height": stage["y"] + stage["height"] + 1}
     length = page.evaluate("() => window.stackbounce.clock.film.length")

@@ -13,6 +13,7 @@ from playwright.sync_api import sync_playwright
 
 import stackbounce as sb
 from stackbounce.cli import main
+from stackbounce.cross2007.cases import explorer_address, list_cases
 
 BROWSERS = {
     "chromium": ("chromium", "chromium-browser", "google-chrome"),
@@ -24,6 +25,7 @@ IN_BOTH = (
 )  # `make browsers` runs the others, too, in Firefox, where they are slow
 FORMS = ("served", "one file")
 LAPTOP = {"width": 1366, "height": 768}
+[PAPER] = [explorer_address("", one.drop, {}) for one in list_cases() if one.name == "figure-9"]
 
 
 def path_of(name):
@@ -121,6 +123,8 @@ Object.defineProperty(window, "state", { get: () => window.store?.get() });
 class Visit:
     """A page, and what it complained about or asked for."""
 
+    paper = PAPER
+
     def __init__(self, page, address, downloads):
         page.add_init_script(SHORT)
         self.page, self.address, self.downloads = page, address, downloads
@@ -137,9 +141,13 @@ class Visit:
         if not (self.expected and self.expected in text):
             self.complaints.append(text)
 
-    def open(self, fragment=""):
-        self.page.goto(f"{self.address}{fragment}")
+    def open(self, fragment=PAPER, playback=True):
+        """Open the whole page with the paper's drop, or a fragment's; show all playback."""
+        first = "" if "balls." in fragment or not fragment else PAPER.removeprefix("#view=play")
+        self.page.goto(f"{self.address}{fragment}{first}")
         self.ready()
+        if playback:
+            self.page.locator("#film-more").evaluate("(one) => { one.open = true; }")
         return self.page
 
     def ready(self):

@@ -10,7 +10,7 @@ pytestmark = pytest.mark.slow
 COLORS = """() => [0, 1].map((i) =>
   getComputedStyle(document.documentElement).getPropertyValue(`--ball-${i}`).trim())"""
 INK = """(name) =>
-  getComputedStyle(document.documentElement).getPropertyValue(`--ink-${name}`).trim()"""
+  getComputedStyle(document.documentElement).getPropertyValue(`--place-${name}`).trim()"""
 LOOKS = """() => [...document.querySelectorAll("#stage .ball-pattern")]
   .map((one) => one.dataset.look ?? null)"""
 DRAWN = """() => [...document.querySelectorAll("#stage .ball")]
@@ -39,7 +39,7 @@ def test_a_ball_of_a_class_brings_its_losses(visit, page):
 
 
 def test_colours_belong_to_balls_and_not_to_places(visit, page):
-    inks = [page.evaluate(INK, name) for name in ("basketball", "tennis")]
+    inks = [page.evaluate(INK, name) for name in (1, 4)]  # of basketballs and tennis balls
     assert all(inks)
     assert page.evaluate(COLORS) == inks
     page.locator("#controls [data-key='down-1']").click()
@@ -52,5 +52,5 @@ def test_colours_belong_to_balls_and_not_to_places(visit, page):
     page.wait_for_function("() => !state.drop.balls[1].name")
     visit.ready()
     tennis, other = page.evaluate(COLORS)
-    assert (tennis, other in inks) == (inks[1], False)
+    assert (tennis, other) == (inks[1], inks[0])  # that of its place
     assert page.evaluate(LOOKS) == ["tennis", None]

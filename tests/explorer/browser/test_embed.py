@@ -43,7 +43,7 @@ def test_a_site_that_may_frames_the_page_and_its_link_opens_the_whole(page, scho
     frame = frame_of(page, school, f"{open_to}?embed#view=map&centre=1")
     frame.locator(".sentence-lead").get_by_text("tennis").wait_for()
     frame.locator("#stage .ball").first.wait_for()
-    assert frame.get_by_role("button", name="Replay").is_visible()
+    assert frame.get_by_role("slider", name="Time").is_visible()
     for hidden in (".top", ".results", "#controls", "#map"):
         assert not frame.locator(hidden).is_visible(), hidden
     with page.context.expect_page() as opened:
@@ -70,7 +70,7 @@ def test_the_one_file_has_the_same_form(page, one_file):
     page.locator("#stage .ball").first.wait_for()
     assert not page.locator(".top").is_visible()
     link = page.get_by_role("link", name="Open the explorer").get_attribute("href")
-    assert link.startswith(f"{one_file.as_uri()}#view=play&balls.0.mass=0.15")
+    assert link.startswith(f"{one_file.as_uri()}#view=play&balls.0.mass=0.625")
 
 
 def test_full_screen_shows_the_film_larger(visit, address_of_server):
@@ -82,46 +82,12 @@ def test_full_screen_shows_the_film_larger(visit, address_of_server):
     leave = page.get_by_role("button", name="Leave full screen")
     leave.wait_for()
     assert page.evaluate(size) > 1.5 * before
+    page.evaluate("() => clock.pause()")
+    page.keyboard.press(" ")  # plays, and does not leave
+    assert page.evaluate("() => clock.playing")
     assert page.locator(".sentence-lead").is_visible()
     assert page.locator("#controls:visible, .results:visible").count() == 0
     leave.click()
     page.get_by_role("button", name="Full screen", exact=True).wait_for()
     assert page.locator("#controls").is_visible()
     assert page.evaluate(size) == before
-
-
-def cursor_places(page):
-    """Return how far the cursor is from the left of each plot, in px."""
-    return page.evaluate(
-        """() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() =>
-             done([...document.querySelectorAll('.plot .cursor-line')].map((line) =>
-               parseFloat(/translateX\\(([-\\d.]+)px/.exec(line.style.transform)[1]))))))"""
-    )
-
-
-def test_plots_zoom_together_and_follow_the_cursor(visit, address_of_server):
-    visit.address = address_of_server
-    page = visit.open("#view=play&t=0.01")
-    longer, shorter, whole = (
-        page.get_by_role("button", name=f"Show {name} time")
-        for name in ("a longer", "a shorter", "the whole")
-    )
-
-    def places_at(time):
-        page.evaluate("(time) => clock.seek(time)", time)
-        return cursor_places(page)
-
-    assert longer.is_disabled()
-    assert whole.is_disabled()
-    width = page.locator(".plot .u-over").first.bounding_box()["width"]
-    before = cursor_places(page)
-    for _ in range(3):
-        shorter.click()
-    assert cursor_places(page) == pytest.approx([width / 2] * 3, abs=1.0)
-    moved = places_at(0.011)
-    assert places_at(0.03) == pytest.approx([0.1 * width] * 3, abs=1.0)  # the range follows
-    whole.click()
-    assert places_at(0.01) == pytest.approx(before, abs=0.5)
-    step = places_at(0.011)[0] - before[0]
-    assert moved[0] - width / 2 == pytest.approx(8 * step, abs=1.5)
-    assert whole.is_disabled()

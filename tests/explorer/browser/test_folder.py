@@ -38,7 +38,7 @@ def test_it_plays_without_a_network_after_a_visit(visit, page, site):
     page.goto("about:blank")
     (site.folder / "class").rename(site.folder / "away")
     for address in ("", "index.html"):
-        page.goto(f"{visit.address}{address}#view=map&height=1")
+        page.goto(f"{visit.address}{address}{visit.paper.replace('play', 'map')}")
         visit.ready()
         page.wait_for_function(
             "() => /largest/.test(document.querySelector('#map-summary')?.textContent)"

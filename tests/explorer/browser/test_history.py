@@ -95,17 +95,6 @@ def choose(visit, contact, law):
     visit.page.wait_for_function(f"() => state.drop.contacts[{contact}].law === '{law}'")
 
 
-def test_a_law_that_is_chosen_again_has_its_numbers(visit):
-    visit.open()
-    visit.type("contacts.0.stiffness", "3.3")
-    for other in ("Rigid", "none"):
-        choose(visit, 0, other)
-        if other == "Rigid":
-            visit.type("contacts.0.restitution", "0.9")
-        choose(visit, 0, "Spring")
-        assert [one["stiffness"] for one in visit.state("drop.contacts")] == [3300, 1000]
-
-
 def test_one_rigid_law_can_be_chosen_for_one_contact(visit):
     visit.open()
     laws = "contacts.map((one) => one.law)"

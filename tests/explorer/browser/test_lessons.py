@@ -15,6 +15,11 @@ def opened(page, name):
     page.get_by_role("button", name=read_lesson(name)["title"]).click()
 
 
+def looked(page):
+    assert not page.get_by_role("link", name="2 cm apart", exact=True).is_visible()  # not yet
+    page.get_by_text("Look (10").click()
+
+
 @pytest.mark.parametrize("size", [{"width": 1440, "height": 900}, PHONE], ids=["wide", "phone"])
 def test_a_step_sets_the_page_beside_the_lesson(visits, size):
     visit = visits(viewport=size)
@@ -23,10 +28,17 @@ def test_a_step_sets_the_page_beside_the_lesson(visits, size):
     assert page.get_by_role("heading", name="The gap").evaluate(
         "(one) => one === document.activeElement"
     )
+    looked(page)
+    numbers = page.locator("#numbers table")
+    assert not numbers.is_visible()  # a lesson asks first, and so do its steps
     page.get_by_role("link", name="2 cm apart", exact=True).click()
     page.wait_for_function("() => state.result?.drop.gaps[0] === 0.02")
+    assert not numbers.is_visible()
+    page.evaluate("() => clock.wind(clock.film.length)")
+    numbers.wait_for()
     assert visit.state("drop.balls.map((ball) => ball.name)") == ["big basketball", "tennis ball"]
     assert "lesson=gap" in page.url
+    assert page.evaluate("() => scrollY") == 0  # the head stays
     stage, lesson = (page.locator(one).bounding_box() for one in ("#stage", "#lesson"))
     beside = stage["x"] + stage["width"] <= lesson["x"]
     above = 0 <= stage["y"] <= stage["y"] + stage["height"] <= lesson["y"]
@@ -40,6 +52,7 @@ def test_a_step_sets_the_page_beside_the_lesson(visits, size):
 def test_back_goes_through_the_lessons_and_closes_them(visit, page):
     first = visit.state("drop.gaps")
     opened(page, "gap")
+    looked(page)
     page.get_by_role("link", name="2 cm apart", exact=True).click()
     page.wait_for_function("() => state.drop.gaps[0] === 0.02")
     states = []
@@ -78,7 +91,7 @@ def test_the_worksheet_is_printed_alone(visit, in_firefox):
     assert page.evaluate(OUTSIDE) == 0
     page.evaluate("() => dispatchEvent(new Event('afterprint'))")
     assert not page.locator("#lesson").is_visible()
-    assert page.locator("#numbers").is_visible()
+    assert page.locator("#stage").is_visible()
 
 
 def test_lessons_are_in_german_and_elsewhere_marked_as_english(visits):

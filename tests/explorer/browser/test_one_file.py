@@ -3,6 +3,7 @@
 import pytest
 
 import stackbounce as sb
+from explorer.browser.test_measure import DROP_A_FILE
 
 pytestmark = pytest.mark.slow
 FORMS = ("one file",)
@@ -42,7 +43,7 @@ def test_two_cells_of_a_notebook_are_two_explorers(visit, tmp_path):
     notebook.write_text(f'<!doctype html><meta charset="utf-8">{"".join(cells)}', "utf-8")
     visit.address = notebook.as_uri()
     visit.page.goto(visit.address)
-    for frame, name in zip(visit.page.frames[1:], ('"ä" & +', "basketball"), strict=True):
+    for frame, name in zip(visit.page.frames[1:], ('"ä" & +', "big basketball"), strict=True):
         frame.wait_for_function("() => state?.result && !state.busy")
         assert frame.evaluate("() => state.drop.balls[0].name") == name
     first = visit.page.frames[1]
@@ -53,15 +54,28 @@ def test_two_cells_of_a_notebook_are_two_explorers(visit, tmp_path):
     assert first.url == "about:srcdoc"  # Firefox would lose a frame that has written an address
 
 
-def test_what_it_cannot_do_is_said(visit):
+def test_what_it_cannot_do_is_said_and_a_dropped_file_changes_nothing(visit):
     page = visit.open("#view=measure")
-    assert "stackbounce app" in page.locator("#measure").inner_text()
+    said = page.locator("#preset-says")
+    assert (visit.state("view"), page.locator("#tab-measure").is_visible()) == ("play", False)
+    assert "stackbounce app" in said.inner_text()
+    page.evaluate("() => store.set({ notice: null })")
+    assert page.evaluate(DROP_A_FILE, "1.00") == [False, False]
+    assert (visit.state("view"), "stackbounce app" in said.inner_text()) == ("play", True)
+    visit.type("balls.1.mass", "57 ± 1 g")
+    page.locator("#numbers").get_by_text("“stackbounce app” opens a page that does").wait_for()
+
+
+def test_the_papers_figures_play_in_it(visit, page):
     page.locator("#tab-paper").click()
     assert "stackbounce paper" in page.locator("#paper").inner_text()
     assert page.locator('a[href="paper/"]').is_hidden()
-    page.locator("#tab-play").click()
-    visit.type("balls.1.mass", "57 ± 1 g")
-    page.locator("#numbers").get_by_text("“stackbounce app” opens a page that does").wait_for()
+    page.get_by_role("button", name="Figure 6: tennis on basketball").click()
+    assert (visit.state("view"), visit.state("line.x.path")) == ("line", "stiffness_ratio")
+    page.locator("#tab-paper").click()
+    page.get_by_role("button", name="Figure 5: two impacts on the floor").click()
+    visit.ready()
+    assert (visit.state("view"), visit.state("result.collisions[0]")) == ("play", 2)
 
 
 def test_without_workers_it_says_what_it_needs(visit):

@@ -67,5 +67,3 @@ def test_on_a_phone_the_ball_and_the_number_that_changes_it_are_on_one_screen(vi
     wait_for_stage("> 100")
     slider.scroll_into_view_if_needed()
     wait_for_stage("=== 0")
-    slider.evaluate("(one) => one.blur()")
-    wait_for_stage("< 0")

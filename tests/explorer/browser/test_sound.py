@@ -50,7 +50,7 @@ def test_each_contact_knocks_once_at_its_moment_of_the_film(page, visit):
     assert len(knocks) == len(begins) > 1
     for knock, begin in zip(knocks, sorted(begins, key=lambda one: one["reel"]), strict=True):
         assert 0.0 <= knock["reel"] - begin["reel"] <= FRAME
-        assert knock["pitch"] == pytest.approx(min(max(1 / begin["lasts"], 90), 4000))
+        assert knock["pitch"] == pytest.approx(min(max(4 / begin["lasts"], 330), 6000))
     loud = max(zip(knocks, begins, strict=True), key=lambda pair: pair[0]["gain"])[1]
     assert loud["force"] == max(one["force"] for one in begins)
     page.wait_for_function("() => location.hash.includes('sound=1')")

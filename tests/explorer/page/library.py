@@ -70,7 +70,9 @@ def played(mapping, until, times, events=LIMITS.events):
 def numbers(result):
     speeds = result.rebound_speeds
     heights = speeds * np.abs(speeds) / (2.0 * sb.model.STANDARD_GRAVITY)
-    return result.to_mapping() | {"rebound_heights": heights}
+    found = result.to_mapping() | {"rebound_heights": heights}
+    del found["advice"]  # the page has words of its own
+    return found
 
 
 def frames(result, times):

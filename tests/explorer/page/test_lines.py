@@ -137,8 +137,8 @@ def test_what_makes_no_line_is_refused(asked):
     drop = next(list_lines()).drop.to_mapping()
     side = {"path": "mass_ratio", "low": 0.1, "high": 1.0, "log": True}
     asks = [
-        ({"x": side | {"path": "wind"}, "show": "collisions"}, "'wind' is not a parameter"),
-        ({"x": side, "show": "rebound"}, "'rebound' is no outcome; did you mean rebound_ratio?"),
+        ({"x": side | {"path": "wind"}, "show": "collisions"}, "wind is not a parameter"),
+        ({"x": side, "show": "rebound"}, "rebound is no outcome"),
         ({"x": side | {"high": 0.1}, "show": "collisions"}, "high must differ from low"),
         ({"x": side | {"low": -1.0}, "show": "collisions"}, "low must be above 0"),
         (
@@ -148,5 +148,5 @@ def test_what_makes_no_line_is_refused(asked):
     ]
     answers = asked([["line", {"drop": drop} | ask] for ask, _ in asks])
     for (ask, words), found in zip(asks, answers, strict=True):
-        assert found["kind"] in ("InvalidValue", "InvalidType"), ask
+        assert found["kind"] == "InvalidValue", ask
         assert words in found["error"], ask

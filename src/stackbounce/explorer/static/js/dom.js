@@ -57,10 +57,10 @@ export function fillFrom(root, template) {
   return partsOf(root);
 }
 
-/** Let an element be dragged where `may` returns true; `move` hears each event, the first one too. */
+/** Let an element be dragged where `may` returns true of the first event; `move` hears each event, the first one too. */
 export function letDrag(element, may, move) {
   element.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0 || !may()) return;
+    if (event.button !== 0 || !may(event)) return;
     element.setPointerCapture(event.pointerId);
     move(event);
   });

@@ -5,9 +5,10 @@ import * as api from "./asking/api.js";
 import { mountLooks } from "./stage/looks.js";
 import { Clock } from "./stage/clock.js";
 import { mountControls } from "./set_up/controls.js";
-import { button, h, write } from "./dom.js";
+import { button, h } from "./dom.js";
 import { takeFiles } from "./views/measure/dropped.js";
 import { mountEmbed } from "./embed.js";
+import { onFailure } from "./failure.js";
 import { direct } from "./stage/director.js";
 import { mountFullScreen } from "./stage/full_screen.js";
 import { mountGuess } from "./stage/guess.js";
@@ -39,6 +40,10 @@ const reduced = matchMedia("(prefers-reduced-motion: reduce)");
 const store = createStore(address.read());
 const clock = new Clock(() => reduced.matches);
 window.stackbounce = { store, clock };
+onFailure(({ message }) => {
+  clock.pause();
+  if (!store.get().error) store.set({ error: { detail: t("This drop cannot be drawn: {reason}", { reason: message }) } });
+});
 if (typeof WebAssembly === "object" && typeof Worker === "function") place("old").remove();
 
 translatePage();
@@ -53,7 +58,7 @@ mountMomentum(place("momentum"), store, clock);
 mountSound(store, clock);
 mountSentence(place("sentence"), place("live"), store);
 mountTransport(place("transport"), store, clock);
-mountPlots({ root: place("plots"), zoom: place("zoom") }, store, clock);
+mountPlots(place("plots"), store, clock);
 mountNumbers({ root: place("numbers"), table: place("intervals") }, store);
 mountShare(place("share"), store, api);
 mountLanguage(place("language"), store);
@@ -64,13 +69,23 @@ mountFullScreen(place("play"), place("stage"));
 const giveLessons = mountLessons({ root: place("lesson"), button: place("lessons-open") }, store);
 const loadLine = () => import("./views/line/line.js");
 const loadMap = () => import("./views/map/map.js");
+const loadPaper = () => import("./views/paper.js");
 const MEASURE = "./views/measure/measure.js"; // by its name: a page without a server does not have it
 const loadMeasure = () => import(MEASURE);
 mountTabs(store, {
   line: (section) => open(loadLine, section),
   map: (section) => open(loadMap, section),
-  measure: (section) => hasServer && open(loadMeasure, section),
+  measure: (section) => open(loadMeasure, section),
+  paper: (section) => open(loadPaper, section),
 });
+place("closer").addEventListener("click", () => {
+  store.set({ closer: true, predict: false });
+  place("stage-box").focus(); // the button is gone
+});
+const showWhole = ({ closer }) => document.body.classList.toggle("first", !closer);
+store.watch(["closer"], showWhole);
+store.derive(({ error, closer }) => (error && !error.offline && !closer ? { closer: true } : null)); // where it is told
+showWhole(store.get());
 store.watch(["view"], () => placeSetUp());
 place("skip").addEventListener("click", (event) => {
   event.preventDefault(); // the fragment holds the state
@@ -87,7 +102,7 @@ const endShow = store.subscribe(({ result, error }) => {
 const end = store.subscribe(({ result }) => {
   if (!result) return;
   end();
-  const views = [loadLine, loadMap].map((load) => load().catch(() => null)); // what fails is tried again when it is opened
+  const views = [loadLine, loadMap, loadPaper].map((load) => load().catch(() => null)); // what fails is tried again when it is opened
   window.stackbounce.whole = Promise.all([api.prepare(result.drop), ...views]); // from here on nothing is loaded
 });
 addEventListener("beforeprint", () => (place("intervals").closest("details").open = true));
@@ -95,38 +110,16 @@ showBanner();
 markStale(store, document.body);
 const catalogueAgain = loadCatalogue();
 
-/** Build a view from its own module when it is first opened; while that fails, say so and try again. */
-function open(load, section) {
-  const said = h("p", { class: "field-error", role: "alert" });
-  const tryAgain = button(t("Try again"), () => again(), { class: "small" });
-  const unopened = h("div", { class: "unopened", hidden: true }, said, tryAgain);
-  section.append(unopened);
-  const again = retry(
-    async () => {
-      const { mount } = await loaded(load);
-      await mount(section, store, api, clock);
-      unopened.remove();
-      placeSetUp();
-    },
-    (error) => {
-      unopened.hidden = false;
-      write(said, t("This view could not be opened yet: {reason}", { reason: translated(error.message) }));
-    },
-  );
-}
-
-/** Return a module; a browser that keeps in mind that it could not be loaded is shown the page anew. */
-async function loaded(load) {
+/** Build a view from its own module when it is first opened; where that fails, say so and offer to show the page anew. */
+async function open(load, section) {
   try {
-    return await load();
-  } catch {
-    const { ok } = await fetch("icon.svg", { cache: "no-store" }).catch(() => ({ ok: false }));
-    if (!ok) throw new Error(t("The server does not answer."));
-    return load().catch((error) => {
-      const [{ type }] = performance.getEntriesByType("navigation");
-      if (type !== "reload") location.reload(); // the address holds what is shown
-      throw error;
-    });
+    const { mount } = await load();
+    await mount(section, store, api, clock);
+    placeSetUp();
+  } catch (error) {
+    const reason = error instanceof TypeError ? t("The server does not answer.") : translated(error.message); // a module was not loaded
+    const said = h("p", { class: "field-error", role: "alert", text: t("This view could not be opened yet: {reason}", { reason }) });
+    section.append(h("div", { class: "unopened" }, said, button(t("Try again"), () => location.reload(), { class: "small" })));
   }
 }
 

@@ -1,11 +1,10 @@
 /** A drop as texts: its data, its scenario, and lines of Python. */
 
 import { lawCode } from "../model/calibration.js";
-import { InvalidValue, general, nearest, repr, writeFloat } from "../model/errors.js";
+import { InvalidValue, between, repr, writeFloat } from "../model/errors.js";
 import { known } from "../model/known.js";
 import { dropAt, numbersOf, valueIn } from "../model/paths.js";
 import { readDrop } from "../model/schema.js";
-import { quantity } from "../model/units.js";
 import { checkUntil, chooseWindow, runDrop, sampleWithEnergy, spaced } from "./play.js";
 
 const SAMPLES = 1001;
@@ -15,8 +14,7 @@ export function exportText(kind, mapping, until_, errors = {}) {
   const drop = readDrop(mapping);
   const until = checkUntil(until_);
   if (kind === "csv") return writeTable(drop, until);
-  const pairs = addValues(drop, errors);
-  checkErrors(pairs);
+  const pairs = addValues(drop, errors).filter(({ error }) => error > 0);
   return kind === "toml" ? writeToml(withErrors(drop, pairs)) : writePython(drop, until, pairs);
 }
 
@@ -25,39 +23,25 @@ function addValues(drop, errors) {
   const all = numbersOf(drop);
   return Object.entries(errors).map(([path, error]) => {
     const number = all.get(path);
-    if (!number) throw new InvalidValue(`${path.slice(0, 60)} is not a parameter of this drop; ${nearest(path, [...all.keys()])}`);
+    if (!number) throw new InvalidValue(`${path} is not a parameter of this drop`);
     const value = valueIn(drop, number);
     if (value === undefined) throw new InvalidValue(`error of ${path} needs ${path}, which the drop does not give`);
-    return { number, value, error: quantity(error, number.unit, `error of ${path}`) };
+    return { number, value, error: between(`error of ${path}`, error, 0, 1e100) };
   });
 }
 
 /** Return a drop as plain values, numbers with errors as texts: as stackbounce/prediction/prediction.py. */
 function withErrors(drop, pairs) {
   const mapping = dropAt(drop, pairs.map(({ number, value }) => [number, value])).toMapping();
-  for (const { number, value, error } of pairs.filter((pair) => pair.error > 0)) {
+  for (const { number, value, error } of pairs) {
     const { part, index, field, unit } = number;
-    const text = `${writeFloat(value)} ± ${writeFloat(error)} ${unit}`.trimEnd();
+    const isRead = !/\.\d{4}/.test(unit); // a bare number is in the SI unit, too
+    const text = `${writeFloat(value)} ± ${writeFloat(error)} ${isRead ? unit : ""}`.trimEnd();
     if (!part) mapping[field] = text;
     else if (field) mapping[part][index][field] = text;
     else mapping[part][index] = text;
   }
   return mapping;
-}
-
-/** Refuse errors that are none: as stackbounce/prediction/inputs.py. */
-function checkErrors(pairs) {
-  const paths = pairs.map(({ number }) => number.path);
-  for (const { path, part, index, field } of pairs.map(({ number }) => number)) {
-    const other = `${part}.${index}.unloading_exponent`;
-    if (field === "restitution" && paths.includes(other)) throw new InvalidValue(`${path} and ${other}: only one of the two can vary`);
-  }
-  for (const { number, value, error } of pairs) {
-    quantity(value, number.unit, number.path);
-    if (error < 0) throw new InvalidValue(`${number.path}'s error must be 0 or above, got ${general(error)}`);
-    if (error > 1e100) throw new InvalidValue(`${number.path}'s error must be at most 1e+100, got ${general(error)}`);
-  }
-  if (pairs.length && pairs.every(({ error }) => error === 0)) throw new InvalidValue("errors must have a number with an error above 0, got none");
 }
 
 /** Return positions, velocities, forces and energy over time, as CSV. */

@@ -2,7 +2,7 @@
 
 import { extentOf } from "../extent.js";
 import { separate } from "../model/calibration.js";
-import { InvalidValue, Wrong, nearest, shown } from "../model/errors.js";
+import { InvalidValue } from "../model/errors.js";
 import { known } from "../model/known.js";
 import { readDrop } from "../model/schema.js";
 import { listNumbers, nameOutcome } from "./maps.js";
@@ -139,7 +139,7 @@ export class LineJob {
 /** Return the curves of a kind of outcome: one for each ball or contact, or the only one. */
 function listCurves(drop, show) {
   const kinds = ["energy_retained", ...Object.keys(known.outcomes)];
-  if (!kinds.includes(show)) throw new InvalidValue(`${shown(show)} is no outcome; ${nearest(show, kinds)}`);
+  if (!kinds.includes(show)) throw new InvalidValue(`${show} is no outcome`);
   const curve = (path, index) => {
     const [label] = nameOutcome(drop, path);
     return { name: show, index, label };
@@ -155,7 +155,7 @@ function separated(drop) {
   try {
     return separate(drop);
   } catch (error) {
-    if (error instanceof Wrong) return null;
+    if (error instanceof InvalidValue) return null;
     throw error;
   }
 }

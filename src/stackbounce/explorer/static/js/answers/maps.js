@@ -1,7 +1,8 @@
 /** A number of the outcome over two numbers of the drop, in slices. */
 
-import { InvalidValue, nearest, shown } from "../model/errors.js";
+import { InvalidValue } from "../model/errors.js";
 import { known } from "../model/known.js";
+import { nameBall } from "../model/names.js";
 import { numbersOf as pathsOf, valueIn } from "../model/paths.js";
 import { readDrop } from "../model/schema.js";
 import { Points, checkPath, spread } from "./points.js";
@@ -44,10 +45,6 @@ function nameNumber(drop, { part, index, field }) {
   return what;
 }
 
-function nameBall(drop, index) {
-  return drop.balls[index].name || `ball ${index}`;
-}
-
 function nameContact(drop, index) {
   return `${index === 0 ? "floor" : nameBall(drop, index - 1)} and ${nameBall(drop, index)}`;
 }
@@ -57,7 +54,7 @@ export function nameOutcome(drop, show) {
   if (show === "energy_retained") return known.energy;
   const [name, index] = split(show);
   const all = Object.keys(known.outcomes).flatMap((kind) => drop.balls.map((_, i) => `${kind}.${i}`));
-  if (!all.includes(show)) throw new InvalidValue(`${shown(show)} is no outcome; ${nearest(show, ["energy_retained", ...all])}`);
+  if (!all.includes(show)) throw new InvalidValue(`${show} is no outcome`);
   const [words, unit] = known.outcomes[name];
   return [words.replace("{ball}", nameBall(drop, index)).replace("{contact}", nameContact(drop, index)), unit];
 }

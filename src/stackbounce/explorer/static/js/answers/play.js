@@ -1,7 +1,7 @@
 /** The motion of a drop at each moment, and the textbook's beside it. */
 
 import { separate } from "../model/calibration.js";
-import { InvalidValue, Wrong, shownAsGiven } from "../model/errors.js";
+import { InvalidValue } from "../model/errors.js";
 import { known } from "../model/known.js";
 import { readDrop } from "../model/schema.js";
 import { simulate } from "../run/result.js";
@@ -21,7 +21,7 @@ export function checkUntil(until) {
   if (until === null || until === undefined) return null;
   if (typeof until === "number" && until > 0 && until <= known.limits.duration) return until;
   const right = `a positive number of seconds, at most ${known.limits.duration}`;
-  throw new InvalidValue(`until must be ${right}, got ${shownAsGiven(until)}`);
+  throw new InvalidValue(`until must be ${right}, got ${until}`);
 }
 
 /** Drop a stack of balls: numbers, intervals, frames, and the separate collisions of the same drop. */
@@ -53,7 +53,6 @@ function numbers(result) {
   const { speeds, drop } = result;
   return {
     status: result.status,
-    advice: known.advice[result.cause ?? result.status],
     rebound_speeds: plain(speeds),
     rebound_ratios: plain(speeds.map((speed) => speed / drop.speed)),
     rebound_heights: plain(speeds.map((speed) => (speed * Math.abs(speed)) / (2 * known.gravity))),
@@ -148,7 +147,7 @@ function playSeparate(drop, until, times, eventLimit) {
       position,
     };
   } catch (error) {
-    if (error instanceof Wrong) return { error: error.message };
+    if (error instanceof InvalidValue) return { error: error.message };
     throw error;
   }
 }

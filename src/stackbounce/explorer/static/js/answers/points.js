@@ -1,6 +1,6 @@
 /** A drop at many values of its numbers: what maps and lines compute. */
 
-import { InvalidValue, Wrong, general, nearest, shown } from "../model/errors.js";
+import { InvalidValue, general } from "../model/errors.js";
 import { known } from "../model/known.js";
 import { theEngine } from "../model/one_ball.js";
 import { dropAt, numbersOf as pathsOf, valueIn } from "../model/paths.js";
@@ -24,8 +24,7 @@ export function spread({ low, high, count, log }) {
 
 /** Raise where a path is none of those that can vary. */
 export function checkPath(path, paths) {
-  const names = paths.map((one) => one.path);
-  if (!names.includes(path)) throw new InvalidValue(`${shown(path)} is not a parameter of this drop; ${nearest(path, names)}`);
+  if (!paths.some((number) => number.path === path)) throw new InvalidValue(`${path} is not a parameter of this drop`);
 }
 
 /** Drops with the values of one side, x, or of two, x and y: `sides` has `{path, values}` of each. */
@@ -78,29 +77,11 @@ export class Points {
     return dropAt(this.drop, this.varied.map((axis) => [axis.number, axis.at(i, j)]));
   }
 
-  /** Raise for the first point whose drop is none; where all corners are drops, all points are. */
+  /** Raise where a corner's drop is none; where all corners are drops, all points are, but for those in which all balls rest. */
   check() {
-    const { drop, varied, columns, rows } = this;
-    try {
-      for (const i of [0, columns - 1]) for (const j of [0, rows - 1]) this.at(i, j);
-      if (!drop.velocities) return;
-    } catch (error) {
-      if (!(error instanceof Wrong)) throw error;
-    }
-    const dims = [...new Set(varied.flatMap((axis) => axis.dims))];
-    const sizes = { x: columns, y: rows };
-    for (let a = 0; a < sizes[dims[0]]; a += 1) {
-      for (let b = 0; b < (sizes[dims[1]] ?? 1); b += 1) {
-        const place = { [dims[0]]: a, [dims[1]]: b };
-        try {
-          this.at(place.x, place.y);
-        } catch (error) {
-          if (!(error instanceof Wrong)) throw error;
-          const there = varied.map((axis) => `${axis.number.path} = ${general(axis.at(place.x, place.y), 10)}`).join(", ");
-          throw new InvalidValue(`${error.message} (at ${dims.map((dim) => `${dim} ${place[dim]}`).join(", ")}: ${there})`);
-        }
-      }
-    }
+    const { drop, columns, rows } = this;
+    const [across, up] = drop.velocities ? [spaced(0, columns - 1, columns), spaced(0, rows - 1, rows)] : [[0, columns - 1], [0, rows - 1]];
+    for (const i of across) for (const j of up) this.at(i, j);
   }
 
   /** Whether the engine for two balls on springs can run all drops. */

@@ -21,12 +21,9 @@ function keptErrors(errors, drop, before) {
   return kept.length === Object.keys(errors).length ? errors : Object.fromEntries(kept);
 }
 
-const AGAIN = 5000; // ms after which a server that did not answer is asked again
-
 /** Keep `prediction` of the store in step with the result and the errors: one request at a time, the newest counts. */
 export function carryErrors(store, api) {
   let asking = false;
-  let timer = 0;
   const isEmpty = () => Object.keys(store.get().errors).length === 0;
 
   const ask = async () => {
@@ -39,8 +36,6 @@ export function carryErrors(store, api) {
       prediction = await api.predict(drop, errors, until);
     } catch (error) {
       prediction = { problem: error.message };
-      clearTimeout(timer);
-      if (error.offline) timer = setTimeout(ask, AGAIN);
     }
     asking = false;
     const now = store.get();

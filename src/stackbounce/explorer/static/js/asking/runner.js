@@ -1,5 +1,8 @@
 /** Computes the result of the drop after each change: only the newest drop counts. */
 
+import { FIRST_DROP } from "../state/store.js";
+import { t, translated } from "../words/language.js";
+
 const ALL = 1500; // frames of a result
 const FEW = 300; // frames while numbers change, where each frame of the screen counts
 const REST = 150; // ms without a change
@@ -10,14 +13,13 @@ export function run(store, api) {
   let shown = 0; // question whose answer is shown
   let timer = 0;
   let changed = -Infinity; // ms, when the last change was
-  let adopted = null; // a drop that came with its result
 
   /** Have the result of a drop computed; return what changes at once. */
   const begin = ({ drop, until }) => {
     clearTimeout(timer);
     const quick = performance.now() - changed < REST;
     changed = performance.now();
-    const result = hasTexts(drop) ? null : api.playAtOnce(drop, until, FEW);
+    const result = api.playAtOnce(drop, until, FEW);
     if (quick || result) timer = setTimeout(() => ask(ALL), REST);
     if (!result) {
       ask(quick ? FEW : ALL);
@@ -36,17 +38,14 @@ export function run(store, api) {
     shown = mine;
     const last = mine === newest;
     if (!last) delete patch.error; // an error of an older state is not reported
-    if (patch.result && store.get().drop === drop && hasTexts(drop)) {
-      adopted = patch.result.drop;
-      patch.drop = adopted;
-      patch.resultOf = { drop: adopted, until };
+    if (patch.error && !patch.error.offline && !store.get().result && drop !== FIRST_DROP) {
+      const notice = t("The drop of the link cannot be shown: {reason}. This is another one.", { reason: translated(patch.error.detail) });
+      store.set({ drop: FIRST_DROP, until: null, errors: {}, notice });
+      return;
     }
     store.set({ ...patch, busy: !last || (frames === FEW && !patch.error) });
   };
-  store.derive((state, before) => {
-    const other = state.drop !== before.drop && state.drop !== adopted;
-    return other || state.until !== before.until ? begin(state) : null;
-  });
+  store.derive((state, before) => (state.drop !== before.drop || state.until !== before.until ? begin(state) : null));
   const again = () => store.set(begin(store.get()));
   again();
   return { again };
@@ -60,11 +59,4 @@ async function answer(api, drop, until, frames) {
     if (error.replaced) return null;
     return { error: { detail: error.message, offline: Boolean(error.offline) } };
   }
-}
-
-/** Return whether a drop has texts with units, as a link may bring them: the result has them as numbers. */
-function hasTexts(value, key = "") {
-  if (typeof value === "string") return !["name", "law"].includes(key);
-  if (value === null || typeof value !== "object") return false;
-  return Object.entries(value).some(([name, member]) => hasTexts(member, name));
 }

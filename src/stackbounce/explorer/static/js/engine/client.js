@@ -22,23 +22,16 @@ export class Client {
     return this.send(name, given, told);
   }
 
-  /** Ask what takes the place of older questions: one of these may be computed meanwhile, but not for long. */
+  /** Ask what takes the place of an older question, which has a moment to be answered. */
   async askNewest(name, given) {
     this.turn += 1;
     const mine = this.turn;
-    const older = () => [...this.waiting.values()].filter((question) => question.name === name);
-    if (older().length > 1) await answeredSoon(older()[0]);
+    const older = [...this.waiting.values()].find((question) => question.name === name);
+    const isLate = older && !(await answeredSoon(older));
     if (this.turn !== mine) throw replaced();
-    if (older().length > 1) this.restart(replaced());
-    const [before] = older();
+    if (isLate) this.restart(replaced());
     await this.prepare();
-    const answer = this.send(name, given);
-    if (!before) return answer;
-    answer.catch(() => null); // it may be asked a second time
-    if (await answeredSoon(before)) return answer;
     if (this.turn !== mine) throw replaced();
-    this.restart(replaced());
-    await this.prepare();
     return this.send(name, given);
   }
 

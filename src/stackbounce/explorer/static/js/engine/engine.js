@@ -48,11 +48,9 @@ class Engine {
         parts.push(room.floats(space, "log").slice(0, rows * sizes.log_columns));
       }
       const ends = room.read(space, "after");
-      const limited = status === statuses.EVENT_LIMIT;
       return {
         status,
         time: ends[after.END],
-        cause: limited ? room.read(stack, "counter")[counter.CAUSE] : 0,
         velocity: ends.slice(after.AFTER),
         log: joined(parts),
         infinite: drop.rigid ? room.read(stack, "infinite") : new Int32Array(balls),

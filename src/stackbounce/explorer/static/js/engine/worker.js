@@ -1,7 +1,7 @@
 /** The worker: holds the engine, answers questions, and computes maps and lines in slices, between which it listens. */
 
 import { openDesk } from "../answers/desk.js";
-import { Wrong } from "../model/errors.js";
+import { InvalidValue } from "../model/errors.js";
 import { messagesRead } from "../pace.js";
 
 const SLICE = 8; // ms of computing between two looks at what has come in
@@ -16,7 +16,7 @@ async function answered(id, compute) {
   try {
     postMessage({ id, answer: await compute() });
   } catch (error) {
-    const detail = error instanceof Wrong ? error.message : `unexpected ${error.name} (${error.message}): please report it`;
+    const detail = error instanceof InvalidValue ? error.message : `unexpected ${error.name} (${error.message}): please report it`;
     postMessage({ id, error: detail });
   }
 }

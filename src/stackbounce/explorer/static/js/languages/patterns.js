@@ -1,9 +1,6 @@
 /** English sentences that the package or its engine composes, as the page meets them; the first one that fits counts. What stands for {number}
  * must be known, as any sentence may have an "of". */
 export const PATTERNS = [
-  'must be {what} (a number of {unit} or a string such as "{example}"), got {value}, of unknown unit',
-  'must be {what} (a number of {unit} or a string such as "{example}"), got {value}',
-  'must be {what} (a number or a string such as "{example}"), got {value}',
   "must be {right}, got {value}",
   "a positive number of seconds, at most {most}",
   "a positive number of {unit}",
@@ -16,8 +13,9 @@ export const PATTERNS = [
   "collisions of {contact}",
   "gap above {ball}",
   "{number} of {place}",
+  "ball {place}",
   "{lower} and {upper} in series",
 ];
 
 /** What stands at a place of these, such as the balls of a contact; a sentence of its own can look the same by chance. */
-export const PARTS = ["floor and {ball}", "{lower} and {upper}", "ball {place}"];
+export const PARTS = ["floor and {ball}", "{lower} and {upper}", "ball", "lower ball", "upper ball"];

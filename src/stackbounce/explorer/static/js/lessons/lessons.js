@@ -4,6 +4,7 @@ import { button, copyOf, fillFrom, h, tableBox, write } from "../dom.js";
 import { embedded } from "../embed.js";
 import { t } from "../words/language.js";
 import { language } from "../words/language_choice.js";
+import { asksFirst } from "../state/address.js";
 import { LESSON_LIST } from "../state/store.js";
 
 /** Show the store's lesson in `root`, and let the button open the list; returns what gives the lessons, by language. */
@@ -27,6 +28,11 @@ export function mountLessons({ root, button }, store) {
   };
   button.addEventListener("click", () => open(isOpen() ? null : LESSON_LIST));
   root.addEventListener("keydown", ({ key }) => key === "Escape" && open(null));
+  store.derive((state, before) => {
+    if (state.lesson === before.lesson) return null;
+    const asks = asksFirst({ ...state, closer: true });
+    return { closer: state.closer || state.lesson !== null, ...(asks || state.lesson === null ? { predict: asks, guess: null } : {}) };
+  });
   store.watch(["lesson"], () => {
     const focused = root.contains(document.activeElement);
     show();
@@ -74,13 +80,18 @@ function showLesson(root, lesson, open) {
   parts.all.addEventListener("click", () => open(LESSON_LIST));
   parts.time.append(minutes(lesson));
   parts.printer.addEventListener("click", printWorksheet);
-  parts.steps.append(...lesson.steps.map((step) => h("li", {}, h("strong", {}, `${step.title} (`, minutes(step), "). "), say(step.text))));
+  parts.steps.append(...lesson.steps.map((step, place) => h("li", {}, stepOf(step, say, place === 0))));
   for (const part of [parts.exampleTitle, parts.example]) part.hidden = !lesson.example;
   parts.example.append(...say(lesson.example ?? []));
   if (lesson.table) parts.teacher.append(tableBox("group", t("Answers for the teacher"), ...lesson.table));
   parts.teacher.append(...lesson.remarks.map((text) => h("p", {}, say(text))));
   write(parts.name, lesson.title);
   parts.worksheet.append(...lesson.worksheet.map(taskOf));
+}
+
+/** Return a step, of which only the title is seen until it is opened: a later one tells what an earlier one asks. */
+function stepOf(step, say, open) {
+  return h("details", { open }, h("summary", {}, h("strong", {}, `${step.title} (`, minutes(step), ")")), h("p", {}, say(step.text)));
 }
 
 /** Return the parts of a text: of a link either the page's own address, which sets its state, or another lesson. */
@@ -92,9 +103,9 @@ function told(text, lesson, open) {
   });
 }
 
-/** Bring the view into sight once the link is followed. */
+/** Bring the view and the head of the page into sight once the link is followed. */
 function lookThere() {
-  addEventListener("hashchange", () => document.querySelector("main > [role=tabpanel]:not([hidden])").scrollIntoView(), { once: true });
+  addEventListener("hashchange", () => scrollTo(0, 0), { once: true });
 }
 
 function taskOf({ text, table: rows, grid, after }) {

@@ -1,7 +1,7 @@
 /** Single collisions and laws that were measured, as stackbounce/run/collision.py and calibration.py have them. */
 
 import { LAW_CODE } from "../../made/laws.js";
-import { InvalidValue, between, fraction, general, positive, shown } from "./errors.js";
+import { InvalidValue, between, fraction, general, positive, repr } from "./errors.js";
 import { known } from "./known.js";
 import { Law, rigidKind } from "./law.js";
 import { OutOfRange, bounce } from "./one_ball.js";
@@ -44,7 +44,7 @@ function shortCode(law) {
 /** Return a law as Python writes it: its name, and its numbers by name. */
 export function lawCode(law) {
   const { law: name, ...numbers } = law.toMapping();
-  return `${name}(${Object.entries(numbers).map(([field, value]) => `${field}=${shown(value)}`).join(", ")})`;
+  return `${name}(${Object.entries(numbers).map(([field, value]) => `${field}=${repr(value)}`).join(", ")})`;
 }
 
 /** Return a result, or null where numbers leave their range. */
@@ -69,7 +69,7 @@ export function calibrate(kind, asked) {
   const given = checkedNumbers(kind, asked);
   if (!kind.loss && (given.restitution ?? 1) !== 1) {
     const right = `1 or left out for ${name}, which gives back all that it took`;
-    throw new InvalidValue(`restitution must be ${right}, got ${shown(asked.restitution)}`);
+    throw new InvalidValue(`restitution must be ${right}, got ${repr(asked.restitution)}`);
   }
   const needed = (given.exponent ?? 1) === 1 ? kind.needs.linear : kind.needs.other;
   const missing = needed.filter((one) => given[one] === undefined);
@@ -95,7 +95,7 @@ function checkedNumbers(kind, { mass, contact_time, restitution: e, impact_speed
   const { usual_exponent: usual, exponent: fixed } = kind;
   if (usual !== null) given.exponent ??= usual;
   if (fixed !== null && given.exponent !== fixed) {
-    throw new InvalidValue(`exponent must be ${general(fixed)} or left out for ${kind.law}, got ${shown(exponent)}`);
+    throw new InvalidValue(`exponent must be ${general(fixed)} or left out for ${kind.law}, got ${repr(exponent)}`);
   }
   return given;
 }

@@ -1,7 +1,7 @@
 /** The contact laws: made/model.json has the fields of each, their limits, and what the engine takes. */
 
 import { LAW_CODE } from "../../made/laws.js";
-import { InvalidValue, between, fraction, general, shown, within } from "./errors.js";
+import { InvalidValue, between, fraction, general, within, writeFloat } from "./errors.js";
 import { known } from "./known.js";
 
 /** Return the kind of the law without a contact time. */
@@ -36,13 +36,12 @@ export class Law {
     if (n === null && fromE > steepest) {
       const least = general(1.001 * Math.sqrt((p + 1) / (steepest + 1)), 3);
       const why = `for exponent ${general(p)}, so that unloading_exponent is at most ${general(steepest)}`;
-      throw new InvalidValue(`restitution must be at least ${least} ${why}, got ${shown(restitution)}`);
+      throw new InvalidValue(`restitution must be at least ${least} ${why}, got ${writeFloat(restitution)}`);
     }
     if (e !== null && (n === null || n === fromE)) Object.assign(this, { unloading_exponent: fromE, derived: "unloading_exponent" });
     else if (n !== null && (e === null || e === fromN)) Object.assign(this, { restitution: fromN, derived: "restitution" });
     else {
-      const got = e === null ? "neither" : `restitution=${shown(e)} and unloading_exponent=${shown(n)}, which disagree: set the other to None`;
-      throw new InvalidValue(`restitution and unloading_exponent: exactly one of the two must be given, got ${got}`);
+      throw new InvalidValue(`restitution and unloading_exponent: exactly one of the two must be given, got ${e === null ? "neither" : "both"}`);
     }
   }
 

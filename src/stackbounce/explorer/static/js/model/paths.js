@@ -11,7 +11,7 @@ export function numbersOf(drop) {
   const found = [];
   const add = (part, index, field, unit) => found.push({ path: [part, index, field].filter((one) => one !== "").join("."), part, index, field, unit });
   drop.balls.forEach((_, i) => {
-    for (const [name, { unit }] of Object.entries(BALL)) if (unit !== undefined) add("balls", i, name, unit);
+    for (const [name, unit] of Object.entries(BALL)) add("balls", i, name, unit);
   });
   drop.contacts.forEach((law, i) => {
     for (const [name, unit] of Object.entries(unitsOf(law))) add("contacts", i, name, unit);

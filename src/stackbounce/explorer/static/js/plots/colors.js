@@ -8,18 +8,11 @@ const VIRIDIS =
     .split(" ")
     .map((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16)));
 
-const STEPS = 1024; // of colours that are told apart
-
-/** Colours of parts of the range, from 0 to 1. */
-const COLORS = Array.from({ length: STEPS + 1 }, (_, step) => {
-  const place = (step / STEPS) * (VIRIDIS.length - 1);
-  const low = Math.min(Math.floor(place), VIRIDIS.length - 2);
-  return VIRIDIS[low].map((level, i) => Math.round(level + (place - low) * (VIRIDIS[low + 1][i] - level)));
-});
-
 /** Return the colour [r, g, b] of a part of the range, from 0 to 1. */
 export function colorAt(part) {
-  return COLORS[Math.round(Math.min(Math.max(part, 0), 1) * STEPS)];
+  const place = Math.min(Math.max(part, 0), 1) * (VIRIDIS.length - 1);
+  const low = Math.min(Math.floor(place), VIRIDIS.length - 2);
+  return VIRIDIS[low].map((level, i) => Math.round(level + (place - low) * (VIRIDIS[low + 1][i] - level)));
 }
 
 /** Return a colour as CSS writes it. */

@@ -4,6 +4,9 @@ import { extentOf } from "../extent.js";
 import { t } from "../words/language.js";
 import { format, shortBall, shortContact } from "../words/words.js";
 
+/** Dashes of the lines of balls and of the contacts below them, so that nobody needs their colours. */
+const DASHES = [undefined, [9, 4], [2, 3], [14, 4, 2, 4, 2, 4], [4, 4], [1, 6]];
+
 /**
  * Return the panels of a result: `{what, title, unit, times, lines, stems, factor}`; a line is
  * `{label, index, values, dash}` and has the colour of ball or contact `index`, or of text; a band is `{index, time, low, high}`.
@@ -47,6 +50,7 @@ function positions({ drop, frames }, whole) {
   const lines = frames.position.map((values, index) => ({
     label: shortBall(drop, index),
     index,
+    dash: DASHES[index],
     values: scaled(values, factor),
   }));
   return { what: "position", title: t("Position"), unit: whole ? t("m from the touch") : t("mm from the touch"), factor, lines };
@@ -54,7 +58,7 @@ function positions({ drop, frames }, whole) {
 
 function forces({ drop, frames }) {
   const lines = frames.force
-    .map((values, index) => ({ label: shortContact(drop, index), index, values }))
+    .map((values, index) => ({ label: shortContact(drop, index), index, dash: DASHES[index], values }))
     .filter((_, index) => drop.contacts[index]?.law !== "none");
   return { what: "force", title: t("Force"), unit: "N", factor: 1, floor: 0, lines };
 }
@@ -74,7 +78,7 @@ function energies({ drop, frames }) {
   const factor = most < 1 ? 1e3 : 1;
   const lines = [
     { label: t("total"), index: null, values: scaled(total, factor) },
-    ...kinetic.map((values, index) => ({ label: shortBall(drop, index), index, values: scaled(values, factor) })),
+    ...kinetic.map((values, index) => ({ label: shortBall(drop, index), index, dash: DASHES[index], values: scaled(values, factor) })),
   ];
   if (stored.some((value) => value > 1e-9 * most)) {
     lines.push({ label: t("in contacts"), index: null, dash: [5, 4], values: scaled(stored, factor) });

@@ -1,4 +1,4 @@
-/** The curves of a drop as a picture that needs no server; and what makes a file of a drawing, SVG or PNG. */
+/** The curves of a drop as a picture that needs no server, SVG or PNG. */
 
 import { panels } from "./curves.js";
 import { s } from "../dom.js";
@@ -8,8 +8,7 @@ import { ticks } from "../views/drawing/sides.js";
 import { colorOf, paperPalette } from "./palette.js";
 import { ballName, format, setUp } from "../words/words.js";
 
-/** Of all pictures that are saved. */
-export const WIDTH = 720;
+const WIDTH = 720;
 
 const PANEL = { left: 64, width: 630, height: 170, step: 226, top: 44 };
 const SCALE = 2; // px of a PNG for each unit of the SVG
@@ -32,7 +31,7 @@ export function pictureOf(kind, result, until) {
 }
 
 /** Return a Blob of a drawing, on white and without characters that XML has not: kind is svg or png; it is `WIDTH` wide. */
-export function fileOf(kind, svg, height) {
+function fileOf(kind, svg, height) {
   svg.prepend(s("rect", { width: WIDTH, height, fill: "white" }));
   const text = new XMLSerializer().serializeToString(svg).replace(/[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]|\p{Cs}/gu, "\ufffd");
   const blob = new Blob([text], { type: "image/svg+xml" });

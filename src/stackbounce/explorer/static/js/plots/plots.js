@@ -8,25 +8,17 @@ import { h, letDrag, write } from "../dom.js";
 import { extentOf } from "../extent.js";
 import { Pace } from "../pace.js";
 import { colorOf, onRepaint, palette } from "./palette.js";
-import { PlotZoom } from "./zoom.js";
 import { format } from "../words/words.js";
 
-/** Draw the plots into `root` and keep their cursor at the clock's time; the buttons in `zoom` choose the time that is shown. */
-export function mountPlots({ root, zoom: zoomRoot }, store, clock) {
+/** Draw the plots into `root` and keep their cursor at the clock's time. */
+export function mountPlots(root, store, clock) {
   const pace = new Pace();
   let shown = [];
   let due = false; // what is shown has changed
-  let extent = [0, 1]; // s, of what is plotted
-  const redraw = () => {
-    for (const panel of shown) panel.plot.setData(panel.data());
-    clock.touch();
-  };
-  const zoom = new PlotZoom(zoomRoot, clock, () => extent, redraw);
   const build = () => {
     const { result, until, overlays, prediction, view } = store.get();
     if (!result || view !== "play") return;
     const wanted = panels(result, until !== null, overlays, prediction);
-    extent = [result.frames.time[0], result.frames.time.at(-1)];
     const same = shown.length > 0 && wanted.every((panel, i) => shown[i].key === keyOf(panel));
     if (same) {
       wanted.forEach((panel, i) => shown[i].update(panel));
@@ -34,9 +26,8 @@ export function mountPlots({ root, zoom: zoomRoot }, store, clock) {
       for (const panel of shown) panel.remove();
       const colors = palette();
       root.replaceChildren();
-      shown = wanted.map((panel) => new Panel(root, panel, colors, clock, zoom));
+      shown = wanted.map((panel) => new Panel(root, panel, colors, clock));
     }
-    zoomRoot.hidden = false;
     due = false;
     pace.watch();
     clock.touch();
@@ -66,10 +57,9 @@ function keyOf({ what, unit, timeUnit, lines, overlays }) {
 
 /** One plot with its heading and legend. */
 class Panel {
-  constructor(root, panel, colors, clock, zoom) {
+  constructor(root, panel, colors, clock) {
     this.key = keyOf(panel);
     this.colors = colors;
-    this.zoom = zoom;
     this.values = panel.lines.map(() => h("span", { class: "legend-value" }));
     const items = panel.lines.map((line, i) => this.legendItem(line, this.values[i]));
     this.host = h("div", { class: "plot-canvas", role: "img" });
@@ -158,7 +148,7 @@ class Panel {
       width: Math.max(width, 40),
       height: Math.max(height, 40),
       padding: [6, 8, 0, 0],
-      x: () => this.zoom.range().map((time) => time * this.panel.scale),
+      x: () => [this.panel.times[0], this.panel.times.at(-1)],
       y: (_, low, high) => this.range(low, high),
       axes: [{ size: 22, gap: 3, values: times }, { size: 46, gap: 4, space: 26, values }],
       series: panel.lines.map((line) => ({

@@ -1,4 +1,4 @@
-/** The plot of a record over the simulated drop: dots over lines, with a slider for the clock. */
+/** The plot of a record over the simulated drop: dots over lines. */
 
 import uPlot from "../../vendor/uplot/uPlot.esm.js";
 import { chartOptions, clipped, drawDots, legendItem, plotIn, ticksIn } from "./chart.js";
@@ -8,38 +8,24 @@ import { t } from "../words/language.js";
 import { colorOf, palette } from "./palette.js";
 import { format, shownUnit } from "../words/words.js";
 
-const SLIDER = 400; // steps to either side, as its HTML has them
-
-/** Return what shows a content in the figure of `root`: {curves, simulated, window, names, shift, reach, move, align}. */
+/** Return what shows a content in the figure of `root`: {record, curves, simulated, window, names, whole}. */
 export function recordPlot(root) {
   let content = null;
-  const { title, legend, host, clock, slider, moved, align, whole } = partsOf(root);
+  const { title, legend, host, seen, whole } = partsOf(root);
   const draw = plotIn(host, () => {
     if (!content) return null;
     host.setAttribute("aria-label", described(content));
     return new uPlot(options(host, content, whole.checked), data(content), host);
   });
-  const place = () => {
-    const { shift, reach } = content;
-    const words = `${shift > 0 ? "+" : ""}${format(shift * 1e3, 3)} ms`;
-    slider.value = Math.round((shift / reach) * SLIDER);
-    slider.setAttribute("aria-valuetext", words);
-    write(moved, words);
-  };
-  const move = (isDone) => content.move((Number(slider.value) / SLIDER) * content.reach, isDone);
-  slider.addEventListener("input", () => move(false));
-  slider.addEventListener("change", () => move(true));
-  align.addEventListener("click", () => content.align());
   whole.addEventListener("change", draw);
 
   return (next) => {
     const isOther = content?.record !== next.record;
     content = next;
     if (isOther) whole.checked = next.whole;
-    clock.hidden = !next.simulated;
+    seen.hidden = !next.simulated;
     write(title, HEADINGS[next.curves[0].what] ?? t("Record"));
     legend.replaceChildren(...legendItems(next));
-    if (next.simulated) place();
     draw();
   };
 }

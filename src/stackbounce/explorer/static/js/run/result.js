@@ -33,9 +33,8 @@ const STOPPED = ["TIME_REACHED", "EVENT_LIMIT", "INVALID"];
 export class Result {
   constructor(drop, run, again) {
     Object.assign(this, { drop, run, again });
-    const { statuses, layout } = theEngine();
+    const { statuses } = theEngine();
     this.status = Object.keys(statuses).find((name) => statuses[name] === run.status);
-    this.cause = Object.keys(layout.causes).find((name) => layout.causes[name] === run.cause); // why a limit was met
     this.end = run.time;
     this.speeds = [...run.velocity];
     this.rows = rowsOf(run.log);

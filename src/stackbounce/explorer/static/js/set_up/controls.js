@@ -4,7 +4,8 @@ import { fillFrom, write } from "../dom.js";
 import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withBall, withIncidence, withValue } from "./drops.js";
 import { NumberField, choice, sayProblem } from "./fields.js";
 import { t, translated, writeTold } from "../words/language.js";
-import { asMeasured, changeLaw, firstContact, lawMemory } from "./laws.js";
+import { isAsking } from "../words/sentence.js";
+import { asMeasured, changeLaw, firstContact } from "./laws.js";
 import { withError } from "../asking/prediction.js";
 import { restacked } from "./restack.js";
 import { withExample } from "../state/store.js";
@@ -17,7 +18,6 @@ export function mountControls(root, store, api, catalogue) {
   let fields = [];
   let falls = []; // those of them that say how the tower comes in
   let shape = "";
-  const laws = lawMemory();
 
   const change = (drop, notes = []) => store.set({ drop, notes });
   const set = (path, value, error) => {
@@ -46,7 +46,7 @@ export function mountControls(root, store, api, catalogue) {
     });
   const relaw = (contact, name) =>
     attempt(async () => {
-      const { drop, note } = await changeLaw(api, catalogue.laws, store.get().drop, contact, name, laws);
+      const { drop, note } = await changeLaw(api, catalogue.laws, store.get().drop, contact, name);
       change(drop, placed(contact, note));
     });
   const measured = (contact, values) =>
@@ -95,11 +95,13 @@ export function mountControls(root, store, api, catalogue) {
     writeTold(said, preset.says);
     example = complete(preset.drop);
     store.set(withExample(store.get(), example));
+    if (isAsking(store.get())) scrollTo(0, 0); // to the question
   });
   root.prepend(presets);
   add.addEventListener("click", () => arrange((now) => withBall(now, firstContact(catalogue.laws))));
   for (const radio of radios) radio.addEventListener("change", () => change(withIncidence(store.get().drop, radio.value)));
   pull.addEventListener("change", () => set("gravity", pull.checked ? GRAVITY : 0));
+  root.addEventListener("keydown", ({ key }) => key === "Escape" && document.getElementById("stage-box").focus()); // for the film's keys
   new IntersectionObserver(([{ isIntersecting }]) => root.classList.toggle("seen", isIntersecting)).observe(root);
   const tell = ({ notice }) => write(said, notice ?? "");
   store.watch(["notice"], tell);

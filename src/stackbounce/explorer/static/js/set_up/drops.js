@@ -1,9 +1,21 @@
 /** Changes of a drop: pure functions from one drop to the next. */
 
-import { clean, numeric } from "../words/words.js";
+import { clean } from "../words/words.js";
 
 export const GRAVITY = 9.80665;
-const NEW_MASS = 0.05; // kg of a ball on top of one whose mass cannot be read
+
+/** The least and the largest number that a field takes of each kind, in SI units; a map or a link may go beyond. */
+export const BOUNDS = {
+  mass: [1e-6, 1e3],
+  diameter: [1e-3, 10],
+  gaps: [0, 10],
+  velocities: [-100, 100],
+  impact_speed: [0.01, 100],
+  height: [1e-6, 600],
+  gravity: [0, 100],
+  until: [0.01, 60],
+};
+const BEYOND = 1e3; // times
 
 /** Return a copy of a drop with the value at a path such as "balls.0.mass" changed. */
 export function withValue(drop, path, value) {
@@ -32,22 +44,27 @@ export function complete(drop) {
   return { ...drop, gaps: gapsOf(drop), gravity: drop.gravity ?? 0 };
 }
 
-/** Return whether a mapping that somebody brought has the shape of a drop; its numbers are the server's to judge. */
+/** Return whether a mapping that somebody brought is a drop of numbers that the page takes; those of its laws are theirs to judge. */
 export function isDrop(drop) {
-  const { balls, contacts, gaps, velocities } = drop;
-  const members = (list) => Array.isArray(list) && list.every((member) => typeof member === "object" && member !== null);
-  const numbers = (list) => list === undefined || (Array.isArray(list) && list.every((member) => typeof member !== "object"));
-  if (!members(balls) || !members(contacts) || balls.length === 0 || balls.length !== contacts.length) return false;
-  return contacts.every(({ law }) => typeof law === "string") && numbers(gaps) && numbers(velocities);
+  const { balls, contacts, gaps = [], velocities = [] } = drop;
+  const members = (list) => Array.isArray(list) && list.length > 0 && list.every((member) => typeof member === "object" && member !== null);
+  const fits = (name, value) => {
+    const [low, high] = BOUNDS[name];
+    return value === undefined || (typeof value === "number" && value >= Math.min(low / BEYOND, low * BEYOND) && value <= high * BEYOND);
+  };
+  const fit = (name, list) => Array.isArray(list) && list.every((value) => fits(name, value));
+  if (!members(balls) || !members(contacts) || !contacts.every(({ law }) => typeof law === "string")) return false;
+  if (["height", "impact_speed", "velocities"].filter((kind) => drop[kind] !== undefined).length !== 1) return false;
+  const fitAlone = ["height", "impact_speed", "gravity"].every((name) => fits(name, drop[name]));
+  const fitBalls = balls.every(({ mass, diameter }) => fits("mass", mass ?? NaN) && fits("diameter", diameter));
+  return fitAlone && fitBalls && fit("gaps", gaps) && fit("velocities", velocities);
 }
 
 /** Return a drop with a lighter ball on top; `first` is its contact if the one below it has no law. */
 export function withBall(drop, first) {
   const top = drop.balls.at(-1);
-  const mass = numeric(top.mass, "kg");
-  const diameter = numeric(top.diameter, "m");
-  const ball = { mass: Number.isFinite(mass) ? clean(Number((mass / 2).toPrecision(3))) : NEW_MASS };
-  if (Number.isFinite(diameter)) ball.diameter = clean(Number((diameter * 0.8).toPrecision(2)));
+  const ball = { mass: Math.max(clean(Number((top.mass / 2).toPrecision(3))), BOUNDS.mass[0]) };
+  if (top.diameter) ball.diameter = clean(Number((top.diameter * 0.8).toPrecision(2)));
   const last = drop.contacts.at(-1);
   const contact = last.law === "none" ? first : last;
   const next = {
@@ -87,20 +104,15 @@ export function withSwap(drop, lower) {
 
 /** Return the speed in m/s that a drop comes in with. */
 export function speedOf(drop) {
-  const speed = numeric(drop.impact_speed, "m/s");
-  if (Number.isFinite(speed)) return speed;
-  const height = numeric(drop.height, "m");
-  const gravity = numeric(drop.gravity ?? 0, "m/s**2") || GRAVITY;
-  if (Number.isFinite(height)) return Math.sqrt(2 * gravity * height);
-  return Math.max(...(drop.velocities ?? []).map((velocity) => Math.abs(numeric(velocity, "m/s"))));
+  if (drop.height) return Math.sqrt(2 * (drop.gravity || GRAVITY) * drop.height);
+  return drop.impact_speed ?? Math.max(...drop.velocities.map(Math.abs));
 }
 
 /** Return a drop that comes in as fast, told as "height", "impact_speed" or "velocities". */
 export function withIncidence(drop, kind) {
   const { height: _height, impact_speed: _speed, velocities: _velocities, ...rest } = drop;
   const speed = speedOf(drop) || 1;
-  const gravity = numeric(drop.gravity ?? 0, "m/s**2") || GRAVITY;
-  if (kind === "height") return { ...rest, height: clean(Number((speed ** 2 / 2 / gravity).toPrecision(4))) };
+  if (kind === "height") return { ...rest, height: clean(Number((speed ** 2 / 2 / (drop.gravity || GRAVITY)).toPrecision(4))) };
   const rounded = clean(Number(speed.toPrecision(4)));
   if (kind === "velocities") return { ...rest, velocities: drop.balls.map(() => -rounded) };
   return { ...rest, impact_speed: rounded };
@@ -113,8 +125,8 @@ export function incidenceOf(drop) {
 
 /** Return the mass in kg that a contact feels: the ball's at the floor, else the reduced one. */
 export function contactMass(drop, contact) {
-  const upper = numeric(drop.balls[contact].mass, "kg");
+  const upper = drop.balls[contact].mass;
   if (contact === 0) return upper;
-  const lower = numeric(drop.balls[contact - 1].mass, "kg");
+  const lower = drop.balls[contact - 1].mass;
   return (upper * lower) / (upper + lower);
 }

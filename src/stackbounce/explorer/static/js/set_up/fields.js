@@ -2,26 +2,25 @@
 
 import { copyOf, h, partsOf, put, write } from "../dom.js";
 import { t, writeTold } from "../words/language.js";
-import { capital, clean, format, numeric, pretty, read, shownUnit, splitError } from "../words/words.js";
+import { BOUNDS } from "./drops.js";
+import { capital, clean, format, formatMeasured, pretty, read, shownUnit, splitError } from "../words/words.js";
 
 const STEPS = 1000; // of a slider, as its HTML has them
 
 export class NumberField {
   /**
-   * @param {object} spec `{path, label, term, of, unit, low, high, large, says, optional, set(path, value, error), errorAt(path),
-   * follow(value)}`; with `errorAt` a text such as "63 ± 1 cm" has an error, which is null where none is typed
+   * @param {object} spec `{path, label, term, of, unit, low, high, bounds, large, says, optional, set(path, value, error), errorAt(path),
+   * follow(value)}`; with `errorAt` a text such as "63 ± 1 cm" has an error, which is null where none is typed; `bounds` are
+   * by default those of the path
    */
   constructor(spec) {
     const { path, unit, low, high } = spec;
     Object.assign(this, { spec, path, shown: shownUnit(unit, spec.large), scale: scaleOf(low, high) });
+    this.bounds = spec.bounds ?? path.split(".").map((part) => BOUNDS[part]).find(Boolean);
     this.written = ""; // what the input has been given
     this.latest = []; // value, error and whether somebody types: of many fields few change
     this.build(spec);
-    this.input.addEventListener("change", () => {
-      this.commit();
-      const [value] = this.typed();
-      if (typeof value === "number") this.show(value);
-    });
+    this.input.addEventListener("change", () => this.commit());
     this.input.addEventListener("keydown", (event) => this.press(event));
     this.slider.addEventListener("input", () => this.slide(Number(this.slider.value)));
   }
@@ -64,20 +63,18 @@ export class NumberField {
 
   /** Put the slider where a value is. */
   place(value) {
-    const si = numeric(value, this.spec.unit);
-    if (!Number.isFinite(si)) return;
-    this.slider.value = this.scale.toSlider(si);
-    this.slider.setAttribute("aria-valuetext", `${format(si / this.shown.size)} ${pretty(this.shown.unit)}`);
+    this.value = value;
+    if (value === undefined) return;
+    this.slider.value = this.scale.toSlider(value);
+    this.slider.setAttribute("aria-valuetext", `${format(value / this.shown.size)} ${pretty(this.shown.unit)}`);
   }
 
   /** Return a value with its error as it is written. */
   textOf(value) {
+    if (value === undefined) return "";
     const { size } = this.shown;
-    const si = numeric(value, this.spec.unit);
-    if (!Number.isFinite(si)) return String(value ?? "");
     const error = this.spec.errorAt?.(this.path);
-    const spread = typeof error === "number" ? format(clean(error / size), 3) : error;
-    return format(clean(si / size), 5) + (spread ? ` ± ${spread}` : "");
+    return format(clean(value / size), 5) + (error ? ` ± ${format(clean(error / size), 3)}` : "");
   }
 
   /** Return the value and the error that are typed. */
@@ -87,11 +84,25 @@ export class NumberField {
     return [value, error].map((text) => (text === null ? null : read(text, unit, this.shown)));
   }
 
+  /** Take what is typed; what the page does not take is said, and the number before stays. */
   commit() {
-    if (this.input.value === this.written) return; // the shown value may be rounded
-    this.written = this.input.value;
-    if (this.spec.optional && this.input.value.trim() === "") this.spec.set(this.path, undefined);
-    else this.spec.set(this.path, ...this.typed());
+    const text = this.input.value;
+    if (text === this.written) return; // the shown value may be rounded
+    if (this.spec.optional && text.trim() === "") {
+      this.spec.set(this.path, undefined);
+      return;
+    }
+    const [value, error] = this.typed();
+    const [least, most] = this.bounds;
+    if (value >= least && value <= most && (error === null || error >= 0)) {
+      this.fail(null);
+      this.spec.set(this.path, value, error);
+      this.show(value);
+      return;
+    }
+    const [low, high] = this.bounds.map((end) => (end === 0 ? "0" : formatMeasured(end, null, this.spec.unit)));
+    this.show(this.value);
+    this.fail(t("“{text}” cannot be used, the number before stays: it is from {low} to {high}.", { text, low, high }));
   }
 
   press(event) {
@@ -103,6 +114,7 @@ export class NumberField {
 
   slide(step) {
     const value = this.scale.toValue(step);
+    this.fail(null);
     this.show(value);
     this.spec.set(this.path, value);
   }
@@ -114,7 +126,7 @@ export class NumberField {
     writeTold(this.error, message ?? "");
     write(this.error, capital(this.error.textContent));
     this.error.hidden = !message;
-    this.input.setAttribute("aria-invalid", message ? "true" : "false");
+    put(this.input, "aria-invalid", Boolean(message));
   }
 }
 

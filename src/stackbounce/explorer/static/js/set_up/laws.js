@@ -2,7 +2,6 @@
 
 import { contactMass, speedOf, withValue } from "./drops.js";
 import { t } from "../words/language.js";
-import { areAlike } from "./restack.js";
 import { clean, lawName } from "../words/words.js";
 
 const NONE = { fields: [], loss_fields: [], rigid: false, exact: true }; // what "no floor" is among laws
@@ -24,66 +23,21 @@ export function firstContact([{ law, fields }]) {
 }
 
 /**
- * Return what remembers the numbers of contacts while the page is open, so that a law that is chosen again has its own:
- * `keep(pair, before, after)` of a change, `back(pair, contact, name)` for a contact that was made from that law and not
- * changed since, `soft(pair)` for the last one that had a contact time.
- */
-export function lawMemory() {
-  const changes = new Map(); // by pair and law: {before, after}
-  const softs = new Map();
-  return {
-    keep(pair, before, after, isSoft) {
-      changes.set(`${pair} ${before.law}`, { before, after });
-      if (isSoft) softs.set(pair, before);
-    },
-    back(pair, contact, name) {
-      const found = changes.get(`${pair} ${name}`);
-      return found && areAlike(found.after, contact) ? found.before : null;
-    },
-    soft: (pair) => softs.get(pair) ?? null,
-  };
-}
-
-/**
  * Return `{drop, note}`: the drop with a contact's law changed, restitution and contact time kept
- * where the law can. All contacts change to a rigid law, or away from it, together. `laws` are the catalogue's, `memory`
- * is a `lawMemory`.
+ * where the law can. All contacts change to a rigid law, or away from it, together. `laws` are the catalogue's.
  */
-export async function changeLaw(api, laws, drop, contact, name, memory) {
+export async function changeLaw(api, laws, drop, contact, name) {
   const now = drop.contacts[contact];
-  if (name === "none") {
-    memory.keep(pairAt(drop, contact), now, { law: "none" }, !lawOf(laws, now.law).rigid);
-    return { drop: withValue(drop, `contacts.${contact}`, { law: "none" }), note: "" };
-  }
+  if (name === "none") return { drop: withValue(drop, `contacts.${contact}`, { law: "none" }), note: "" };
   const { rigid } = lawOf(laws, name);
   const mixed = drop.contacts.some(({ law }, i) => i !== contact && law !== "none" && lawOf(laws, law).rigid !== rigid);
   const places = mixed ? drop.contacts.map((_, i) => i).filter((i) => i === contact || drop.contacts[i].law !== "none") : [contact];
   let next = drop;
   for (const place of places) {
-    next = withValue(next, `contacts.${place}`, await recalled(api, laws, drop, place, name, memory));
+    next = withValue(next, `contacts.${place}`, await converted(api, name, drop, place));
   }
   const all = places.length > 1 ? `${t("All contacts are {law} now: rigid contacts and others cannot be mixed.", { law: lawName(name) })} ` : "";
   return { drop: next, note: all + kept(laws, now.law, name) };
-}
-
-/** Return a contact with another law: with the numbers that it had there, unless it was changed since. */
-async function recalled(api, laws, drop, place, name, memory) {
-  const pair = pairAt(drop, place);
-  const now = drop.contacts[place];
-  const isRigid = lawOf(laws, now.law).rigid;
-  const soft = isRigid && !lawOf(laws, name).rigid && memory.soft(pair); // a rigid contact has no time of its own
-  const next =
-    memory.back(pair, now, name) ??
-    (await (soft
-      ? converted(api, name, withValue(drop, `contacts.${place}`, soft), place, now.restitution)
-      : converted(api, name, drop, place)));
-  memory.keep(pair, now, next, !isRigid && now.law !== "none");
-  return next;
-}
-
-/** Return the place of a contact and the balls that make it, as a text. */
-function pairAt({ balls }, contact) {
-  return [contact, balls[contact - 1]?.name, balls[contact].name].join(" ");
 }
 
 /** Return a sentence on what was kept when the law of a contact was changed. */

@@ -46,6 +46,6 @@ function pairOf({ balls }, contact) {
 }
 
 /** Return whether two contacts have the same law and numbers. */
-export function areAlike(one, other) {
+function areAlike(one, other) {
   return Object.keys({ ...one, ...other }).every((name) => one[name] === other[name]);
 }

@@ -8,6 +8,7 @@ import { isOfCatalogue } from "./restack.js";
 import { ballName, contactName, format, lawName } from "../words/words.js";
 
 const OWN = "";
+const BEYOND = 1e4; // times beyond its slider's ends that a number of a law can be typed
 
 /**
  * Return `{items, fields}` of the tower of a drop.
@@ -36,7 +37,7 @@ function ballCard(drop, ball, tools, field) {
   const entries = (lossy) =>
     tools.catalogue.balls.filter((ball) => ball.lossy === lossy).map((ball) => [ball.name, `${translated(ball.name)}, ${format(ball.mass * 1e3)} g`]);
   const choose = choice({
-    label: t("Ball {place}", { place: ball }),
+    label: t("Ball {place}", { place: ball + 1 }),
     quiet: true,
     key: `ball-${ball}`,
     groups: [["", [[OWN, t("another ball")]]], [t("Balls a class owns"), entries(true)], [t("Balls of the paper"), entries(false)]],
@@ -104,10 +105,11 @@ function lawFields(drop, contact, law, field) {
   const own = drop.contacts[contact];
   return law.fields
     .filter(({ name, low, required }) => typeof low === "number" && (required || own[name] !== undefined))
-    .map(({ name, low, high, words, says, explains, unit: unitOfLaw }) => {
+    .map(({ name, low, high, least, most, words, says, explains, unit: unitOfLaw }) => {
       const unit = unitOfLaw === "N/m**exponent" && own.exponent === 1 ? "N/m" : unitOfLaw;
       const term = says === words ? undefined : translated(says);
-      const spec = { label: translated(words ?? says), term, of: contactName(drop, contact), unit, low, high, says: translated(explains) };
+      const bounds = [Math.max(least, low / BEYOND), Math.min(most, high * BEYOND)];
+      const spec = { label: translated(words ?? says), term, of: contactName(drop, contact), unit, low, high, bounds, says: translated(explains) };
       return field({ path: `contacts.${contact}.${name}`, ...spec });
     });
 }
@@ -121,8 +123,8 @@ function measuredBox(contact, law, tools) {
     field.update(values[spec.name]);
     return field.element;
   };
-  const boxes = [local({ name: "restitution", label: t("how bouncy"), term: t("restitution"), unit: "", low: 0.05, high: 1 })];
-  if (!law.rigid) boxes.push(local({ name: "contact_time", label: t("contact time"), unit: "s", low: 5e-4, high: 5e-2 }));
+  const boxes = [local({ name: "restitution", label: t("how bouncy"), term: t("restitution"), unit: "", low: 0.05, high: 1, bounds: [0.001, 1] })];
+  if (!law.rigid) boxes.push(local({ name: "contact_time", label: t("contact time"), unit: "s", low: 5e-4, high: 5e-2, bounds: [1e-6, 1] }));
   const { box, about, apply } = partsOf(copyOf("measured-box"));
   box.dataset.key = `measured-${contact}`;
   write(about, `${law.formula} – ${translated(law.says)} (${law.source})`);

@@ -1,52 +1,72 @@
-/** The balls on the stage, and what belongs to them: names, arrows, outlines of the textbook's and of a kept drop's. */
+/** The balls on the stage, and what belongs to them: names, arrows, the paler ones of the textbook and of a kept drop. */
 
 import { inksOf, patternOf, squash } from "./looks.js";
 import { put, s, write } from "../dom.js";
+import { spread } from "./labels.js";
 import { t } from "../words/language.js";
 import { clamp, flattening, outline } from "./shape.js";
-import { ballName, fixed } from "../words/words.js";
+import { ballName, fixed, shortened } from "../words/words.js";
 
 const ARROW = 46; // px of the fastest ball's arrow
 const STILL = 0.005; // m/s, the speed below which none is written
 const HEAD = 58; // px from the top of the stage, below its title
-const LETTERS = 16; // of a name
+const NEAR = 0.15; // how near the camera is, from where on speeds are written: in fall and leap the marks have their place
+const LANE = 8; // px between the arrows of balls that are drawn small
+const MOVED = 3; // px from its place, from where a line leads from a name to its ball
+const LETTERS = 22; // of a name
+const WIDE = 0.42; // of its line, that a letter is wide: a name stays on the stage
 
 /** Return a group that shows a ball. */
 export function ballGroup(drop, ball) {
   const group = s("g", { class: "ball", "data-ball": ball, "--ball": `var(--ball-${ball % 6})` });
-  const name = s("text", { class: "ball-name", "text-anchor": "end", y: 4, text: shortened(ballName(drop, ball)) });
+  const name = s("text", { class: "ball-name", "text-anchor": "end", y: 4, text: shortened(ballName(drop, ball), LETTERS) });
   group.append(
     s("path", { class: "ball-body" }),
     patternOf(group, drop.balls[ball]),
     s("path", { class: "ball-light", fill: "url(#light)" }),
     s("path", { class: "ball-arrow" }),
     name,
-    s("text", { class: "ball-speed", y: 4 }),
+    s("text", { class: "ball-speed" }),
+    s("path", { class: "ball-leader" }),
   );
   return group;
 }
 
-function shortened(name) {
-  return name.length > LETTERS ? `${name.slice(0, LETTERS - 1)}…` : name;
-}
-
-/** Move the groups of a drop's balls to where `moment` has them in a view. */
-export function moveBalls(groups, moment, { view, floor, middle, fastest, legible, lies }) {
+/**
+ * Move the groups of a drop's balls to where `moment` has them in a view, and the textbook's, `ghosts` with their positions, or
+ * null. Words are `letter` px high.
+ */
+export function moveBalls(groups, moment, { view, floor, middle, fastest, legible, lies, letter, whole }, [ghosts, theirs]) {
+  const speaks = whole || view.near > NEAR;
   const flat = flattening(moment.compression, view);
+  const places = moment.position.map((position, ball) => Number(height(view, floor, ball, position)));
+  const ghost = theirs ? [moveGhosts(ghosts, theirs, { view, floor, middle })] : [];
+  const names = spread([...places, ...ghost], letter, floor - 0.5 * letter);
+  put(ghosts, "visibility", theirs ? "visible" : "hidden");
+  const speeds = spread(places, letter, floor - 0.5 * letter);
+  const widest = Math.max(...view.radius);
+  if (theirs) put(ghosts.lastChild, "transform", `translate(${(middle - view.radius.at(-1) - 10).toFixed(1)} ${(names.at(-1) + 4).toFixed(1)})`);
   groups.forEach((group, ball) => {
-    const [body, pattern, light, arrow, name, speed] = group.children;
+    const [body, pattern, light, arrow, name, speed, leader] = group.children;
     const radius = view.radius[ball];
     const { path, side } = outline(radius, flat[ball]);
     const velocity = moment.velocity[ball];
+    const down = names[ball] - places[ball];
+    const isMoved = Math.abs(down) > MOVED;
+    const column = Math.max(isMoved ? -widest - 24 : -side - 10, WIDE * letter * name.textContent.length - middle);
+    const lane = side + 17 + LANE * ball * (1 - view.near);
     put(group, "data-position", moment.position[ball]);
-    put(group, "transform", `translate(${middle} ${height(view, floor, ball, moment.position[ball])})`);
+    put(group, "transform", `translate(${middle} ${places[ball].toFixed(2)})`);
     put(body, "d", path);
     put(light, "d", path);
     squash(pattern, side, radius - flat[ball].upper, radius - flat[ball].lower);
-    put(arrow, "d", arrowPath((side + 17).toFixed(1), (-ARROW * velocity) / fastest));
-    put(name, "x", (-side - 10).toFixed(1));
-    put(speed, "x", (side + 28).toFixed(1));
-    if (legible) write(speed, lies(ball) || Math.abs(velocity) < STILL ? "" : `${fixed(velocity, 2)} m/s`);
+    put(arrow, "d", Math.abs(velocity) < STILL ? "" : arrowPath(lane.toFixed(1), (-ARROW * velocity) / fastest));
+    put(name, "x", column.toFixed(1));
+    put(name, "y", (down + 4).toFixed(1));
+    put(leader, "d", isMoved ? `M${(-side - 2).toFixed(1)} 0L${(column + 3).toFixed(1)} ${down.toFixed(1)}` : "");
+    put(speed, "x", (lane + 11 + LANE * (groups.length - 1 - ball) * (1 - view.near)).toFixed(1));
+    put(speed, "y", (speeds[ball] - places[ball] + 4).toFixed(1));
+    if (legible) write(speed, !speaks || lies(ball) || Math.abs(velocity) < STILL ? "" : `${fixed(velocity, 2)} m/s`);
     put(group, "class", lies(ball) ? "ball lies" : "ball");
   });
 }
@@ -57,33 +77,30 @@ export function height(view, floor, ball, position) {
 }
 
 /** Return an arrow from a height of 0 to `length` px down, at `x`. */
-function arrowPath(x, length) {
-  if (Math.abs(length) < 1.5) return `M${x} 0m-3 0h6`;
+export function arrowPath(x, length) {
+  if (Math.abs(length) < 1.5) return "";
   const head = clamp(length, -5, 5);
   const tip = length.toFixed(1);
   return `M${x} 0V${tip}m-4 ${-head}L${x} ${tip}l4 ${-head}`;
 }
 
-/** Return the outlines of the textbook's balls, and the name of the highest. */
+/** Return the textbook's balls, pale, and the name of the highest. */
 export function ghostGroup(drop) {
-  const circles = drop.balls.map((_, ball) => s("circle", { class: "ghost", "data-ghost": ball }));
-  return [...circles, s("text", { class: "ghost-name", text: t("textbook") })];
+  const circles = drop.balls.map((_, ball) => s("circle", { class: "ghost", "data-ghost": ball, "--ball": `var(--ball-${ball % 6})` }));
+  return [...circles, s("text", { class: "ghost-name", "text-anchor": "end", text: t("textbook") })];
 }
 
-/** Move the textbook's balls to their positions in m; without positions they are hidden. */
-export function moveGhosts(group, positions, { view, floor, middle }) {
-  put(group, "visibility", positions ? "visible" : "hidden");
-  if (!positions) return;
-  const label = group.lastChild;
+/** Move the textbook's balls to their positions in m; returns the height of their name in px. */
+function moveGhosts(group, positions, { view, floor, middle }) {
   positions.forEach((position, ball) => {
     const circle = group.children[ball];
     put(circle, "r", view.radius[ball].toFixed(2));
     put(circle, "transform", `translate(${middle} ${height(view, floor, ball, position)})`);
   });
   const top = positions.length - 1;
-  const y = Number(height(view, floor, top, positions[top])) - view.radius[top] - 5;
-  write(label, y < 0 ? t("textbook ↑") : t("textbook"));
-  put(label, "transform", `translate(${middle} ${Math.max(HEAD, y).toFixed(1)})`);
+  const y = Number(height(view, floor, top, positions[top]));
+  write(group.lastChild, y < 0 ? t("textbook ↑") : t("textbook"));
+  return Math.max(HEAD, y);
 }
 
 /** Return what shows the balls of a kept drop, paler, and its name. */

@@ -4,6 +4,7 @@ import { pieceAt } from "./film.js";
 import { bisected, clamp, closeUp, farView, highest, largest, radii, stacked } from "./shape.js";
 
 const SAMPLES = 240; // of a film, at which is looked how near the camera may be
+const LEAST = 20; // px of height, so that a scale is positive however small the stage is
 const SMOOTH = 0.25; // s of film to either side
 const ZOOMS = { before: (part) => smooth(part), impact: () => 1, between: () => 1, after: (part) => 1 - smooth(part) };
 
@@ -11,7 +12,8 @@ const ZOOMS = { before: (part) => smooth(part), impact: () => 1, between: () => 
  * Return the camera of a film in a picture of `width` and `height` px: `at(time)` is the view, `{scale, move, radius, rest,
  * lift, near}`, with lengths in px; `near` is 1 at the impact and 0 far away. `also` is another film that must be seen.
  */
-export function cameraOf(film, result, { width, height, magnify, also = null, least = 0 }) {
+export function cameraOf(film, result, { width, height: room, magnify, also = null, least = 0 }) {
+  const height = Math.max(room, LEAST);
   const radius = radii(result.drop);
   const sinks = (position) => (film.floor ? 0 : Math.max(0, -position[0])); // m below the place on the floor
   const far = farView(radius, { width, height, ...reach(film, result, also, least) });

@@ -1,5 +1,7 @@
 /** The clock that stage and plots follow: one time, one film, one loop. */
 
+import { safely } from "../failure.js";
+
 /** Return where a time lies in an ascending list: the index below it and the fraction to the next. */
 export function locate(times, time) {
   const last = times.length - 1;
@@ -123,7 +125,7 @@ export class Clock {
     if (this.playing) this.advance(now);
     this.legible = !this.playing || now - this.written >= READABLE;
     if (this.legible) this.written = now;
-    for (const listener of this.listeners) listener(this);
+    for (const listener of this.listeners) safely(listener, this);
     if (this.playing) this.touch();
   }
 

@@ -7,20 +7,27 @@ const FALL = 2; // s of film, at most
 const NEAR = 0.9; // s of film before the first touch and after the last separation, in which the camera moves
 const IMPACT = 6; // s of film from the first touch to the last separation
 const BETWEEN = 1.2; // s of film that the flights between contacts may have, in slow motion
+const MANY = 8; // flights between contacts that take no time, from which on each has as long, so that contacts can be counted
+const COUNTED = 0.2; // s of film that each of them has, at most
+const SLOWEST = 1e6; // times that such a flight is slowed, at most: those of balls that come to rest pass at once
+const COUNTING = 4.7; // s of film that all of them have, at most
 const REAL = 1.3; // s of film that the same may have, in real time
-const LEAP = 4.5; // s of film, at most
+const LEAP = 2.8; // s of film up to the highest top, at most
+const TOP = 1; // s of film at which it stands there
+const STANDS = 2e-3; // s of the drop that pass meanwhile, too little to be seen
+const BACK = 1.2; // s of film back from there, at most
 const INSTANT = 100; // times that an impact without duration is slowed
 
 /**
  * Return the film of a result. It has `pieces`, `{phase, from, to, start, length}` in drop time and film time in s; the maps
  * `toFilm` and `toTime` between the two; the motion, `at(time)`, and the textbook's, `ghosts`; `slow`, how many times
- * contacts are slowed; and `events`, `{time, what, contact, ball}`, by time.
+ * contacts are slowed; `counted`, whether flights between them are, so that all can be counted; `begins`, the times of contacts; and `events`, `{time, what, contact, ball}`, by time.
  */
 export function filmOf(result, until = null) {
   const whole = until !== null;
   const motion = whole ? wholeMotion(result) : motionOf(result);
   const { time } = result.frames;
-  const { slow, parts } = whole ? { slow: 1, parts: [["whole", time[0], time.at(-1), time.at(-1) - time[0]]] } : partsOf(result, motion);
+  const { slow, parts, counted = false } = whole ? { slow: 1, parts: [["whole", time[0], time.at(-1), time.at(-1) - time[0]]] } : partsOf(result, motion);
   const pieces = [];
   let length = 0;
   for (const [phase, from, to, lasts] of parts) {
@@ -43,6 +50,8 @@ export function filmOf(result, until = null) {
     begin,
     end,
     slow,
+    counted,
+    begins: result.intervals.map(({ start }) => start).sort((a, b) => a - b),
     events: eventsOf(result, tops, begin, end),
     toFilm: (value) => {
       const piece = pieces.find(({ to }) => value < to) ?? pieces.at(-1);
@@ -55,7 +64,7 @@ export function filmOf(result, until = null) {
   };
 }
 
-/** Return the piece of a film that is shown at a time: its phase is fall, before, impact, between, after, leap or whole. */
+/** Return the piece of a film that is shown at a time: its phase is fall, before, impact, between, after, leap, top, back or whole. */
 export function pieceAt({ pieces }, time) {
   return pieces.find(({ to }) => time < to) ?? pieces.at(-1);
 }
@@ -73,32 +82,41 @@ function part(value, low, high) {
 }
 
 /** Return how many times contacts are slowed, and the parts of the film as [phase, from, to, film length]. */
-function partsOf({ intervals }, { fall, last, leap }) {
-  const leapFrom = (after) => ["leap", last + after, last + leap, Math.min(leap - after, LEAP)];
+function partsOf({ intervals }, { fall, last, rise, leap }) {
+  const up = rise ?? leap;
+  const [top, end] = [last + up, last + leap];
+  const back = Math.min(top + STANDS, end);
+  const leapFrom = (after) => [
+    ["leap", last + after, top, Math.min(up - after, LEAP)],
+    ["top", top, back, TOP],
+    ["back", back, end, Math.min(end - back, BACK)],
+  ];
   const spans = contactSpans(intervals, last);
   if (!intervals.length || (!spans.length && !fall && !leap)) {
     const still = fall || leap ? [] : [["leap", 0, Math.max(last, 1e-3), 1]];
-    return { slow: 1, parts: [["fall", -fall, 0, Math.min(fall, FALL)], leapFrom(0), ...still] };
+    return { slow: 1, parts: [["fall", -fall, 0, Math.min(fall, FALL)], ...leapFrom(0), ...still] };
   }
   const closed = total(spans.filter((span) => span.closed));
   const open = spans.filter((span) => !span.closed);
   const flown = total(open);
+  const counted = closed === 0 && open.length >= MANY;
+  const between = counted ? Math.min(COUNTED * open.length, COUNTING) : BETWEEN;
   const lasts = ({ from, to, closed: isClosed }, slow) => {
-    const most = Math.max(BETWEEN / open.length, Math.min(1, REAL / flown) * (to - from));
-    return isClosed ? slow * (to - from) : Math.min(slow * (to - from), most);
+    const most = Math.max(between / open.length, Math.min(1, REAL / flown) * (to - from));
+    return isClosed ? slow * (to - from) : Math.min((counted ? SLOWEST : slow) * (to - from), most);
   };
   const length = (slow) => spans.reduce((sum, span) => sum + lasts(span, slow), 0);
   const slow = closed > 0 ? Number(Math.max(bisected((times) => length(times) < IMPACT, 0, IMPACT / closed), 1).toPrecision(2)) : INSTANT;
   const before = Math.min(NEAR / slow, 0.5 * fall);
-  const after = Math.min(NEAR / slow, 0.5 * leap);
+  const after = Math.min(NEAR / slow, 0.5 * up);
   const parts = [
     ["fall", -fall, -before, Math.min(fall - before, FALL)],
     ["before", -before, 0, slow * before],
     ...spans.map((span) => [span.closed ? "impact" : "between", span.from, span.to, lasts(span, slow)]),
     ["after", last, last + after, slow * after],
-    leapFrom(after),
+    ...leapFrom(after),
   ];
-  return { slow, parts };
+  return { slow, parts, counted };
 }
 
 /** Return the time from the first touch to the last separation as spans, `{from, to, closed}`: some contact is closed, or none. */

@@ -5,7 +5,7 @@ import { GRAVITY, gapsOf, incidenceOf, speedOf, withSwap, withValue } from "../s
 import { t } from "../words/language.js";
 import { restacked } from "../set_up/restack.js";
 import { radii } from "./shape.js";
-import { ballName, capital, clean, format, numeric } from "../words/words.js";
+import { ballName, capital, clean, format } from "../words/words.js";
 
 const STILL = 4; // px that a pointer may move in a click
 const HOLD = 300; // ms that a finger rests on a ball before it drags it: before, it scrolls the page
@@ -72,7 +72,11 @@ export function mountHands(root, store, clock, api) {
     if (text) tell(text);
   });
   for (const name of ["pointerup", "pointercancel"]) {
-    root.addEventListener(name, (event) => held?.pointer === event.pointerId && letGo());
+    root.addEventListener(name, (event) => {
+      if (held?.pointer !== event.pointerId) return;
+      if (name === "pointerup" && !held.act) clock.replay(); // a click lets go of the balls
+      letGo();
+    });
   }
   root.addEventListener("touchmove", (event) => held?.act && event.preventDefault(), { passive: false }); // the page stays
   root.addEventListener("pointerover", (event) => !held && tell(ballAt(event) ? hint(store.get().drop, Number(ballAt(event).dataset.ball)) : null));
@@ -104,7 +108,7 @@ function actOf(store, api, { ball, edge, far, x }, group) {
 
 function lift(store, drop, up) {
   if (incidenceOf(drop) === "velocities") return t("Each ball has a speed of its own: change it in the set-up.");
-  const gravity = numeric(drop.gravity ?? 0, "m/s**2") || GRAVITY;
+  const gravity = drop.gravity || GRAVITY;
   const height = rounded(speedOf(drop) ** 2 / 2 / gravity + up, HEIGHTS);
   const isHeight = incidenceOf(drop) === "height";
   const value = isHeight ? height : clean(Number(Math.sqrt(2 * gravity * height).toPrecision(4)));

@@ -1,7 +1,7 @@
 /**
- * How balls look. A ball that is known by its name has its own colour and pattern, wherever it stands; any other ball, and a second
- * one of the same kind, has the colour of its place. The colours are in style.css: `--ink-KIND` of curves, `--fill-KIND` and
- * `--mark-KIND` of the ball on the stage.
+ * How balls look. A ball that is known by its name has its own pattern and colour, wherever it stands; any other ball, and one whose colour
+ * another ball has, has that of its place. The colours are in style.css: `--place-N` of curves, six that everybody tells apart, and
+ * `--fill-KIND` and `--mark-KIND` of the ball on the stage.
  */
 
 import { put, s } from "../dom.js";
@@ -11,19 +11,19 @@ const PLACES = 6;
 
 /**
  * Each kind: the names of its balls; the upper half of its pattern in a circle of radius 1, which is drawn twice, as the lower
- * half mirrors it; whether it is filled; and the place whose colour is too much like its own.
+ * half mirrors it; whether it is filled; and the place whose colour is most like its own.
  */
 const LOOKS = {
-  basketball: { balls: ["basketball", "big basketball"], half: "M-1 0H1M0-1V0M-.72-.69Q-.4-.36-.4 0M.72-.69Q.4-.36.4 0", like: 1 },
-  tennis: { balls: ["tennis", "tennis ball"], half: "M-.6-.8Q-.12-.5-.12 0M.6-.8Q.12-.5.12 0", wide: true },
-  football: { balls: ["football"], half: "M-.42 0L-.24-.34H.24L.42 0ZM-.24-.34L-.4-.66M.24-.34L.4-.66M.42 0H.8M-.42 0H-.8M-.4-.66H.4L.3-.92H-.3ZM.8 0L.86-.4.97-.2V0ZM-.8 0L-.86-.4-.97-.2V0Z", filled: true },
-  handball: { balls: ["handball"], half: "M-.5 0L-.25-.43H.25L.5 0M-.25-.43L-.48-.86M.25-.43L.48-.86M.5 0H1M-.5 0H-1" },
-  volleyball: { balls: ["volleyball"], half: "M-.98-.2Q0-.5.98-.2L.83-.55Q0-.95-.83-.55Z", filled: true, like: 0 },
-  "ping-pong": { balls: ["ping-pong ball"], half: "M-1 0L-.98-.2H.98L1 0Z", filled: true, like: 4 },
-  golf: { balls: ["golf ball"], half: "M0-.15h0M-.3-.15h0M.3-.15h0M-.6-.15h0M.6-.15h0M-.15-.42h0M.15-.42h0M-.45-.42h0M.45-.42h0M-.3-.68h0M0-.68h0M.3-.68h0M-.74-.42h0M.74-.42h0M-.86-.15h0M.86-.15h0M0-.9h0", wide: true, like: 2 },
-  superball: { balls: ["superball"], half: "M-.92-.38C-.5 0-.4-.9 0-.55S.5-.1.92-.38M-.6-.8C-.3-.6-.1-1 .6-.8", like: 3 },
-  marble: { balls: ["marble"], half: "M-.8 0Q-.4-.75 0 0Q.4-.75.8 0Z", filled: true, like: 2 },
-  steel: { balls: ["steel ball"], half: "M-.72-.42Q-.35-.88.3-.82M-.5-.34Q-.3-.58 0-.6" },
+  basketball: { balls: ["basketball", "big basketball"], place: 1, half: "M-1 0H1M0-1V0M-.72-.69Q-.4-.36-.4 0M.72-.69Q.4-.36.4 0" },
+  tennis: { balls: ["tennis", "tennis ball"], place: 4, half: "M-.6-.8Q-.12-.5-.12 0M.6-.8Q.12-.5.12 0", wide: true },
+  football: { balls: ["football"], place: 5, half: "M-.42 0L-.24-.34H.24L.42 0ZM-.24-.34L-.4-.66M.24-.34L.4-.66M.42 0H.8M-.42 0H-.8M-.4-.66H.4L.3-.92H-.3ZM.8 0L.86-.4.97-.2V0ZM-.8 0L-.86-.4-.97-.2V0Z", filled: true },
+  handball: { balls: ["handball"], place: 3, half: "M-.5 0L-.25-.43H.25L.5 0M-.25-.43L-.48-.86M.25-.43L.48-.86M.5 0H1M-.5 0H-1" },
+  volleyball: { balls: ["volleyball"], place: 0, half: "M-.98-.2Q0-.5.98-.2L.83-.55Q0-.95-.83-.55Z", filled: true },
+  "ping-pong": { balls: ["ping-pong ball"], place: 4, half: "M-1 0L-.98-.2H.98L1 0Z", filled: true },
+  golf: { balls: ["golf ball"], place: 2, half: "M0-.15h0M-.3-.15h0M.3-.15h0M-.6-.15h0M.6-.15h0M-.15-.42h0M.15-.42h0M-.45-.42h0M.45-.42h0M-.3-.68h0M0-.68h0M.3-.68h0M-.74-.42h0M.74-.42h0M-.86-.15h0M.86-.15h0M0-.9h0", wide: true },
+  superball: { balls: ["superball"], place: 3, half: "M-.92-.38C-.5 0-.4-.9 0-.55S.5-.1.92-.38M-.6-.8C-.3-.6-.1-1 .6-.8" },
+  marble: { balls: ["marble"], place: 2, half: "M-.8 0Q-.4-.75 0 0Q.4-.75.8 0Z", filled: true },
+  steel: { balls: ["steel ball"], place: 5, half: "M-.72-.42Q-.35-.88.3-.82M-.5-.34Q-.3-.58 0-.6" },
 };
 
 /** Return the kind of a ball by its name, or null. */
@@ -31,16 +31,19 @@ function kindOf({ name }) {
   return Object.keys(LOOKS).find((kind) => LOOKS[kind].balls.includes(name)) ?? null;
 }
 
-/** Return the colour of each place for these balls, as CSS writes it; null for the place's own. */
+/** Return the colour of each ball, as CSS writes it: its kind's where that is free, else its place's, else a free one. */
 export function inksOf(balls) {
-  const kinds = balls.map(kindOf);
-  const own = kinds.map((kind, i) => (kinds.indexOf(kind) === i ? kind : null));
-  const taken = new Set(own.map((kind) => LOOKS[kind]?.like));
-  return own.map((kind, i) => {
-    if (kind) return `var(--ink-${kind})`;
-    const free = [i, ...Array(PLACES).keys()].find((place) => !taken.has(place)) ?? i;
-    taken.add(free);
-    return free === i ? null : `var(--place-${free})`;
+  const taken = new Set();
+  const own = balls.map((ball) => {
+    const place = LOOKS[kindOf(ball)]?.place ?? null;
+    if (taken.has(place)) return null;
+    if (place !== null) taken.add(place);
+    return place;
+  });
+  return own.map((place, i) => {
+    const found = place ?? [i, ...Array(PLACES).keys()].find((free) => !taken.has(free));
+    taken.add(found);
+    return `var(--place-${found})`;
   });
 }
 

@@ -2,10 +2,11 @@
 
 import { partsOf, put, s, write } from "../dom.js";
 import { t } from "../words/language.js";
-import { fixed, shortBall } from "../words/words.js";
+import { fixed, shortBall, shortened } from "../words/words.js";
 
 const ROW = 18; // px
 const NAMES = 92; // px for the names at the left
+const LETTERS = 13; // of a name
 const VALUES = 78; // px for the numbers at the right
 
 /** Draw the bars into `root` while the state asks for them, at the clock's time. */
@@ -64,7 +65,7 @@ function barsOf(drop, film, width) {
     const bar = s("rect", { ...look, y: y + 3, height: ROW - 6, x: zero });
     const mark = (value, name) => s("line", { class: name, x1: zero + value * scale, x2: zero + value * scale, y1: y + 1, y2: y + ROW - 1 });
     const value = s("text", { x: width - 2, y: y + 13, "text-anchor": "end" });
-    const name = s("text", { x: 0, y: y + 13, text: ball === undefined ? t("sum") : shortBall(drop, ball).slice(0, 13) });
+    const name = s("text", { x: 0, y: y + 13, text: ball === undefined ? t("sum") : shortened(shortBall(drop, ball), LETTERS) });
     const axis = s("line", { class: "momentum-zero", x1: zero, x2: zero, y1: y, y2: y + ROW });
     return { bar, value, elements: [name, bar, axis, mark(before[row], "momentum-before"), mark(after[row], "momentum-after"), value] };
   });

@@ -2,8 +2,8 @@
  * Where the balls are at each moment of a drop: fall, impact and leap.
  *
  * The engine computes the impact. Before the first touch and after its last separation a ball flies freely, which is a
- * closed form with the drop's gravity, or the standard one where the drop has none during its impact. The leap ends soon
- * after the highest ball's top. Balls do not meet in flight: a drop is finished when none approaches another, and all
+ * closed form with the drop's gravity, or the standard one where the drop has none during its impact. The leap ends where
+ * the highest ball is back. Balls do not meet in flight: a drop is finished when none approaches another, and all
  * fall alike. A ball that comes back to where it lay on the stack stays there, as its next bounce is not computed.
  * A drop that the engine did not finish has no leap.
  */
@@ -11,13 +11,14 @@
 import { between, locate } from "./clock.js";
 import { GRAVITY } from "../set_up/drops.js";
 
-const DOWN = 0.12; // s after the highest top
+const DOWN = 0.12; // s after the highest top, where there is no floor to come back to
 const STILL = 0.4; // s of a leap in which no ball rises
 const ENDED = ["FINISHED", "COLLAPSED", "SETTLED"]; // what the engine computed to its end
 
 /**
  * Return a drop's motion: `at(time)` is `{position, velocity, compression}` by ball, in SI units from where each ball lies
- * in the stack; `fall`, `last` and `leap` in s: how long before the touch at 0, the last separation, how long after it.
+ * in the stack; `fall`, `last`, `rise` and `leap` in s: how long before the touch at 0, the last separation, how long after it
+ * until the highest top, or null without one, and until the end.
  */
 export function motionOf(result) {
   const { frames, drop, intervals, status } = result;
@@ -52,7 +53,7 @@ export function motionOf(result) {
     at,
     last,
     fall: fallTime(touch, g, floor),
-    leap: leapTime(flights, last, g),
+    ...leapOf(flights, last),
     tops: flights.map(({ top }) => top),
     lies: (ball, time) => time >= (flights[ball]?.lands ?? Infinity),
   };
@@ -65,7 +66,7 @@ export function wholeMotion({ frames }) {
 
 /**
  * Return the textbook's positions, `{at(time), tops}`, or null where it has none: its separate collisions, then flights.
- * `at` is null before the touch, when there is no difference yet, and after balls would meet again.
+ * `at` is null before the touch, when there is no difference yet.
  */
 export function ghostMotion(result, whole) {
   const { separate, frames, drop } = result;
@@ -82,9 +83,8 @@ export function ghostMotion(result, whole) {
   const inside = last <= frames.time.at(-1);
   const positions = { time: frames.time, position: separate.position, leaves: leaving(separate, drop) };
   const flights = inside ? flightsOf(positions, freed, last, g, floor) : [];
-  const end = inside ? last + leapTime(flights, last, g) : frames.time.at(-1);
   const at = (time) => {
-    if (time < 0 || time > end + DOWN) return null;
+    if (time < 0 || (!inside && time > frames.time.at(-1))) return null;
     const found = sample(Math.min(time, last));
     flights.forEach((flight, ball) => {
       if (time > flight.from) found[ball] = flightAt(flight, time, g).position;
@@ -148,10 +148,11 @@ function fallTime({ position, velocity }, g, floor) {
   return floor ? Math.max(0, Math.min(longest, (-v + Math.sqrt(v * v + 2 * g * p)) / g)) : longest;
 }
 
-/** Return how long after the last separation the highest ball is past its top. */
-function leapTime(flights, last, g) {
-  const tops = flights.map(({ top }) => top).filter((top) => top && top.time > last);
-  const highest = tops.reduce((one, other) => (one && one.height > other.height ? one : other), null);
-  if (!flights.length) return 0;
-  return highest ? highest.time - last + DOWN : STILL;
+/** Return how long after the last separation the highest ball has its top, and is back. */
+function leapOf(flights, last) {
+  const rising = flights.filter(({ top }) => top && top.time > last);
+  const highest = rising.reduce((one, other) => (one && one.top.height > other.top.height ? one : other), null);
+  if (!highest) return { rise: null, leap: flights.length ? STILL : 0 };
+  const rise = highest.top.time - last;
+  return { rise, leap: Number.isFinite(highest.lands) ? highest.lands - last : rise + DOWN };
 }

@@ -78,7 +78,7 @@ function heightOf(radius) {
 
 /** Return the largest scale at which names and speeds have room beside the balls. */
 function widest(radius, width) {
-  return Math.min(0.44 * width, width - 210) / (2 * Math.max(...radius));
+  return clamp(width - 210, 0.2 * width, 0.44 * width) / (2 * Math.max(...radius));
 }
 
 /** Return how far each ball's lower and upper side give way, in px. */

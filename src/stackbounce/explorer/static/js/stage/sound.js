@@ -1,10 +1,11 @@
-/** A knock at the begin of each contact: as loud as its peak force, and as high as its contact time is short. */
+/** A knock at the begin of each contact: as loud as its peak force, and as high as its contact time is short, two octaves up. */
 
 import { clamp } from "./shape.js";
 
 const LOUDEST = 0.6; // of what the machine can play, for the strongest contact of the drop
 const QUIETEST = 0.05;
-const PITCHES = [90, 4000]; // Hz, what small loudspeakers play
+const HIGHER = 4; // times as high as one over the contact time: a basketball's 100 Hz are too low for a laptop
+const PITCHES = [330, 6000]; // Hz, what small loudspeakers play
 const RINGS = 0.09; // s, until a knock has died away
 const AT_ONCE = 6; // knocks of one frame of the film
 
@@ -21,7 +22,7 @@ export function knocksOf({ intervals }) {
       return {
         time: interval.start,
         loudness: clamp(Math.sqrt(strength(interval) / most) || 0, QUIETEST, 1), // the ear hears a quarter as half
-        pitch: clamp(1 / lasts, ...PITCHES),
+        pitch: clamp(HIGHER / lasts, ...PITCHES),
       };
     })
     .sort((a, b) => a.time - b.time);

@@ -3,13 +3,13 @@
 import { complete, isDrop } from "../set_up/drops.js";
 import { t } from "../words/language.js";
 import { framed, isLanguage } from "../words/language_choice.js";
-import { FIRST, VIEWS } from "./store.js";
+import { FIRST, LESSON_LIST, VIEWS } from "./store.js";
 
 const DROP = ["balls", "contacts", "gaps", "velocities", "impact_speed", "height", "gravity"];
 const WORDS = new Set(["name", "law", "path", "show", "x", "y"]);
 const SETTINGS = { line: ["x", "show"], map: ["x", "y", "show"] }; // of a view, by the first part of their paths
 const SIDE = ["path", "low", "high", "log"];
-const SWITCHES = ["ghosts", "arrows", "momentum", "centre", "sound", "loop", "predict"];
+const SWITCHES = ["ghosts", "arrows", "forces", "momentum", "centre", "sound", "loop", "predict"];
 const GONE = ["slow"]; // what older links have, and no longer means anything
 const PART = /^[a-z]+(_[a-z]+)*$/;
 const LESSON = /^[a-z]+(-[a-z]+)*$/;
@@ -18,18 +18,30 @@ const NAMED = 3; // parts of a link that are named
 const LONGEST = 30; // letters of each
 const REST = 300; // ms without a change
 
-/** Return a state as the text of a fragment: a drop by the paths of its numbers, as sweeps name them. */
+/** Return a state as the text of a fragment: a drop by the paths of its numbers, as sweeps name them; of the first minute, its language. */
 export function write(state) {
-  const pairs = [["view", state.view]];
-  for (const name of ["lang", "lesson"]) if (state[name] !== FIRST[name]) pairs.push([name, state[name]]);
+  const pairs = state.lang === FIRST.lang ? [] : [["lang", state.lang]];
+  if (state.closer) flattenAll(state, pairs);
+  return pairs.map(([key, value]) => `${key}=${escape(String(value))}`).join("&");
+}
+
+/** List all that a link holds as `[path, member]`. */
+function flattenAll(state, pairs) {
+  const first = { ...FIRST, predict: asksFirst(state) };
+  pairs.unshift(["view", state.view]);
+  if (state.lesson !== FIRST.lesson) pairs.push(["lesson", state.lesson]);
   flatten("", state.drop, pairs);
   for (const [path, error] of Object.entries(state.errors)) pairs.push([`error.${path}`, error]);
   if (state.until !== FIRST.until) pairs.push(["until", state.until]);
-  for (const name of SWITCHES) if (state[name] !== FIRST[name]) pairs.push([name, Number(state[name])]);
+  for (const name of SWITCHES) if (state[name] !== first[name]) pairs.push([name, Number(state[name])]);
   for (const name of ["speed", "magnify"]) if (state[name] !== FIRST[name]) pairs.push([name, state[name]]);
   if (state.t !== null) pairs.push(["t", Number(state.t.toPrecision(6))]);
   for (const view of Object.keys(SETTINGS)) if (state[view]) flatten(`${view}.`, state[view], pairs);
-  return pairs.map(([key, value]) => `${key}=${escape(String(value))}`).join("&");
+}
+
+/** Return whether a guess comes first: in a lesson, and in the first minute. */
+export function asksFirst({ closer, lesson, view }) {
+  return !closer || (![null, LESSON_LIST].includes(lesson) && view === "play");
 }
 
 /** Return the patch of the state that a fragment describes; what it does not know is named in `notice`. */
@@ -63,7 +75,8 @@ export function read(fragment = framed ? window.name : location.hash) {
         : t("This page does not understand {names} in the link, and left it out.", values);
     patch.notice = [patch.notice, left].filter(Boolean).join(" ");
   }
-  return patch;
+  patch.closer = pairs.some((pair) => !pair.startsWith("lang="));
+  return { predict: asksFirst({ ...FIRST, ...patch }), ...patch };
 }
 
 /**
@@ -79,10 +92,10 @@ export function follow(store) {
     timer = 0;
     written = `#${write(state)}`;
     if (framed) window.name = written;
-    else history[how]({ way }, "", written);
+    else history[how]({ way }, "", written === "#" ? location.pathname + location.search : written);
   };
   store.subscribe((state, before) => {
-    const beside = state.view !== before.view || state.lesson !== before.lesson;
+    const beside = ["view", "lesson", "closer"].some((name) => state[name] !== before[name]);
     const step = state.visits !== before.visits ? EXAMPLE : beside ? VIEW : null;
     if (step && !following) {
       put(before);
@@ -108,9 +121,9 @@ export function follow(store) {
     const { lang: _lang, ...found } = read(location.hash); // Back undoes no choice of a language
     way = state.way;
     passed = location.hash;
-    const { view = FIRST.view, lesson = FIRST.lesson } = found;
+    const { view = FIRST.view, lesson = FIRST.lesson, closer, predict } = found;
     if (to.slice(from.length).includes(EXAMPLE)) show({ ...FIRST_SHOWN, ...found, lesson });
-    else show({ view, lesson }); // the drop stays as it is now
+    else show({ view, lesson, closer, ...(closer ? {} : { predict }) }); // the drop stays as it is now
   });
   addEventListener("hashchange", ({ newURL }) => {
     const { hash } = new URL(newURL); // the page may have written its own address since
@@ -127,7 +140,7 @@ const EXAMPLE = "e"; // an example was loaded, or a link followed
 const VIEW = "v"; // another view, or another lesson
 
 const FIRST_SHOWN = Object.fromEntries(
-  ["view", "until", ...SWITCHES, "guess", "speed", "magnify", "t", "notes", ...Object.keys(SETTINGS)].map((name) => [name, FIRST[name]]),
+  ["closer", "view", "until", ...SWITCHES, "guess", "speed", "magnify", "t", "notes", ...Object.keys(SETTINGS)].map((name) => [name, FIRST[name]]),
 );
 
 /** List what a value holds as `[path, member]`; `pairs` takes them. */
@@ -194,3 +207,5 @@ function number(text) {
 function escape(text) {
   return encodeURIComponent(text).replaceAll("%20", "+").replaceAll("%2F", "/");
 }
+
+export { FIRST_SHOWN };

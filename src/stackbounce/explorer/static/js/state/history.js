@@ -1,6 +1,6 @@
 /** Undo and redo of the drop's numbers: one movement of a slider is one step. */
 
-import { flatten } from "./address.js";
+import { FIRST_SHOWN, flatten } from "./address.js";
 import { partsOf } from "../dom.js";
 import { FIRST_DROP, withExample } from "./store.js";
 
@@ -15,7 +15,7 @@ export function mountHistory(root, store) {
   const steps = record(store, () => show());
   undo.addEventListener("click", steps.undo);
   redo.addEventListener("click", steps.redo);
-  anew.addEventListener("click", () => store.set(withExample(store.get(), FIRST_DROP)));
+  anew.addEventListener("click", () => store.set({ ...FIRST_SHOWN, kept: null, view: store.get().view, ...withExample(store.get(), FIRST_DROP) }));
   const show = () => {
     enable(undo, steps.canUndo(), redo);
     enable(redo, steps.canRedo(), undo);
@@ -68,6 +68,10 @@ function record(store, tell) {
     undone = [];
     tell();
   });
+  const entered = ({ target, type, key }) => {
+    if (target.matches?.(TYPED) && (type === "change" || key === "Enter")) open = null; // each entry is a step
+  };
+  for (const name of ["change", "keydown"]) addEventListener(name, entered, true);
   let presses = 0;
   const hold = () => {
     held = presses += 1;

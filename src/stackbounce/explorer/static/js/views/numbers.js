@@ -3,6 +3,7 @@
 import { h, partsOf, write } from "../dom.js";
 import { GRAVITY, speedOf } from "../set_up/drops.js";
 import { t, translated } from "../words/language.js";
+import { ENDED } from "../words/sentence.js";
 import { ballName, capital, contactName, count, fixed, format, highest, percent, setUp, shortContact, withSpread } from "../words/words.js";
 
 /** Write the numbers into `root`, and the contact intervals into `table`. */
@@ -30,14 +31,20 @@ function row(name, index, ...cells) {
 
 /** Return the separate collisions' numbers, where there are any. */
 function textbook({ separate }) {
-  return separate && !separate.error ? separate : null;
+  return separate && !separate.error ? known(separate) : null;
+}
+
+/** Return an outcome without the numbers that nobody knows: those after an impact that was not followed to its end. */
+function known(outcome) {
+  if (ENDED.includes(outcome.status)) return outcome;
+  return { ...outcome, rebound_speeds: [], rebound_ratios: [], rebound_heights: [], energy_retained: null };
 }
 
 /** The table of the balls, the highest first, as they lie. */
 function ballTable(result, until, prediction) {
   const { drop } = result;
   const separate = prediction?.values ? null : textbook(result); // there is no room for both
-  const own = until === null ? impactColumns(result, result, prediction) : wholeColumns(result, result.frames.position);
+  const own = until === null ? impactColumns(result, known(result), prediction) : wholeColumns(result, result.frames.position);
   const theirs = separate && (until === null ? impactColumns(result, separate, null, false).slice(1) : wholeColumns(result, separate.position));
   const all = [...own, ...(theirs ?? [])];
   const when = until === null ? t("After the impact") : t("Within {time} s", { time: format(until) });
@@ -55,17 +62,17 @@ function ballTable(result, until, prediction) {
 
 /** The columns of an impact, of the drop itself or of its separate collisions; `fall`: with heights in terms of the fall. */
 function impactColumns({ drop }, { rebound_speeds: speeds, rebound_ratios: ratios, rebound_heights: heights }, prediction, fall = true) {
-  const known = (name, ball) => prediction?.values?.[`${name}.${ball}`];
+  const predicted = (name, ball) => prediction?.values?.[`${name}.${ball}`];
   const { unit, factor, written } = heightsIn(heights);
   const rise = (ball) => {
-    const { value, error } = known("rebound_heights", ball) ?? {};
+    const { value, error } = predicted("rebound_heights", ball) ?? {};
     return withSpread({ value: value * factor, error: error * factor }) ?? written(heights[ball]);
   };
   const multiples = fall && !prediction?.values; // there is no room for both
   const fallen = speedOf(drop) ** 2 / 2 / GRAVITY;
   return [
-    { name: "m/s", cell: (ball) => withSpread(known("rebound_speeds", ball)) ?? fixed(speeds[ball], 2) },
-    { name: "v / v₀", cell: (ball) => withSpread(known("rebound_ratios", ball)) ?? fixed(ratios[ball], 3) },
+    { name: "m/s", cell: (ball) => withSpread(predicted("rebound_speeds", ball)) ?? fixed(speeds[ball], 2) },
+    { name: "v / v₀", cell: (ball) => withSpread(predicted("rebound_ratios", ball)) ?? fixed(ratios[ball], 3) },
     { name: [t("rises {unit}", { unit }), multiples ? wide(` ${t("(× drop)")}`) : null], cell: (ball) => [rise(ball), multiples ? times(heights[ball], fallen) : null] },
   ];
 }
@@ -109,7 +116,7 @@ function facts(result, until, prediction) {
     const theirs = separate ? percent(separate.energy_retained) : undefined;
     const { value, error } = prediction?.values?.energy_retained ?? {};
     const own = withSpread({ value: 100 * value, error: 100 * error });
-    list.push(pair(t("Energy retained"), own ? `${own} %` : percent(result.energy_retained), theirs));
+    list.push(pair(t("Kinetic energy retained"), own ? `${own} %` : percent(known(result).energy_retained), theirs));
   }
   const met = drop.contacts
     .map((_, contact) => contact)
@@ -117,21 +124,19 @@ function facts(result, until, prediction) {
     .map((contact) => `${shortContact(drop, contact)}: ${count(result.collisions[contact])}`);
   const theirs = separate?.collisions.map(count).join(", ");
   list.push(pair(t("Collisions"), met.join(", "), theirs));
-  list.push(pair(t("Impulse"), impulses(result)));
+  const pushes = impulsesOf(result).map((impulse, contact) => `${shortContact(drop, contact)}: ${format(impulse, 3)}\u00a0N\u00a0s`);
+  list.push(pair(t("Impulse"), pushes.filter((_, contact) => drop.contacts[contact].law !== "none").join(", ")));
   list.unshift(pair(t("Set-up"), setUp(drop), undefined, { class: "print-only" }));
   if (result.separate?.error) list.push(pair(t("Textbook"), translated(result.separate.error)));
   const said = errorWords(prediction, drop);
   if (said) list.push(pair(t("Errors"), said));
-  const asked = until !== null && result.status === "TIME_REACHED";
-  if (result.status !== "FINISHED" && !asked) list.push(pair(t("Note"), capital(translated(result.advice))));
   return h("dl", { class: "facts" }, list);
 }
 
-/** The whole impulse of each contact. */
-function impulses({ drop, intervals }) {
-  const sums = drop.contacts.map((_, contact) => intervals.filter((interval) => interval.contact === contact).reduce((sum, interval) => sum + interval.impulse, 0));
-  const met = sums.map((sum, contact) => `${shortContact(drop, contact)}: ${format(sum, 3)} N s`);
-  return met.filter((_, contact) => drop.contacts[contact]?.law !== "none").join(", ");
+/** Return the whole impulse of each contact in N s: what the momentum of all balls above it has gained. */
+export function impulsesOf({ drop, rebound_speeds: speeds, end_time: end }) {
+  const gains = drop.balls.map(({ mass }, ball) => mass * (speeds[ball] - (drop.velocities?.[ball] ?? -speedOf(drop)) + drop.gravity * end));
+  return gains.map((_, contact) => gains.slice(contact).reduce((sum, gain) => sum + gain, 0));
 }
 
 /** How the errors were found, and what to measure better, in sentences. */

@@ -2,23 +2,25 @@
 
 import { partsOf, put, write } from "../dom.js";
 import { isTranslated, t, translated } from "./language.js";
-import { capital, fixed, format, highest, metres } from "./words.js";
+import { ballName, capital, fixed, format, highest, metres, percent } from "./words.js";
 
 const SAME = 0.005; // part of the larger of two speeds by which they may differ and still be called the same
 const NEARLY = 0.1;
 const MUCH = 1.5; // times as fast, from which on it is told how many times
 const NOTHING = 5e-4; // a rebound ratio that is none
-const ENDED = ["FINISHED", "COLLAPSED", "SETTLED"];
+/** How a run ended whose last speeds are known. */
+export const ENDED = ["FINISHED", "COLLAPSED", "SETTLED"];
+
 const SETTLED = 700; // ms without a new result before it is said
 const WITH_BALL = new Set(["tennis", "table tennis", "golf"]);
 
-/** Return `{lead, more}`: one sentence on the highest ball, and what is to be said beside it. */
-export function storyOf(result, until = null) {
-  const { drop, status, advice } = result;
-  if (until !== null) return wholeOutcome(result, until);
-  if (!ENDED.includes(status)) {
-    return { lead: t("The film ends before the balls have parted, so that their last speeds are not known."), more: `${capital(translated(advice))}.` };
-  }
+/** Return `{lead, more}`: one sentence on the highest ball, and what is to be said beside it; `brief`: on no other ball. */
+export function storyOf(result, until = null, brief = false) {
+  const { drop, status } = result;
+  const isCut = !ENDED.includes(status) && status !== "TIME_REACHED";
+  const cut = isCut ? t("The balls meet more often than this page can follow: softer contacts, more loss, or balls of more equal mass make an end.") : "";
+  if (until !== null) return { lead: wholeOutcome(result, until), more: cut };
+  if (isCut) return { lead: t("The film ends before the balls have parted, so that their last speeds are not known."), more: cut };
   const top = drop.balls.length - 1;
   if (!result.intervals.length) return { lead: t("Nothing touches, so that no speed changes."), more: "" };
   if (status === "SETTLED") {
@@ -29,18 +31,17 @@ export function storyOf(result, until = null) {
   const theirs = textbookOf(result);
   const how = motion(drop, top, own[top]);
   const lead = theirs && top > 0 ? `${how}, ${compared(own[top], theirs[top])}.` : `${how}.`;
-  return { lead, more: more(result, own, theirs, top) };
+  return { lead, more: more(result, own, theirs, top, brief) };
 }
 
-/** Return what a ball is called within a sentence: "the tennis ball", "B1", "the lower ball". */
+/** Return what a ball is called within a sentence: "the tennis ball", "B1", "the lower ball", "ball 3". */
 function called(drop, ball) {
   const name = drop.balls[ball].name;
   const count = drop.balls.length;
   if (!name) {
     if (count === 1) return t("the ball");
-    if (ball === count - 1) return count === 2 ? t("the upper ball") : t("the highest ball");
-    if (ball === 0) return count === 2 ? t("the lower ball") : t("the lowest ball");
-    return t("ball {place} from below", { place: ball + 1 });
+    if (count === 2) return ball === 1 ? t("the upper ball") : t("the lower ball");
+    return ballName(drop, ball);
   }
   const said = WITH_BALL.has(name) ? `the ${name} ball` : /^\p{Ll}[\p{Ll} -]*$/u.test(name) ? `the ${name}` : name;
   return isTranslated(said) ? translated(said) : name;
@@ -51,7 +52,7 @@ function wholeOutcome({ drop, frames }, until) {
   const reached = highest(frames.time, frames.position[top]);
   const values = { ball: capital(called(drop, top)), height: metres(reached), time: format(until) };
   const rises = t("{ball} rises to {height} above where it lay within {time} s.", values);
-  return { lead: reached > 0 ? rises : t("{ball} does not rise above where it lay within {time} s.", values), more: "" };
+  return reached > 0 ? rises : t("{ball} does not rise above where it lay within {time} s.", values);
 }
 
 function textbookOf({ separate }) {
@@ -89,37 +90,51 @@ function factor(ratio) {
 }
 
 /** Return the sentences on the other balls and on the reason. */
-function more(result, own, theirs, top) {
+function more(result, own, theirs, top, brief) {
   const { drop, separate } = result;
   if (top === 0) return "";
-  if (!separate) return t("These are the textbook’s collisions: one after the other, each in no time.");
+  if (!separate) return textbooks(result);
   if (!theirs) return separate.error ? t("The textbook’s way has no answer here: {reason}.", { reason: translated(separate.error) }) : "";
   const apart = own.map((ratio, ball) => Math.abs(ratio - theirs[ball]));
   const differs = (ball) => apart[ball] > Math.max(NOTHING, SAME * Math.max(Math.abs(own[ball]), Math.abs(theirs[ball])));
   const other = apart.reduce((most, one, ball) => (ball !== top && (most < 0 || one > apart[most]) ? ball : most), -1);
   const shown = differs(other) ? `${motion(drop, other, own[other])}, ${compared(own[other], theirs[other])}. ` : "";
-  return `${shown}${reason(drop, arePressedTogether(result), shown !== "" || differs(top))}`;
+  return `${brief ? "" : shown}${reason(drop, togetherOf(result), shown !== "" || differs(top))}`;
+}
+
+function textbooks({ intervals, status }) {
+  const count = intervals.length;
+  if (count < 3 || status !== "FINISHED") return t("These are the textbook’s collisions: one after the other, each in no time.");
+  return t("These are the textbook’s collisions: {count} of them, one after the other, each in no time.", { count });
 }
 
 function reason({ balls }, together, differs) {
   const two = balls.length === 2;
-  if (differs && together) {
+  const values = { share: percent(Number(together.toPrecision(2))) };
+  if (together >= NEARLY && differs) {
     return two
-      ? t("The textbook lets the balls collide one after the other; here both contacts push at the same time.")
-      : t("The textbook lets the balls collide one after the other; here several contacts push at the same time.");
+      ? t("The textbook lets the balls collide one after the other; here both contacts push at the same time for {share} of the impact.", values)
+      : t("The textbook lets the balls collide one after the other; here several contacts push at the same time for {share} of the impact.", values);
+  }
+  if (together >= NEARLY) {
+    return two
+      ? t("The textbook’s collisions come one after the other; here both contacts push at the same time for {share} of the impact, and yet it comes out alike.", values)
+      : t("The textbook’s collisions come one after the other; here several contacts push at the same time for {share} of the impact, and yet it comes out alike.", values);
   }
   if (differs) return t("The textbook lets the balls collide one after the other, each time at once; here each contact takes time.");
-  if (!together) return t("The contacts come one after the other, as in the textbook.");
-  return two
-    ? t("The textbook’s collisions come one after the other; here both contacts push at the same time, and yet it comes out alike.")
-    : t("The textbook’s collisions come one after the other; here several contacts push at the same time, and yet it comes out alike.");
+  return together > 0 ? t("The contacts come nearly one after the other, as in the textbook.") : t("The contacts come one after the other, as in the textbook.");
 }
 
-/** Return whether two contacts are closed at the same time. */
-function arePressedTogether({ intervals }) {
-  return intervals.some((interval, i) =>
-    intervals.slice(i + 1).some((other) => other.contact !== interval.contact && Math.min(interval.end, other.end) > Math.max(interval.start, other.start)),
-  );
+/** Return for which share of the time in which contacts are closed two of them are. */
+function togetherOf({ intervals }) {
+  const turns = intervals.flatMap(({ start, end }) => [[start, 1], [end, -1]]).sort(([a], [b]) => a - b);
+  let [closed, together, open, before] = [0, 0, 0, 0];
+  for (const [time, step] of turns) {
+    if (open > 0) closed += time - before;
+    if (open > 1) together += time - before;
+    [before, open] = [time, open + step];
+  }
+  return closed > 0 ? together / closed : 0;
 }
 
 /** Write what happened into `root`, and into `live`; before a guess, the question. */
@@ -127,33 +142,51 @@ export function mountSentence(root, live, store) {
   const { lead, more } = partsOf(root);
   let timer = 0;
   const show = () => {
-    const { result, until, predict, guess } = store.get();
+    const state = store.get();
+    const { result, until, predict, guess } = state;
     if (!result) return;
-    const asked = predict && until === null;
-    const said = asked && guess === null ? question(result) : storyOf(result, until);
-    const about = asked && guess !== null ? `${judged(result, guess)} ` : "";
+    const said = saidOf(state);
+    const about = predict && until === null && Number.isFinite(guess) ? `${judged(result, guess)} ` : "";
     write(lead, said.lead);
     write(more, `${about}${said.more}`);
-    put(root, "class", asked && guess === null ? "sentence asks" : "sentence");
+    put(root, "class", isAsking(state) ? "sentence asks" : "sentence");
     clearTimeout(timer);
     timer = setTimeout(() => write(live, `${said.lead} ${about}${said.more}`), SETTLED);
   };
-  store.watch(["result", "predict", "guess"], show);
+  store.watch(["result", "predict", "guess", "closer", "view"], show);
+}
+
+/** Return whether a guess is asked for, so that nothing may tell the answer. */
+export function isAsking({ until, predict, guess }) {
+  return predict && until === null && guess === null;
+}
+
+/** Return what is said of a state with a result: the question while a guess is asked for, then the story. */
+export function saidOf(state) {
+  if (isAsking(state)) return question(state.result);
+  const story = storyOf(state.result, state.until, !state.closer);
+  return state.view === "play" && state.predict && state.until === null ? { ...story, lead: rise(state.result) ?? story.lead } : story;
 }
 
 function question({ drop }) {
   const name = called(drop, drop.balls.length - 1);
-  return { lead: t("How high will {ball} fly?", { ball: name }), more: t("Drag the mark on the ruler to where you think it goes, then let the balls go.") };
+  return { lead: t("How high will {ball} fly?", { ball: name }), more: t("Drag the mark to where you think it goes, if you like, then drop the balls.") };
+}
+
+/** Return how high the highest ball rises, and by the textbook would; null if it does not. */
+function rise({ drop, status, rebound_heights: heights, separate }) {
+  const top = drop.balls.length - 1;
+  if (!ENDED.includes(status) || !(heights[top] > 0)) return null;
+  const theirs = separate?.rebound_heights?.[top];
+  const values = { ball: capital(called(drop, top)), height: metres(heights[top]), theirs: metres(Math.max(theirs, 0)) };
+  return Number.isFinite(theirs) && top > 0 ? t("{ball} rises {height}; the textbook says {theirs}.", values) : t("{ball} rises {height}.", values);
 }
 
 /** Return how far off a guess in m was. */
-function judged(result, guess) {
-  const { drop, rebound_heights: heights } = result;
-  const top = drop.balls.length - 1;
-  const reached = Math.max(0, heights[top] ?? 0);
-  const off = guess - reached;
-  const values = { guess: metres(guess), ball: called(drop, top), height: metres(reached), apart: metres(Math.abs(off)) };
-  if (Math.abs(off) < 0.005) return t("You thought {guess}; {ball} rises {height}: just there.", values);
-  if (off > 0) return t("You thought {guess}; {ball} rises {height}: {apart} too high.", values);
-  return t("You thought {guess}; {ball} rises {height}: {apart} too low.", values);
+function judged({ status, rebound_heights: heights }, guess) {
+  const off = guess - Math.max(0, heights.at(-1) ?? 0);
+  const values = { guess: metres(guess), apart: metres(Math.abs(off)) };
+  if (!ENDED.includes(status)) return t("You thought {guess}.", values);
+  if (Math.abs(off) < 0.005) return t("You thought {guess}: just there.", values);
+  return off > 0 ? t("You thought {guess}: {apart} too high.", values) : t("You thought {guess}: {apart} too low.", values);
 }

@@ -1,12 +1,12 @@
 /** What balls and contacts are called on screen, and how numbers and units are written there and read: elsewhere they are SI. */
 
+import { nameBall } from "../model/names.js";
 import { t, translated } from "./language.js";
 import { LANGUAGES, language } from "./language_choice.js";
 
-/** Return a ball's name, or its place. */
+/** Return a ball's name, or its place, in the page's language. */
 export function ballName(drop, ball) {
-  const { name } = drop.balls[ball] ?? {};
-  return name ? translated(name) : t("ball {place}", { place: ball });
+  return translated(nameBall(drop, ball));
 }
 
 /** Return what a contact lies between, such as "floor – tennis". */
@@ -17,13 +17,13 @@ export function contactName(drop, contact) {
 
 /** Return a ball's name as short as a legend of many needs it: its place, whose colour stands beside it. */
 export function shortBall(drop, ball) {
-  return drop.balls.length > 4 ? String(ball) : ballName(drop, ball);
+  return drop.balls.length > 4 ? String(ball + 1) : ballName(drop, ball);
 }
 
 /** Return a contact's name, short where there are many. */
 export function shortContact(drop, contact) {
   if (drop.balls.length <= 3) return contactName(drop, contact);
-  return contact === 0 ? t("floor–0") : `${contact - 1}–${contact}`;
+  return contact === 0 ? t("floor–1") : `${contact}–${contact + 1}`;
 }
 
 /** Return how often a contact met. */
@@ -89,6 +89,11 @@ export function lawName(law) {
   return translated(law.replace(/([a-z])([A-Z])/g, "$1 $2"));
 }
 
+/** Return a text of at most so many letters. */
+export function shortened(text, most) {
+  return text.length > most ? `${text.slice(0, most - 1)}…` : text;
+}
+
 /** Return a text with a capital first letter. */
 export function capital(text) {
   return text ? text[0].toUpperCase() + text.slice(1) : "";
@@ -105,12 +110,12 @@ const SHOWN = {
   J: ["mJ", 1e-3],
 };
 
-/** What one written unit is in SI, by the SI unit it belongs to. The server knows many more. */
+/** What one written unit is in SI, by the SI unit it belongs to. */
 const WRITTEN = {
-  kg: { kg: 1, g: 1e-3, mg: 1e-6 },
-  m: { m: 1, cm: 1e-2, mm: 1e-3, "µm": 1e-6, um: 1e-6 },
+  kg: { kg: 1, g: 1e-3, mg: 1e-6, oz: 0.028349523125, lb: 0.45359237 },
+  m: { m: 1, cm: 1e-2, mm: 1e-3, "µm": 1e-6, um: 1e-6, in: 0.0254, ft: 0.3048 },
   s: { s: 1, ms: 1e-3, "µs": 1e-6, us: 1e-6 },
-  "m/s": { "m/s": 1, "cm/s": 1e-2, "mm/s": 1e-3, "km/h": 1 / 3.6 },
+  "m/s": { "m/s": 1, "cm/s": 1e-2, "mm/s": 1e-3, "km/h": 1 / 3.6, mph: 0.44704 },
   "m/s**2": { "m/s**2": 1, "m/s^2": 1, "m/s²": 1 },
   "N/m": { "N/m": 1, "kN/m": 1e3, "MN/m": 1e6, "N/mm": 1e3, "N/cm": 1e2 },
   "N s/m": { "N s/m": 1, "N*s/m": 1, "Ns/m": 1 },
@@ -133,7 +138,8 @@ export function pretty(unit) {
   return unit
     .replace("**exponent", "ᵖ")
     .replace("**1.5", "¹·⁵")
-    .replace("**2", "²");
+    .replace("**2", "²")
+    .replace(" ", "\u00a0");
 }
 
 /** Return a number with about `digits` digits and no needless zeros. */
@@ -163,17 +169,11 @@ function tidy(text) {
   return localized(text.replace(/\.?0+e/, "e").replace("e+", "e").replaceAll("-", "−"));
 }
 
-/**
- * Read what somebody typed for a field: a bare number is in the shown unit, "57 g" or "0.057 kg" as
- * it says. Anything else is returned as text, for the server to read or to refuse.
- */
+/** Read what somebody typed for a field: a bare number is in the shown unit, "57 g" or "0.057 kg" as it says; NaN where it is none. */
 export function read(text, unit, shown) {
   const found = QUANTITY.exec(pointed(text.trim().replaceAll("−", "-")));
-  if (!found) return COMMA ? pointed(text.trim()) : text.trim();
-  const number = Number(found[1]);
-  if (found[2] === "") return clean(number * shown.size);
-  const size = WRITTEN[unit]?.[found[2]];
-  return size !== undefined ? clean(number * size) : COMMA ? pointed(text.trim()) : text.trim();
+  const size = found && (found[2] === "" ? shown.size : WRITTEN[unit]?.[found[2]]);
+  return size ? clean(Number(found[1]) * size) : NaN;
 }
 
 /** Split "63 ± 1 cm" into `{value, error}`, each with the unit that only one has; without ± the error is null. */
@@ -194,13 +194,6 @@ export function splitError(text) {
 export function pointed(text) {
   if (COMMA) return text.replace(/(\d|^|[\s+-]),(?=\d)/g, "$1.");
   return /^[+-]?[1-9]\d{0,2},\d{3}(?!\d)/.test(text) ? text : text.replace(/^([+-]?\d*),(\d+)/, "$1.$2");
-}
-
-/** Return the SI number of a value of a drop, which is a number, or a text that a link brought. */
-export function numeric(value, unit) {
-  if (typeof value === "number") return value;
-  const si = typeof value === "string" ? read(value, unit, { size: 1 }) : NaN;
-  return typeof si === "number" ? si : NaN;
 }
 
 /** Round off what binary fractions add, so that 57 g is 0.057. */

@@ -15,9 +15,9 @@ export function sideForm(key, title, current, paths, set) {
   const { element, legend, low, high, unit, log, problem } = partsOf(copyOf("side-parts"));
   const number = paths.find(({ path }) => path === side.path);
   const shown = shownUnit(number.unit);
-  const change = (patch) => {
+  const change = (patch, text) => {
     const next = { ...current(), ...patch };
-    const message = problemOf(next);
+    const message = problemOf(next, text);
     sayProblem(problem, message, write);
     if (!message) set(next);
   };
@@ -37,7 +37,7 @@ export function sideForm(key, title, current, paths, set) {
     input.dataset.key = `${key}-${which}`;
     put(input, "aria-describedby", problem.id);
     input.defaultValue = format(clean(side[which] / shown.size), 6);
-    input.addEventListener("change", () => change({ [which]: read(input.value, number.unit, shown) }));
+    input.addEventListener("change", () => change({ [which]: read(input.value, number.unit, shown) }, input.value));
   }
   log.dataset.key = `${key}-log`;
   log.checked = side.log;
@@ -45,9 +45,8 @@ export function sideForm(key, title, current, paths, set) {
   return element;
 }
 
-function problemOf(side) {
-  const text = [side.low, side.high].find((end) => typeof end !== "number");
-  if (text !== undefined) return t("“{text}” is not a number.", { text });
+function problemOf(side, text) {
+  if (Number.isNaN(side.low + side.high)) return t("“{text}” is not a number.", { text });
   if (side.low === side.high) return t("The two ends must differ.");
   return isSide(side) ? null : t("A logarithmic axis needs limits above 0.");
 }

@@ -5,7 +5,7 @@ import { haveSameDrawing, numberIn, sideOf, withNumbers } from "./sides.js";
 import { isInside, point } from "./pointing.js";
 import { t, writeTold } from "../../words/language.js";
 import { onRepaint } from "../../plots/palette.js";
-import { storyOf } from "../../words/sentence.js";
+import { isAsking, saidOf } from "../../words/sentence.js";
 import { mountStage } from "../../stage/stage.js";
 
 const hovers = matchMedia("(hover: hover)"); // a mouse, which can drag; a finger scrolls
@@ -34,7 +34,7 @@ export class DrawingView {
     parts.again.addEventListener("click", () => this.refresh());
     new ResizeObserver(() => this.drawSoon()).observe(parts.board);
     onRepaint(() => this.draw());
-    store.watch(["result"], (state) => this.tell(state));
+    store.watch(["result", "predict", "guess"], (state) => this.tell(state));
     store.watch(["view", "drop", kind.name], (state, before) => this.follow(state, before));
     this.tell(store.get());
     this.refresh();
@@ -50,7 +50,7 @@ export class DrawingView {
 
   hear(news) {
     const { figure, message, again } = this.parts;
-    if (news.settings) this.fillForm(news);
+    if (news.settings) this.fillForm({ answer: this.news?.answer, ...news }); // the answer before, until there is another
     figure.classList.toggle("stale", Boolean(news.problem));
     if (!news.answer && !news.problem) return;
     writeTold(message, news.problem ?? "");
@@ -85,7 +85,7 @@ export class DrawingView {
     const { kind, news } = this;
     const [present, pointed] = [this.present(), this.pointed()];
     const isHere = isInside(present);
-    kind.mark(news, isHere ? present : null, pointed, this.parts);
+    kind.mark(news, isHere && !isAsking(this.store.get()) ? present : null, pointed, this.parts);
     const how = hovers.matches ? t("Drag to move it; choose a point to play its drop.") : t("Choose a point to play its drop.");
     write(this.parts.readout, pointed ? kind.told(news, pointed) : `${isHere ? kind.here : kind.outside} ${how}`);
   }
@@ -108,8 +108,9 @@ export class DrawingView {
     document.getElementById("tab-play")?.focus();
   }
 
-  tell({ result, until }) {
-    write(this.parts.told, result ? storyOf(result, until).lead : "");
+  tell(state) {
+    write(this.parts.told, state.result ? saidOf(state).lead : "");
+    this.mark();
   }
 
   /** Follow the store: another drop of the same drawing is only marked in it. */

@@ -6,7 +6,7 @@ import { t, translated } from "../../words/language.js";
 import { nameOf } from "./in_words.js";
 import { fitting, marks, sideOf, ticks } from "../drawing/sides.js";
 import { colorOf, LETTERS, SMALL } from "../../plots/palette.js";
-import { clean, format, pretty } from "../../words/words.js";
+import { clean, format, pretty, shortened } from "../../words/words.js";
 
 const FONT = "system-ui, sans-serif";
 const WIDE = 560; // px from which names stand at the ends of the curves
@@ -151,15 +151,11 @@ function pathOf({ show }, { values, jumps }, parts, place) {
 function listNames(answer, colors) {
   return answer.curves.flatMap((curve) => {
     const color = colorOfCurve(colors, curve.index);
-    const name = shortened(nameOf(answer, curve));
+    const name = shortened(nameOf(answer, curve), LONGEST);
     const own = { text: name, value: lastOf(answer.show, curve.values), color, dashed: false };
     if (!curve.textbook) return [own];
     return [own, { text: TEXTBOOK, value: lastOf(answer.show, curve.textbook.values), color, dashed: true }];
   });
-}
-
-function shortened(name) {
-  return name.length > LONGEST ? `${name.slice(0, LONGEST - 1)}…` : name;
 }
 
 function lastOf(show, values) {

@@ -1,6 +1,6 @@
 /** The choices of a line: a figure of the paper, what lies across, and what is shown. */
 
-import { button, h } from "../../dom.js";
+import { h } from "../../dom.js";
 import { choice } from "../../set_up/fields.js";
 import { t, translated } from "../../words/language.js";
 import { drawingForm } from "../drawing/form.js";
@@ -10,10 +10,9 @@ import { SHOWS } from "./in_words.js";
 /**
  * Fill the form in an element, as `drawingForm` does.
  * @param {object[]} figures the paper's lines @param {(answer: object) => object} figureOf which of them an answer is
- * @param {object} heard `set(settings)`, `use(figure)` and `save(kind)`
+ * @param {object} heard `set(settings)` and `use(figure)`
  */
-export function lineForm(element, figures, figureOf, { set, use, save }) {
-  const saver = (kind, text) => button(text, () => save(kind), { class: "small", "data-key": `line-save-${kind}` });
+export function lineForm(element, figures, figureOf, { set, use }) {
   const figureIn = ({ answer }) => answer && figureOf(answer);
   const fill = (news, { current, change }) => {
     const { settings, paths, unfit } = news;
@@ -35,18 +34,11 @@ export function lineForm(element, figures, figureOf, { set, use, save }) {
         set: (show) => change({ show }),
       }),
       sideForm("line-x", t("Across"), () => current().x, paths, (x) => change({ x })),
-      h("div", { class: "line-save", role: "group", "aria-label": t("Save the line") }, KINDS.map(([kind, text]) => saver(kind, text))),
     ];
   };
   const extra = (news) => [news.unfit, figureIn(news)?.name];
   return drawingForm(element, { name: "line", extra, fill }, set);
 }
-
-const KINDS = [
-  ["csv", t("Save CSV")],
-  ["svg", "SVG"],
-  ["png", "PNG"],
-];
 
 /** Name what the wanted settings have that this drop has not. */
 function wordsOf(unfit) {

@@ -1,16 +1,15 @@
 /** The line: the rebound over one number of the drop, with the present drop as a point on it. */
 
 import { brief, haveSameDrawing } from "../drawing/sides.js";
+import { drawer } from "../drawing/request.js";
 import { DrawingView } from "../drawing/view.js";
 import { complete } from "../../set_up/drops.js";
 import { t, translated } from "../../words/language.js";
 import { drawLine, drawLineMarks } from "./draw.js";
 import { lineForm } from "./form.js";
-import { liner } from "./request.js";
-import { saved } from "./save.js";
+import { settle } from "./request.js";
 import { SHOWS, summary, told, valueAt } from "./in_words.js";
 import { palette } from "../../plots/palette.js";
-import { download } from "../../state/share.js";
 import { withExample } from "../../state/store.js";
 
 /** Build the view into `root`. */
@@ -24,12 +23,7 @@ export async function mount(root, store, api, clock) {
     const line = { x: figure.x, show: "rebound_ratio" };
     store.set({ ...withExample(store.get(), complete(figure.drop)), line });
   };
-  const save = async (kind) => {
-    if (!view.news) return;
-    const { answer } = view.news;
-    download(await saved(kind, answer, measured(answer)), `stackbounce-line.${kind}`);
-  };
-  const view = new DrawingView(root, store, clock, {
+  new DrawingView(root, store, clock, {
     name: "line",
     role: t("line"),
     here: t("The dots are the present drop."),
@@ -37,8 +31,8 @@ export async function mount(root, store, api, clock) {
     sides: 1,
     margin: 4,
     step: 1 / 100,
-    form: (element) => lineForm(element, figures, figureIn, { set: (line) => store.set({ line }), use, save }),
-    requests: (tell) => liner(api, tell),
+    form: (element) => lineForm(element, figures, figureIn, { set: (line) => store.set({ line }), use }),
+    requests: (tell) => drawer(api, tell, settle, (drop, settings, told) => api.line({ drop, ...settings }, told)),
     sidesOf: ({ answer }) => [answer.x],
     draw(size, { answer }, { drawing }) {
       drawn = drawLine(answer, size, palette(), measured(answer));

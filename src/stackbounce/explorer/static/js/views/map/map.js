@@ -2,11 +2,12 @@
 
 import { scaleOfColors } from "../../plots/colors.js";
 import { brief, extremes, quantity, sideOf } from "../drawing/sides.js";
+import { drawer } from "../drawing/request.js";
 import { DrawingView } from "../drawing/view.js";
 import { t, translated } from "../../words/language.js";
 import { drawMap, drawMarks } from "./draw.js";
 import { mapForm } from "./form.js";
-import { mapper } from "./request.js";
+import { mapOf, settle } from "./request.js";
 import { palette } from "../../plots/palette.js";
 import { capital, count } from "../../words/words.js";
 
@@ -21,7 +22,7 @@ export function mount(root, store, api, clock) {
     margin: 0,
     step: 1 / 60,
     form: (element) => mapForm(element, (map) => store.set({ map })),
-    requests: (tell) => mapper(api, tell),
+    requests: (tell) => drawer(api, tell, settle, (...asked) => mapOf(api, ...asked)),
     sidesOf,
     draw(_size, { answer: english, settings }, { drawing }) {
       const answer = inOurLanguage(english);

@@ -1,8 +1,7 @@
-/** Asks for maps, from coarse to fine. */
+/** What a map asks for. */
 
 import { lawOf } from "../../set_up/laws.js";
 import { depends, firstSide, isSide } from "../drawing/sides.js";
-import { oneAtATime } from "../../asking/questions.js";
 
 const COARSE = [24, 18];
 const MEDIUM = [60, 45];
@@ -14,24 +13,15 @@ function steps(drop, laws) {
   return exact && drop.balls.length <= 2 ? [FINE] : [COARSE, MEDIUM, FINE];
 }
 
-/** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, with {drop, answer} as well, or {problem}. */
-export function mapper(api, tell) {
-  return oneAtATime(async (told, drop, wanted) => {
-    const { paths, shows } = await api.mapPaths(drop);
-    const settings = complete(wanted, paths, shows, drop);
-    told({ settings, paths, shows });
-    const { laws } = await api.catalogue();
-    const requests = steps(drop, laws).map(([across, up]) => {
-      const [x, y] = [{ ...settings.x, count: across }, { ...settings.y, count: up }];
-      return { drop, x, y, show: settings.show };
-    });
-    const found = (answer) => answer && { drop, settings, paths, shows, answer };
-    return found(await api.maps(requests, (part) => told(found(part))));
-  }, tell);
+/** Return the last map of a drop; `told` hears the coarser ones. */
+export async function mapOf(api, drop, { x, y, show }, told) {
+  const { laws } = await api.catalogue();
+  const requests = steps(drop, laws).map(([across, up]) => ({ drop, x: { ...x, count: across }, y: { ...y, count: up }, show }));
+  return api.maps(requests, told);
 }
 
-/** Return the settings of a map; defaults replace those that are missing or do not fit the drop. */
-function complete(wanted, paths, shows, drop) {
+/** Return `{settings}` of a map; defaults replace those that are missing or do not fit the drop. */
+export function settle(wanted, paths, shows, drop) {
   const known = (side) => (isSide(side) && paths.some(({ path }) => path === side.path) ? side : null);
   const best = (other) => {
     const free = paths.filter(({ path }) => !depends(path, other?.path));
@@ -42,7 +32,7 @@ function complete(wanted, paths, shows, drop) {
   const y = known(wanted?.y) && !depends(wanted.y.path, x.path) ? wanted.y : best(x);
   const last = `rebound_ratio.${drop.balls.length - 1}`;
   const show = shows.some((known) => known.show === wanted?.show) ? wanted.show : last;
-  return { x, y, show };
+  return { settings: { x, y, show } };
 }
 
 /** Which numbers are mapped first. */

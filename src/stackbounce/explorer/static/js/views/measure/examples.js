@@ -1,6 +1,6 @@
 /** The drops of the records for a try, made by stackbounce itself: each as somebody would know it beforehand. */
 
-import { FIRST_DROP } from "../../state/store.js";
+import { PAPER_DROP } from "../../state/store.js";
 
 const TWO_BALLS = {
   balls: [
@@ -16,4 +16,4 @@ const TWO_BALLS = {
   gravity: 9.80665,
 };
 
-export const EXAMPLES = { "floor-force.csv": FIRST_DROP, "two-tracks.csv": TWO_BALLS };
+export const EXAMPLES = { "floor-force.csv": PAPER_DROP, "two-tracks.csv": TWO_BALLS };

@@ -9,7 +9,6 @@ import { t } from "../../words/language.js";
 import { describeFile, listFindings } from "./found.js";
 import { measureForm } from "./form.js";
 import { Overlay } from "./overlay.js";
-import { pressPlot } from "../../plots/press_plot.js";
 
 /** Build the view into `root`; the server lists the options of its form. */
 export async function mount(root, store, api) {
@@ -20,7 +19,7 @@ export async function mount(root, store, api) {
 class MeasureView {
   constructor(root, store, api, options) {
     const parts = fillFrom(root, "measure-parts");
-    Object.assign(this, { store, api, parts, file: null, newest: 0, press: pressPlot(parts.pressed) });
+    Object.assign(this, { store, api, parts, file: null, newest: 0 });
     this.use = bounceUse(parts.bounceUse, store, api);
     this.fit = new FitForm(parts.fit, store, api, (answer) => this.showFitted(answer));
     this.overlay = new Overlay(parts.record, store, api, (index) => this.fit.retarget(index));
@@ -81,7 +80,6 @@ class MeasureView {
     this.parts.found.hidden = false;
     if (answer.doubt) this.parts.unsaid.open = true;
     this.overlay.show(answer);
-    this.showPress(answer.branches);
     this.use.offer(answer);
     this.fit.offer(record);
   }
@@ -93,11 +91,6 @@ class MeasureView {
     this.clear();
   }
 
-  showPress(branches) {
-    this.parts.pressed.hidden = branches.length === 0;
-    this.press(branches);
-  }
-
   showFitted(answer) {
     this.store.set({ drop: answer.drop, t: null });
     if (answer.series.length) this.overlay.show({ series: answer.series, zero: 0 });
@@ -107,7 +100,6 @@ class MeasureView {
   clear() {
     this.parts.found.hidden = true;
     this.overlay.clear();
-    this.showPress([]);
     this.use.offer(null);
     this.fit.offer(null);
   }

@@ -1,4 +1,4 @@
-/** A record beside the simulated drop: keeps both, the shift between their clocks, and the plots in step. */
+/** A record beside the simulated drop: keeps both and the plots in step; a track is shifted to where it lies best. */
 
 import { h, partsOf } from "../../dom.js";
 import { GRAVITY } from "../../set_up/drops.js";
@@ -52,9 +52,9 @@ export class Overlay {
     this.result = result;
     this.curves = result ? curves : this.record.series;
     this.lines = result ? lines(result, curves) : null;
-    if (result && this.fresh && curves[0].what === "position") this.shift = this.best();
+    if (result && this.fresh && curves[0].what === "position") this.shift = bestShift(curves, this.lines, this.reach, 0.5 * (result.impact[0] + result.impact[1]));
     this.fresh = false;
-    this.draw(true);
+    this.draw();
   }
 
   /** Return the curves of the record; one alone is that of the ball or contact that was chosen. */
@@ -104,23 +104,15 @@ export class Overlay {
     return this.api.simulate({ ...drop, gravity: drop.gravity || GRAVITY }, Math.min(Math.max(end, 0.05), LONGEST));
   }
 
-  /** How far the clock can be shifted: as long as the impact lasts. */
+  /** How far a record's clock may be shifted: as long as the impact lasts. */
   get reach() {
     const [begin, end] = this.result?.impact ?? [0, 0];
     return Math.max(end - begin, 1e-3);
   }
 
-  best() {
-    return bestShift(this.curves, this.lines, this.reach, 0.5 * (this.result.impact[0] + this.result.impact[1]));
-  }
-
-  draw(settled) {
-    const { result, shift } = this;
-    const put = result ? matched(shifted(this.curves, shift), this.lines) : { curves: this.curves, notes: [] };
-    const move = (next, done) => {
-      this.shift = next;
-      this.draw(done);
-    };
+  draw() {
+    const { result } = this;
+    const put = result ? matched(shifted(this.curves, this.shift), this.lines) : { curves: this.curves, notes: [] };
     this.plot({
       record: this.record,
       curves: put.curves,
@@ -128,13 +120,9 @@ export class Overlay {
       names: put.curves.map((curve) => this.name(curve)),
       window: result ? [result.impact[0] - 0.25 * this.reach, result.impact[1] + 0.5 * this.reach] : null,
       whole: put.curves[0].what === "position",
-      shift,
-      reach: this.reach,
-      move,
-      align: () => move(this.best(), true),
     });
     this.notes.replaceChildren(...put.notes.map((text) => h("p", { text: capital(text) })));
-    if (settled && result) {
+    if (result) {
       this.store.set({ overlays: put.curves.map((curve) => ({ ...curve, label: t("measured {what}", { what: translated(curve.label) }) })) });
     }
   }

@@ -55,7 +55,7 @@ export function matched(curves, simulated) {
       return { ...curve, unit: "N", values: curve.values.map((value) => value * scale) };
     }
     if (curve.what !== "position") return curve;
-    const offset = mean(differences(curve, line, { until: 0 }));
+    const offset = mean(differences(curve, line, 0));
     if (!Number.isFinite(offset)) return curve;
     const values = { what: translated(curve.label), size: (Math.abs(offset) * 1e3).toFixed(0) };
     const lower = t("{what} is drawn {size} mm lower than tracked, to lie on the simulated ball.", values);
@@ -67,8 +67,8 @@ export function matched(curves, simulated) {
 }
 
 /**
- * Return the shift of the clock in s, within a reach, at which curves lie best on simulated lines. Tracks
- * are compared until a time, as later on they go apart if the drop is not yet the right one.
+ * Return the shift of the clock in s, within a reach, at which tracks lie best on simulated lines. They are
+ * compared until a time, as later on they go apart if the drop is not yet the right one.
  */
 export function bestShift(curves, simulated, reach, until) {
   const cost = (shift) => shifted(curves, shift).reduce((sum, curve, i) => sum + distance(curve, simulated[i], until), 0);
@@ -83,30 +83,22 @@ export function bestShift(curves, simulated, reach, until) {
   return best;
 }
 
-/** How far a curve is from a line, but for the zero of a track and the scale of a force. */
+/** Return how far a track is from a line, but for its zero. */
 function distance(curve, line, until) {
-  if (curve.what === "position") {
-    const apart = differences(curve, line, { until });
-    const middle = mean(differences(curve, line, { until: 0 }));
-    return apart.reduce((sum, difference) => sum + (difference - middle) ** 2, 0) / Math.max(apart.length, 1);
-  }
-  const scale = curve.unit === "N" ? 1 : most(line.values) / (most(curve.values) || 1);
-  const apart = differences({ ...curve, values: curve.values.map((value) => value * scale) }, line, { beyond: 0 });
-  return apart.reduce((sum, one) => sum + one ** 2, 0) / Math.max(apart.length, 1);
+  const apart = differences(curve, line, until);
+  const middle = mean(differences(curve, line, 0));
+  return apart.reduce((sum, difference) => sum + (difference - middle) ** 2, 0) / Math.max(apart.length, 1);
 }
 
-/** Return curve minus line, until a time, wherever the line is, or its value `beyond` where it is not. */
-function differences({ time, values }, line, { until = Infinity, beyond = null }) {
+/** Return curve minus line, until a time, wherever the line is. */
+function differences({ time, values }, line, until) {
   const found = [];
   let place = 0;
   time.forEach((now, i) => {
     if (values[i] === null || now > until) return;
     while (place + 2 < line.time.length && line.time[place + 1] < now) place += 1;
     const [from, to] = [line.time[place], line.time[place + 1]];
-    if (now < line.time[0] || now > line.time.at(-1)) {
-      if (beyond !== null) found.push(values[i] - beyond);
-      return;
-    }
+    if (now < line.time[0] || now > line.time.at(-1)) return;
     const part = to > from ? (now - from) / (to - from) : 0;
     found.push(values[i] - (line.values[place] + part * (line.values[place + 1] - line.values[place])));
   });
