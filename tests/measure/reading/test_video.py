@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stackbounce.errors import FileError, InvalidType, InvalidValue
+from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import analyse
 from stackbounce.plots.measurements.track import draw
 
@@ -202,11 +202,31 @@ def test_only_the_longest_tracks_are_read(read):
     assert "9 shorter tracks are left out" in data.attrs["doubt"]
 
 
-def test_a_table_whose_blank_cells_were_lost_is_refused(read):
+def test_points_whose_blank_cells_were_lost_are_put_together(read):
     """A spreadsheet that closes up blank flags moves the points of other tracks to the left."""
-    lines = [f"{k} 10.0 {k % 7}.5 9.0 {500 + k % 3}.0 " for k in range(40)]
-    with pytest.raises(FileError, match="lost its blank cells"):
-        read("\n".join(["Frame X1 Y1 Flag1 X2 Y2 Flag2", "Tracks 1 to 2   ", *lines]))
+    lines = ["Frame X1 Y1 Flag1 X2 Y2 Flag2", "Tracks 1 to 2" + " " * 3]
+    for k, (x, y) in enumerate(zip(X, Y, strict=True)):
+        ball, speck = f"{x:.3f} {y:.3f}", f"{9 + k % 2}.0 {500 + k % 3}.0"
+        points = [ball, speck] if k % 3 == 0 else [speck] if k % 20 == 1 else [speck, ball]
+        lines.append(f"{k + 1} {' '.join(points)}  ")
+    lines += ["Track 414.8 1.03 traveled Nr of Frames", "1 74.8 17.2 131"]
+    data = read("\n".join(lines))
+    assert "blank cells were lost" in data.attrs["doubt"]
+    assert data.track.values.tolist() == ["track 1"]  # the speck does not move
+    seen = np.isfinite(data.y.values[:, 0])
+    assert (~seen).sum() == sum(k % 20 == 1 and k % 3 != 0 for k in range(len(Y)))
+    np.testing.assert_allclose(data.y.values[seen, 0], Y[seen], atol=1e-3)
+    bounces(data)
+
+
+def test_a_point_without_a_coordinate_is_left_out_and_a_falling_ball_followed_far(read):
+    """A ball may be further from its last place than a point may be from a path."""
+    fallen = 5.0 * np.arange(15.0) ** 2
+    points = "".join(f"{k} 10.0 {y} 5.0\n" for k, y in enumerate(fallen))
+    data = read("Frame X1 Y1 Flag1 X2 Y2 Flag2\n" + "0 1.0 2.0 5.0 *\n" * 3 + points)
+    assert "blank cells were lost" in data.attrs["doubt"]
+    assert data.track.values.tolist() == ["track 1"]
+    np.testing.assert_allclose(data.y.values[-15:, 0], fallen)
 
 
 def test_manual_tracking(read):

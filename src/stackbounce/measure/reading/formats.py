@@ -18,7 +18,7 @@ from stackbounce.measure.reading.layouts import (
     line_of,
     told,
 )
-from stackbounce.measure.reading.roles import Column, Heading, column, heading, is_unit
+from stackbounce.measure.reading.roles import POINT, Column, Heading, column, heading, is_unit
 from stackbounce.measure.reading.text import Text, number
 
 _LABEL = re.compile(r"[0-9]+[.,][0-9]{6}\t[0-9]+[.,][0-9]{6}\t(?![-+0-9.,]+$)[^\t]*")
@@ -26,6 +26,10 @@ _KNOCK = re.compile(r"bounce [0-9]+")  # its time
 _UNSAID = "Sensor Logger does not write into a file which sensor it is of: "
 _OTHER_SENSORS = ("gyroscope", "gravity", "magnetometer", "orientation", "compass")
 _IMAGEJ = {"", "area", "label", "slice", "slice n°"}  # beside which X and Y are pixels
+_CLOSED_UP = (
+    "blank cells were lost, so that numbers stand under Flag: points are put together to tracks by "
+    "where they are"
+)
 _SUMMARY = re.compile(r"\n+Track\s")  # a line for each track, below all points
 _NUMBERED = re.compile(r"([xy]) ?([0-9]{1,3})")
 _SPOT = ("TRACK_ID", "FRAME", "POSITION_X", "POSITION_Y", "POSITION_T")
@@ -239,19 +243,20 @@ def mtrack2(text: Text) -> Layout | None:
     names = [cell.casefold() for cell in text.head[0]]
     if names[:1] != ["frame"] or not {"x1", "y1"} <= set(names):
         return None
-    first = first_row(text, 1)
-    if _closed_up(text, first, len(names)):
-        raise FileError(
-            "it is a table of MTrack2 that lost its blank cells, so that numbers stand under Flag: "
-            "save it from ImageJ once more, and leave spreadsheets out"
-        )
+    first, doubts = first_row(text, 1), list[str]()
     places = [(k, place) for k, name in enumerate(names) if (place := _NUMBERED.fullmatch(name))]
     found = [column(k, heading(one[1].upper()), one[1], f"track {one[2]}") for k, one in places]
+    if _closed_up(text, first, len(names)):
+        doubts.append(_CLOSED_UP)
+        found = [
+            column(k, heading("XY"[k % 2 == 0]), "xy"[k % 2 == 0], f"{POINT}{(k + 1) // 2}")
+            for k in range(1, 1 + 2 * sum(one[1] == "x" for _, one in places))
+        ]
     why = "Frame, X1, Y1 are the columns of MTrack2, a plugin of ImageJ"
     columns = (column(0, heading("Frame"), "frame"), *found)
     summary = _SUMMARY.search(text.content, text.starts[first])
     end = summary.start() if summary else None
-    return Layout("ImageJ: MTrack2", why, columns, first, end=end)
+    return Layout("ImageJ: MTrack2", why, columns, first, tuple(doubts), end=end)
 
 
 def _closed_up(text: Text, first: int, width: int) -> bool:

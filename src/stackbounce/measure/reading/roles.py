@@ -18,6 +18,9 @@ _SURE = re.compile(r".+?(?:\s*/\s*|,\s*|\s+in\s+)\S{1,20}")
 FRAME, PIXEL = "frame", "px"
 """The units of time and of length in a video whose frame rate and scale are not known."""
 
+POINT = "point "
+"""Begins the name of a track whose points are in no order, those of any ball in each frame."""
+
 _KNOWN: dict[str, dict[str, list[str]]] = tomllib.loads(
     (files(__package__) / "roles.toml").read_text("utf-8")
 )

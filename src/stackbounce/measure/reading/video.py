@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import islice
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading.roles import FRAME, PIXEL, Column, column, heading
+from stackbounce.measure.reading.roles import FRAME, PIXEL, POINT, Column, column, heading
 
 _Tracks: TypeAlias = tuple[list[Column], Array, list[str]]
 """Columns with their numbers, and what is unsure."""
@@ -19,6 +20,10 @@ _TRACKS = 12
 
 _RATE, _SCALE = OptionHint({"frame_rate": None}), OptionHint({"scale": None})
 _ROLES = {"", "x", "y", "track_id"}  # of columns beside which rows are frames
+_LEAST = 5  # points of a track that is put together
+_REACH = 0.05  # of the range of all points: how far from its path the next point of a track may be
+_LOST = 5  # frames after which a track has no path any more
+_STILL = 0.1  # of the range of the track that moves most: tracks that move less are specks
 
 
 def on_frames(
@@ -111,6 +116,8 @@ def rows_by_frame(columns: Sequence[Column], values: Array) -> _Tracks:
     time = next(k for k, column in enumerate(columns) if column.role == "time")
     if at is not None:
         return _side_by_side(columns, values, time, at)
+    if any(column.track.startswith(POINT) for column in columns):
+        return _linked(columns, values, time)
     if columns[time].heading.unit != FRAME or len({column.track for column in columns}) > 1:
         return list(columns), values, []
     places = [k for k, column in enumerate(columns) if column.role in ("x", "y")]
@@ -146,3 +153,60 @@ def _nearest(frames: Array, places: Array) -> list[int]:
             far = np.linalg.norm(places[[kept[-1], row]] - places[kept[-2]], axis=1)
             kept[-1] = row if far[1] < far[0] else kept[-1]
     return kept
+
+
+def _linked(columns: Sequence[Column], values: Array, time: int) -> _Tracks:
+    """Return tracks that are put together from points, each next to where it should be."""
+    x, y = (
+        {column.track: k for k, column in enumerate(columns) if column.role == axis}
+        for axis in "xy"
+    )
+    axes = [[own[track] for track in x if track in y] for own in (x, y)]
+    points = np.stack([values[:, own] for own in axes], axis=-1)
+    tracks = _together(values[:, time], points)
+    table = np.full((len(values), 1 + 2 * len(tracks)), np.nan)
+    table[:, 0] = values[:, time]
+    found = [columns[time]]
+    for track in tracks:
+        for axis, own in enumerate(axes):
+            table[list(track), len(found)] = [place[axis] for place in track.values()]
+            found.append(replace(columns[own[0]], track=f"track {(len(found) + 1) // 2}"))
+    return found, table, []
+
+
+def _together(times: Array, points: Array) -> list[dict[int, Array]]:
+    """Return moving tracks as points by row, the longest first, of points (rows, any, x and y).
+
+    In each row the longest track is the first to take the point next to its path.
+    """
+    known = np.asarray(np.isfinite(points).all(axis=2))
+    reach = _REACH * float(np.ptp(points[known], axis=0).max()) if known.any() else 0.0
+    tracks: list[dict[int, Array]] = []
+    live: list[dict[int, Array]] = []
+    for row, now in enumerate(times.tolist()):
+        left = list(points[row][known[row]])
+        live = [track for track in live if now - times[next(reversed(track))] <= _LOST]
+        for track in sorted(live, key=len, reverse=True):
+            off = [float(np.hypot(*(place - _expected(track, times, now)))) for place in left]
+            if off and min(off) <= reach:
+                track[row] = left.pop(off.index(min(off)))
+        new = [{row: place} for place in left]
+        tracks += new
+        live += new
+    found = [track for track in tracks if len(track) >= _LEAST]
+    ranges = [float(np.ptp(list(track.values()), axis=0).max()) for track in found]
+    moving = [
+        track for track, wide in zip(found, ranges, strict=True) if wide > _STILL * max(ranges)
+    ]
+    return sorted(moving, key=len, reverse=True)[:_TRACKS]
+
+
+def _expected(track: dict[int, Array], times: Array, now: float) -> Array:
+    """Return where a track would go on to, by its last two points."""
+    rows = list(islice(reversed(track), 2))
+    last, before = rows[0], rows[-1]
+    since = float(times[last] - times[before])
+    if not since > 0.0:
+        return track[last]
+    ahead = float(now - times[last]) / since
+    return np.asarray(track[last] + ahead * (track[last] - track[before]))
