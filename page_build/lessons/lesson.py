@@ -94,7 +94,7 @@ def explorer_fragment(what: str) -> str:
     first = next((i for i, word in enumerate(words) if "=" in word), len(words))
     settings = dict(word.split("=", 1) for word in words[first:])
     drop = _drop_of(" ".join(words[:first]), settings)
-    return explorer_address("", drop, settings).removeprefix("#")
+    return explorer_address(drop, settings).removeprefix("#")
 
 
 def _drop_of(names: str, settings: dict[str, str]) -> Drop:

@@ -24,6 +24,7 @@ from adversary.server import LONG_RUN, Server, make_drop, serving
 
 _FLOODER, _OTHER = "127.0.0.2", "127.0.0.1"
 _SPRING = {"law": "Spring", "stiffness": 2500.0}
+_SMALL = {"drop": make_drop(2, _SPRING), "errors": {"impact_speed": 0.01}}
 _FIT = {
     "drop": json.dumps(LONG_RUN["drop"]),
     "vary": json.dumps([f"contacts.{i}.stiffness" for i in range(6)]),
@@ -48,7 +49,7 @@ def _record() -> dict[str, Any]:
 
 KINDS = {
     "none": _Kind(0, "/", dict),
-    "runs": _Kind(100, "/api/simulate", lambda: {"json": LONG_RUN}),
+    "runs": _Kind(100, "/api/predict", lambda: {"json": LONG_RUN}),
     "fits": _Kind(100, "/api/fit", lambda: {"data": _FIT}),
     "uploads": _Kind(40, "/api/measure", _record),
     "files": _Kind(150, "/style.css", dict),
@@ -94,8 +95,7 @@ def _send_all(address: str, kind: _Kind) -> None:
 
 async def _watch(address: str, seconds: float) -> Seen:
     """Ask for a drop and a file in turn, each over a connection of its own."""
-    drop = {"json": {"drop": make_drop(2, _SPRING)}}
-    asked = [("POST", "/api/simulate", drop), ("GET", "/style.css", {})]
+    asked = [("POST", "/api/predict", {"json": _SMALL}), ("GET", "/style.css", {})]
     seen = Seen([], [])
     end = perf_counter() + seconds
     while perf_counter() < end:
@@ -142,8 +142,7 @@ def main() -> int:
     slow = False
     for name in arguments.kinds.split(","):
         with serving("--host", "0.0.0.0") as server:
-            request = {"drop": make_drop(2, _SPRING)}
-            httpx.post(f"{server.address}api/simulate", json=request, timeout=60.0)
+            httpx.post(f"{server.address}api/predict", json=_SMALL, timeout=60.0)
             seen = flood(server, name, arguments.seconds)
         times = (f"{f(seen.times):.2f} s" for f in (statistics.median, max))
         failed = ", ".join(f"{count} × {what}" for what, count in Counter(seen.failed).items())

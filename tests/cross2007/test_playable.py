@@ -1,4 +1,4 @@
-"""The paper's page as the explorer serves it: a way back, and figures that can be played."""
+"""The paper's page as the explorer serves it, and the addresses of drops there."""
 
 import re
 from urllib.parse import parse_qsl
@@ -8,7 +8,7 @@ import pytest
 from stackbounce import cross2007
 from stackbounce.cross2007 import report
 from stackbounce.cross2007.bench import PAPER, Bench
-from stackbounce.cross2007.cases import link_figures
+from stackbounce.cross2007.cases import explorer_address
 from stackbounce.cross2007.stacks import better_fit
 from stackbounce.model import Drop
 
@@ -33,35 +33,26 @@ def written(folder, **options):
 @pytest.mark.slow
 @pytest.mark.usefixtures("short")
 def test_the_page_by_itself_leads_to_no_explorer(tmp_path):
-    assert not [address for address in written(tmp_path) if "view=" in address or "../" in address]
+    assert not [address for address in written(tmp_path) if "../" in address]
 
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("short")
-def test_the_page_of_the_explorer_leads_back_and_plays_the_figures(tmp_path):
-    links = written(tmp_path, explorer="../")
-    assert links[0] == "../"
-    (played,) = [address for address in links if "view=play" in address]
-    assert played == link_figures("../")["9"][0].address
+def test_the_page_of_the_explorer_leads_back(tmp_path):
+    assert written(tmp_path, explorer="../")[0] == "../"
 
 
-def test_a_link_has_the_drop_of_its_figure():
-    [link] = link_figures("../")["9"]
+def test_an_address_has_the_drop():
+    fitted = better_fit(Bench(PAPER))
     drop = {"balls": [{}, {}], "contacts": [{}, {}], "gaps": [0.0]}
-    for path, text in parse_qsl(link.address.partition("#")[2]):
+    for path, text in parse_qsl(explorer_address(fitted, {}).removeprefix("#")):
         name, _, rest = path.partition(".")
         value = float(text) if re.fullmatch(r"[\d.e+-]+", text) else text
         if name in ("balls", "contacts"):
             drop[name][int(rest[0])][rest[2:]] = value
         elif name != "view":
             drop |= {name: [value] if name == "gaps" else value}
-    fitted = better_fit(Bench(PAPER))
     found = Drop.from_mapping(drop)
     assert (found.contacts, found.impact_speed) == (fitted.contacts, fitted.impact_speed)
     assert found.gaps == (0.0,)
     assert [ball.mass for ball in found.balls] == [ball.mass for ball in fitted.balls]
-
-
-def test_every_drop_of_the_paper_has_a_link():
-    links = link_figures("")
-    assert sorted(set(report.FIGURES) - set(links)) == ["7"]  # a press curve

@@ -12,6 +12,7 @@ DROP = {
     "contacts": [{"law": "Spring", "stiffness": 2500.0}, {"law": "Spring", "stiffness": 1000.0}],
     "impact_speed": 3.53,
 }
+ASKED = {"drop": DROP, "errors": {"impact_speed": "5 cm/s"}}
 
 
 @pytest.fixture(scope="session")

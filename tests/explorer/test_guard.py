@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import psutil
 import pytest
 
+from explorer.conftest import ASKED
 from stackbounce.explorer import LIMITS, addresses, guard
 from stackbounce.explorer.addresses import Place
 
@@ -28,9 +29,9 @@ def test_other_sites_are_kept_out(server):
             assert server.get("/api/places", headers={name: value}).status_code == status, value
 
 
-def test_the_page_itself_may_ask_by_each_name_of_this_machine(server, address_of_server, drop):
-    asked = {"json": {"drop": drop}, "headers": {"origin": address_of_server.rstrip("/")}}
-    assert server.post("/api/simulate", **asked).status_code == 200
+def test_the_page_itself_may_ask_by_each_name_of_this_machine(server, address_of_server):
+    asked = {"json": ASKED, "headers": {"origin": address_of_server.rstrip("/")}}
+    assert server.post("/api/predict", **asked).status_code == 200
     port = address_of_server.rstrip("/").rpartition(":")[2]
     own = socket.gethostname()
     for name in ("localhost", "[::1]", "192.168.0.7", own, f"{own.partition('.')[0]}.local"):
@@ -70,7 +71,7 @@ def test_no_file_beside_the_page_is_served(server):
 
 
 @pytest.mark.parametrize(
-    ("path", "most"), [("/api/simulate", LIMITS.body_bytes), ("/api/measure", LIMITS.upload_bytes)]
+    ("path", "most"), [("/api/predict", LIMITS.body_bytes), ("/api/measure", LIMITS.upload_bytes)]
 )
 def test_large_requests_are_refused(server, path, most):
     whole = server.post(path, content=b"x" * (most + 1))

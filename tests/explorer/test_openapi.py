@@ -16,7 +16,6 @@ CHECKS = [
 ]
 OPERATIONS = [
     ("GET", "/api/places"),
-    ("POST", "/api/simulate"),
     ("POST", "/api/predict"),
     ("POST", "/api/measure"),
     ("POST", "/api/fit"),

@@ -20,7 +20,7 @@ import psutil
 import pytest
 
 from adversary.server import LONG_RUN, Server, serving
-from explorer.conftest import DROP
+from explorer.conftest import ASKED
 from stackbounce.cli import main
 from stackbounce.errors import FileError, InvalidValue, finite
 from stackbounce.explorer import LIMITS, paper_pages
@@ -67,7 +67,7 @@ def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
         told = json.loads("".join(lines))
         address = told["address"]
         assert (told["others"], told["measures"]) == ([], True)
-        answer = httpx.post(f"{address}api/simulate", json={"drop": DROP}, timeout=60.0)
+        answer = httpx.post(f"{address}api/predict", json=ASKED, timeout=60.0)
         assert answer.status_code == 200
         workers = Server(address, process).children()
         assert workers
@@ -86,7 +86,7 @@ def left_of(processes):
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGKILL])
 def test_open_requests_do_not_keep_it_from_ending(how):
     large = json.dumps(LONG_RUN).encode()
-    head = b"POST /api/simulate HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+    head = b"POST /api/predict HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
     begun = [
         b"",
         b"GET / HTT",
@@ -95,7 +95,7 @@ def test_open_requests_do_not_keep_it_from_ending(how):
         b"GET /paper/ HTTP/1.1\r\nHost: localhost\r\n\r\n",
     ]
     with serving(stderr=subprocess.PIPE) as server, contextlib.ExitStack() as stack:
-        httpx.post(f"{server.address}api/simulate", json={"drop": DROP}, timeout=60.0)
+        httpx.post(f"{server.address}api/predict", json=ASKED, timeout=60.0)
         for request in begun * 3:
             connection = stack.enter_context(socket.create_connection(server.place))
             connection.sendall(request)

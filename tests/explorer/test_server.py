@@ -13,95 +13,20 @@ from page_build.data import list_choices
 from scipy.io import wavfile
 
 import stackbounce as sb
-from explorer.conftest import DROP
+from explorer.conftest import ASKED, DROP
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.explorer import LIMITS
 
 
-def post(server, path, **asked):
-    return server.post(f"/api/{path}", json=asked)
-
-
-def answer(server, path, **asked):
-    response = post(server, path, **asked)
+def predicted(server, **asked):
+    response = server.post("/api/predict", json=asked)
     assert response.status_code == 200, response.text
     return response.json()
 
 
-def library(drop):
-    return sb.simulate(sb.Drop.from_mapping(drop), rtol=1e-10)
-
-
-def test_a_drop_is_the_librarys_own(server, drop):
-    got = answer(server, "simulate", drop=drop)
-    result = library(drop)
-    assert got["rebound_ratios"] == result.rebound_ratios.tolist()
-    assert got["collisions"] == result.collisions.tolist()
-    assert got["drop"] == result.drop.to_mapping()
-    heights = np.array(got["rebound_speeds"]) ** 2 / (2 * 9.80665)
-    assert got["rebound_heights"] == pytest.approx(heights, rel=1e-12)
-    assert got["impact"] == [0.0, max(result.last_release)]
-
-
-@pytest.mark.parametrize("gravity", [0.0, 9.80665])
-def test_frames_are_samples(server, drop, gravity):
-    frames = answer(server, "simulate", drop=drop | {"gravity": gravity}, frames=200)["frames"]
-    result = library(drop | {"gravity": gravity})
-    times = np.array(frames["time"])
-    assert (np.diff(times) > 0).all()
-    assert times[0] < 0.0 < result.end_time < times[-1]
-    for moment in [0.0, *result.intervals["end"]]:
-        assert moment in times
-    late = times >= 0.0
-    sample = result.sample(times[late])
-    for name in ("position", "velocity", "force", "compression"):
-        values = np.array(frames[name])[:, late]
-        assert values == pytest.approx(sample[name].values, abs=1e-8 * np.abs(values).max())
-    speed, early = 3.53, times[~late]
-    fallen = -speed * early - 0.5 * gravity * early**2
-    for ball in (0, 1):
-        assert np.array(frames["position"])[ball][~late] == pytest.approx(fallen, abs=1e-9)
-        velocity = np.array(frames["velocity"])[ball][~late]
-        assert velocity == pytest.approx(-speed - gravity * early, abs=1e-7)
-    height = np.array(frames["position"])
-    assert np.array(frames["compression"])[0] == pytest.approx(-height[0], abs=1e-9)
-    assert np.array(frames["compression"])[1] == pytest.approx(height[0] - height[1], abs=1e-9)
-
-
-def test_energies_add_up(server, drop):
-    drop["contacts"][0] = {"law": "Dashpot", "stiffness": 2500.0, "damping": 5.0}
-    energy = answer(server, "simulate", drop=drop | {"gravity": 9.81})["frames"]["energy"]
-    total = np.array(energy["total"])
-    parts = np.sum(energy["kinetic"], axis=0) + energy["stored"] + energy["potential"]
-    assert parts == pytest.approx(total, abs=1e-6 * total[0])
-    assert total[-1] < 0.9 * total[0]
-    assert min(energy["stored"]) == 0.0
-
-
-def test_the_whole_story_begins_at_rest(server, drop):
-    del drop["impact_speed"]
-    whole = drop | {"height": 0.5, "gravity": 9.80665}
-    frames = answer(server, "simulate", drop=whole, until=1.0)["frames"]
-    begin = frames["position"][0][0], frames["velocity"][1][0], frames["time"][-1]
-    assert begin == pytest.approx((0.5, 0.0, 1.0), abs=1e-6)
-
-
-def test_separate_collisions_stand_beside(server, drop):
-    drop["contacts"][0] = {"law": "Dashpot", "stiffness": 2500.0, "damping": 5.0}
-    got = answer(server, "simulate", drop=drop)
-    textbook = sb.separate(sb.Drop.from_mapping(drop))
-    result = sb.simulate(textbook)
-    assert got["separate"]["rebound_ratios"] == result.rebound_ratios.tolist()
-    assert got["separate"]["restitutions"][1] == 1.0
-    assert got["separate"]["restitutions"][0] < 0.95
-    times = np.array(got["frames"]["time"])
-    place = result.sample(times[times >= 0.0]).position.values
-    assert np.array(got["separate"]["position"])[:, times >= 0.0] == pytest.approx(place, abs=1e-8)
-
-
 def test_errors_are_carried_as_by_predict(server, drop):
     asked = {"impact_speed": "5 cm/s", "balls.1.mass": 0.001}
-    found = answer(server, "predict", drop=drop, errors=asked)
+    found = predicted(server, drop=drop, errors=asked)
     inputs = {"impact_speed": (drop["impact_speed"], 0.05), "balls.1.mass": (0.057, 0.001)}
     exact = sb.predict(sb.Drop.from_mapping(drop), inputs)
     for name in ("rebound_speeds.1", "energy_retained", "last_release.0"):
@@ -118,18 +43,11 @@ RIGID = {"contacts": [{"law": "Rigid", "restitution": 0.8}] * 2}
 
 
 def test_errors_of_rigid_balls_have_no_force(server, drop):
-    found = answer(server, "predict", drop=drop | RIGID, errors={"contacts.0.restitution": 0.01})
+    found = predicted(server, drop=drop | RIGID, errors={"contacts.0.restitution": 0.01})
     assert set(found["band"]) == {"time", "position"}
     whole = drop | RIGID | {"gravity": 9.81}
-    found = answer(server, "predict", drop=whole, errors={"balls.0.mass": "1 g"}, until=0.4)
+    found = predicted(server, drop=whole, errors={"balls.0.mass": "1 g"}, until=0.4)
     assert found["band"]["time"][-1] == 0.4
-
-
-def test_a_rigid_drop_has_no_other(server, drop):
-    got = answer(server, "simulate", drop=drop | RIGID)
-    assert got["separate"] is None
-    assert got["intervals"][0]["peak_force"] is None
-    assert got["impact"] == [0.0, 0.0]
 
 
 @pytest.mark.parametrize(
@@ -162,53 +80,35 @@ def test_the_page_knows_the_numbers_of_every_law_and_which_set_its_loss():
 
 
 @pytest.mark.parametrize(
-    ("path", "asked", "message"),
+    ("asked", "message"),
     [
-        ("simulate", {}, "drop: field required"),
-        ("simulate", {"drop": {}}, "balls is missing"),
-        ("simulate", {"drop": 3}, "the scenario must be a table"),
+        ({"drop": None}, "the scenario must be a table"),
+        ({"drop": {}}, "balls is missing"),
         (
-            "simulate",
             {"drop": DROP | {"balls": DROP["balls"] * LIMITS.balls}},
             "balls must be at most 6 in the explorer, got 12",
         ),
+        ({"until": -1}, "until: input should be greater than 0, got -1"),
+        ({"until": 61}, "until: input should be less than or equal to 60, got 61"),
+        ({"till": 1}, "till: extra inputs are not permitted"),
+        ({"errors": {"balls.9.mass": 1}}, "balls.9.mass is not a parameter of this drop"),
         (
-            "simulate",
-            {"drop": DROP, "frames": 10**6},
-            "frames: input should be less than or equal to 3000",
-        ),
-        ("simulate", {"drop": DROP, "until": -1}, "until: input should be greater than 0, got -1"),
-        ("simulate", {"drop": DROP, "till": 1}, "till: extra inputs are not permitted"),
-        (
-            "predict",
-            {"drop": DROP, "errors": {"balls.9.mass": 1}},
-            "balls.9.mass is not a parameter of this drop",
-        ),
-        (
-            "predict",
-            {"drop": DROP, "errors": {"balls.0.mass": 0}},
+            {"errors": {"balls.0.mass": 0}},
             "errors must have a number with an error above 0, got none",
         ),
-        ("predict", {"drop": DROP, "errors": {}}, "errors"),
+        ({"errors": {}}, "errors"),
     ],
 )
-def test_what_is_wrong_is_told(server, path, asked, message):
-    response = post(server, path, **asked)
+def test_what_is_wrong_is_told(server, asked, message):
+    response = server.post("/api/predict", json=ASKED | asked)
     assert response.status_code == 422
     assert message in response.json()["detail"]
-
-
-def test_a_run_without_end_says_so(server, drop):
-    endless = drop | {"contacts": [{"law": "Spring", "stiffness": 1e6}] * 2, "gravity": 9.81}
-    got = answer(server, "simulate", drop=endless, until=LIMITS.duration, frames=50)
-    assert got["status"] in ("TIME_REACHED", "EVENT_LIMIT")
-    assert got["frames"]["time"][-1] <= LIMITS.duration
 
 
 @pytest.mark.parametrize("body", [b"", b"[", b"nonsense", b"\xff", b"[" * 60_000, b"1e999"])
 def test_a_body_that_is_no_request(server, body):
     headers = {"content-type": "application/json"}
-    response = server.post("/api/simulate", content=body, headers=headers)
+    response = server.post("/api/predict", content=body, headers=headers)
     assert response.status_code in (400, 422)
     assert "\n" not in response.json()["detail"]
 

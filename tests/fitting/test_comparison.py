@@ -1,4 +1,4 @@
-"""Several models of the same data: scores, what is left out, the usual models, refusals."""
+"""Several models of the same data: scores, the usual models, refusals."""
 
 import math
 from dataclasses import replace
@@ -59,25 +59,12 @@ def test_pulls_are_those_of_each_fit(compared):
         assert total == pytest.approx(found.chi_squared, abs=1e-9)
 
 
-def test_a_drop_that_is_left_out_is_predicted(compared):
-    rows = compared.left_out["Hysteretic"]
-    assert [row.drop for row in rows][:2] == ["at_10", "at_10"]
-    assert [row.name for row in rows][:2] == ["rebound_ratios.0", "rebound_ratios.1"]
-    assert len(rows) == 6
-    assert all(abs(row.pull) < 1.0 for row in rows)
-    assert rows[0]._replace(predicted=1.5, measured=1.0, error=0.3, predicted_error=0.4).pull == 1.0
-    assert all(row.predicted_error < 0.2 for row in rows)
-    assert compared.predictive("Hysteretic") > compared.predictive("Spring")
-
-
-def test_with_one_drop_each_datum_is_left_out():
+def test_a_model_that_is_there_twice_shares_its_row():
     drop = sb.Drop(BALLS, [sb.Rigid(0.8), sb.Rigid(0.9)], impact_speed=3.0)
     model = sb.Model(drop, {"contacts.0.restitution": (0.1, 1.0)})
     compared = sb.compare({"one": model, "same": model}, seen_of(drop, drop.contacts))
     (score,) = compared.scores
     assert (score.model, score.same_as, score.weight) == ("one", ("same",), 1.0)
-    names = [row.name for row in compared.left_out["one"]]
-    assert names == ["rebound_ratios.0", "rebound_ratios.1"]
 
 
 def test_a_model_with_more_numbers_than_data_is_refused_by_name():

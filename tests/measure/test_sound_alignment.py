@@ -13,8 +13,8 @@ from stackbounce.measure.kinds.bounces.scatter import scatter_of
 from stackbounce.measure.kinds.sound.alignment import aligned
 from stackbounce.measure.kinds.sound.analysis import knocks
 from stackbounce.measure.kinds.sound.consistency import misjudgement
-from stackbounce.measure.kinds.sound.loudness import whitened
 from stackbounce.measure.kinds.sound.onset import onsets
+from stackbounce.measure.statistics.ar_noise import whitened
 from synthetic.falls import falls
 from synthetic.sound import sound
 

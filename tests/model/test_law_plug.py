@@ -9,7 +9,7 @@ import pytest
 from page_build.data import list_choices
 
 import stackbounce as sb
-from stackbounce.cli import main, simulation_tables
+from stackbounce.cli import main
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.model import LAWS
 from stackbounce.model.laws import law_named
@@ -90,7 +90,7 @@ def goes_through_every_face(kind, tmp_path, capfd):
     assert json.loads(capfd.readouterr().out)["drop"]["contacts"] == [law.to_mapping()]
     assert main(["simulate", str(file)]) == 0
     table = capfd.readouterr().out
-    assert simulation_tables.law_text(law) in " ".join(table.split())
+    assert law.described() in " ".join(table.split())
 
     (page,) = [one for one in list_choices()["laws"] if one["law"] == name]
     assert (page["formula"], page["source"], page["says"]) == (kind.formula, kind.source, kind.says)
@@ -155,7 +155,7 @@ def test_a_new_law_with_a_known_form_of_force_is_one_class(added, tmp_path, capf
     fits_its_stiffness(law, result)
     is_told_by_a_force_record(law, result)
     assert cone in LAWS.values()
-    assert simulation_tables.law_text(law) == f"SharpCone, stiffness {law.stiffness:.6g} N/m^2"
+    assert law.described() == f"SharpCone, stiffness {law.stiffness:.6g} N/m^2"
     power = sb.PowerLaw(law.stiffness, 2.0)
     assert np.array_equal(result.rebound_speeds, sb.simulate(alone(power)).rebound_speeds)
 

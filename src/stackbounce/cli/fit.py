@@ -29,7 +29,7 @@ def run(
         series.fit_series(what[0], plot, overwrite, as_json, given)
         return
     _check_of_drop(given, () if stack is None else ("error",))
-    from stackbounce.cli import comparison_tables, fit_files, fit_tables
+    from stackbounce.cli import fit_files, fit_tables
     from stackbounce.fitting.question import build_problem
     from stackbounce.fitting.standard import calibration_speed, usual_model
 
@@ -46,9 +46,9 @@ def run(
         compared, speed = _compare(problem, given), calibration_speed(problem.drops)
         output.draw_picture(plot, overwrite, "compared", compared)
         if as_json:
-            output.print_json(comparison_tables.comparison_as_dict(compared, speed))
+            output.print_json({**compared.as_dict(), "calibration_speed": speed})
         else:
-            comparison_tables.print_comparison(output.console(), compared, speed)
+            fit_tables.print_comparison(output.console(), compared, speed)
             _print_end(compared, stack, given, plot)
         return
     fit_files.check_save(save, overwrite, problem, what)
@@ -57,7 +57,7 @@ def run(
     output.draw_picture(plot, overwrite, "fitted", done.fit)
     output.draw_picture(corner, overwrite, "corner", done.posterior)
     saved = fit_files.save(done.fit, save, overwrite)
-    drawn = fit_files.save_draws(done.fit, done.posterior, draws, overwrite)
+    drawn = fit_files.save(done.fit, draws, overwrite, done.posterior)
     if as_json:
         output.print_json(fit_tables.as_dict(done, saved, drawn))
         return

@@ -53,28 +53,17 @@ def check_save(
             check_own(path / f"{name}{suffix}", overwrite, read)
 
 
-def save(fit: Fit, path: Path | None, overwrite: bool) -> list[Path]:
-    """Write the fitted drop into a file, or several into a folder, and return the files."""
-    texts = {key: drop.to_toml() for key, drop in fit.drops.items()}
-    return _write_each(texts, path, ".toml", overwrite)
-
-
-def save_draws(
-    fit: Fit, posterior: Posterior | None, path: Path | None, overwrite: bool
+def save(
+    fit: Fit, path: Path | None, overwrite: bool, draws_of: Posterior | None = None
 ) -> list[Path]:
-    """Write the draws of the drop into a file, of several into a folder, and return the files."""
-    if posterior is None:
-        return []
-    texts = {key: draws_text(drop, fit.draws(posterior, key)) for key, drop in fit.drops.items()}
-    return _write_each(texts, path, ".csv", overwrite)
-
-
-def _write_each(
-    texts: Mapping[str, str], path: Path | None, suffix: str, overwrite: bool
-) -> list[Path]:
-    """Write one text into a file, or several into a folder by their names."""
+    """Write each fitted drop, or its draws, and return the files; several are in a folder."""
     if path is None:
         return []
+    suffix = ".csv" if draws_of else ".toml"
+    texts = {
+        key: draws_text(drop, fit.draws(draws_of, key)) if draws_of else drop.to_toml()
+        for key, drop in fit.drops.items()
+    }
     files = dict.fromkeys([path], next(iter(texts.values())))
     if len(texts) > 1:
         try:

@@ -8,13 +8,15 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from stackbounce.cli.tables import new_table
-from stackbounce.fitting import Fit, Interval, Posterior
+from stackbounce.cli.tables import new_table, number, table_of
+from stackbounce.fitting import Comparison, Fit, Interval, Posterior
 from stackbounce.fitting.notes import describe_goodness
 from stackbounce.units import handy, rounded
 
 _STRONG = 0.5  # a correlation above it is printed
 _QUANTILES = (0.159, 0.5, 0.841)
+_OF_RECORD = ("drop", "name", "scatter")
+_CRITERIA = {"aicc": "AICc", "bic": "BIC"}
 
 
 class Fitted(NamedTuple):
@@ -31,12 +33,7 @@ def as_dict(done: Fitted, saved: Sequence[Path], drawn_files: Sequence[Path]) ->
     return {
         **found.as_dict(),
         "records": [
-            {
-                "drop": record.drop,
-                "name": record.name,
-                "samples": len(record.times),
-                "scatter": record.scatter,
-            }
+            {name: getattr(record, name) for name in _OF_RECORD} | {"samples": len(record.times)}
             for record in found.records
         ],
         "intervals": intervals and {name: ends._asdict() for name, ends in intervals.items()},
@@ -129,3 +126,23 @@ def _tabulate_residuals(found: Fit) -> Table:
         numbers = [factor * value for value in (row.measured, row.error, row.fitted)]
         table.add_row(row.label, *rounded(numbers, factor * row.error), f"{row.pull:+.2f}", unit)
     return table
+
+
+def print_comparison(console: Console, done: Comparison, speed: float) -> None:
+    """Print a comparison of models that were calibrated at a speed in m/s."""
+    name = _CRITERIA[done.criterion]
+    other = "bic" if done.criterion == "aicc" else "aicc"
+    shorter = {"probability": "p", "degrees_of_freedom": "degrees", "parameters": "numbers"}
+    console.print(table_of(done.table.drop(columns=other).rename(columns=shorter)))
+    console.print(
+        "\nEach model has the same contacts in all drops. The search began with contacts that last "
+        f"as long as yours at {number(speed)} m/s, the geometric mean of the impact speeds. "
+        "p is the probability of a larger chi squared if the model is right. "
+        f"{name} is chi squared plus a penalty for each fitted number: 10 above the best is "
+        "hopeless."
+    )
+    for remark in done.remarks:
+        console.print(remark)
+    first = done.scores[0].model
+    for note in done[first].notes:
+        console.print(f"Note on {first}: {note}.")

@@ -30,7 +30,7 @@ def run(
 
     what = what or []
     output.check_picture(plot, overwrite)
-    output.check_scenario(save, overwrite, what)
+    output.check_file(save, overwrite, "--save", (".toml",), what)
     within, fall = given["within"], {name: given[name] for name in ("height", "speed", "contact")}
     chosen: dict[str, Any] = {"masses": _limits(within) if within else given["masses"]}
     if given["gap"]:

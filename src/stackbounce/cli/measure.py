@@ -31,7 +31,7 @@ def run(
 
     files = files or []
     output.check_picture(plot, overwrite)
-    output.check_scenario(save, overwrite)
+    output.check_file(save, overwrite, "--save", (".toml",))
     count = len(files) + (given["heights"] is not None)
     if plot is not None and count != 1:
         raise InvalidValue(f"--plot draws one file or --heights, got {count}")

@@ -80,25 +80,20 @@ def _read() -> dict[str, Any]:
     return table
 
 
-def _balls(incomplete: str) -> list[str]:
-    """Return the balls of the catalogue that begin so."""
+def _balls() -> list[str]:
+    """Return the balls of the catalogue as they are typed."""
     from stackbounce.model.catalogue import BALLS, CLASS_BALLS
 
-    names = [str(entry.ball.name).replace(" ", "-") for entry in (*BALLS, *CLASS_BALLS)]
-    return [name for name in names if name.startswith(incomplete)]
+    return [str(entry.ball.name).replace(" ", "-") for entry in (*BALLS, *CLASS_BALLS)]
 
 
-def _laws(incomplete: str) -> list[str]:
-    """Return the contact laws that begin so."""
-    return [name for name in LAWS if name.startswith(incomplete)]
-
-
-def _datasets(incomplete: str) -> list[str]:
-    """Return the published measurements that begin so."""
+def _datasets() -> Sequence[str]:
+    """Return the published measurements."""
     from stackbounce.datasets import names
 
-    return [name for name in names() if name.startswith(incomplete)]
+    return names()
 
 
-_COMPLETED = {"balls": _balls, "laws": _laws, "datasets": _datasets}
+_COMPLETED = {"balls": _balls, "laws": lambda: list(LAWS), "datasets": _datasets}
+"""What the shell completes from; typer chooses what begins as typed."""
 _TABLE = _read()

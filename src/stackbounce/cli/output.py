@@ -3,7 +3,6 @@
 import contextlib
 import functools
 import sys
-import time
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -46,11 +45,6 @@ def check_picture(path: Path | None, overwrite: bool, option: str = "--plot") ->
     check_file(path, overwrite, option, SUFFIXES)
     if path is not None:
         need(option, "matplotlib")
-
-
-def check_scenario(path: Path | None, overwrite: bool, read: Sequence[str] = ()) -> None:
-    """Refuse a path of --save; see `check_file`."""
-    check_file(path, overwrite, "--save", (".toml",), read)
 
 
 def check_file(
@@ -104,25 +98,16 @@ def console() -> "Console":
 
 @contextlib.contextmanager
 def progress_bar(what: str) -> Iterator[Any]:
-    """Show a progress bar on stderr, if that is a terminal, from the first second's end on."""
+    """Show a progress bar on stderr, if that is a terminal, until all is done."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
-    console, begun = Console(stderr=True), time.monotonic()
+    console = Console(stderr=True)
     columns = ("{task.description}", BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    bar = Progress(*columns, console=console, disable=not console.is_terminal)
-    task = bar.add_task(what, total=None)
-
-    def update(done: int, total: int) -> None:
-        bar.update(task, completed=done, total=total)
-        if time.monotonic() > begun + 1.0:
-            bar.start()
-
-    try:
-        yield update
-    finally:
-        if bar.live.is_started:
-            bar.stop()
+    off = not console.is_terminal
+    with Progress(*columns, console=console, disable=off, transient=True) as bar:
+        task = bar.add_task(what, total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)
 
 
 def print_json(value: object) -> None:

@@ -10,7 +10,6 @@ from stackbounce.cli.tables import number, percent, write_count
 from stackbounce.model import Tabulated
 from stackbounce.model.catalogue import DEFAULT_HEIGHT
 from stackbounce.model.drawing import label, meeting
-from stackbounce.model.laws import ContactLaw
 from stackbounce.prediction import Prediction
 from stackbounce.run.result import Result, Status
 
@@ -27,18 +26,6 @@ def incidence(scenario: Scenario) -> str:
     return f"{names} {text}"
 
 
-def law_text(law: ContactLaw | None) -> str:
-    """Return a contact law in words.
-
-    Examples
-    --------
-    >>> from stackbounce.model import Spring
-    >>> law_text(Spring(2500))
-    'Spring, stiffness 2500 N/m'
-    """
-    return "none" if law is None else law.described()
-
-
 def print_simulation(
     console: Console,
     scenario: Scenario,
@@ -53,9 +40,9 @@ def print_simulation(
     drop = scenario.drop
     console.print(incidence(scenario), style="bold")
     for i, source in enumerate(scenario.contact_sources):
-        console.print(
-            f"  contact {i}, {meeting(drop.balls, i)}: {law_text(drop.contacts[i])}  [{source}]"
-        )
+        law = drop.contacts[i]
+        words = "none" if law is None else law.described()
+        console.print(f"  contact {i}, {meeting(drop.balls, i)}: {words}  [{source}]")
     for i, source in enumerate(scenario.gap_sources):
         gap = f"{drop.gaps[i] * 1e3:.6g} mm"
         console.print(f"  gap {i}, {meeting(drop.balls, i + 1)}: {gap}  [{source}]")
@@ -80,9 +67,10 @@ def _closing(console: Console, result: Result, textbook: Result | None) -> None:
     if textbook is not None:
         values = [law.restitution for law in textbook.drop.contacts if law is not None]
         listed = ", ".join(f"{value:.4g}" for value in values)
+        counts = [write_count(count) for count in textbook.collisions]
         console.print(
             "Separate: the textbook's collisions one after the other, restitution "
-            f"{listed} from the floor up: {_counts(textbook)}, "
+            f"{listed} from the floor up: {' + '.join(counts)} collision{'s' * (counts != ['1'])}, "
             f"energy retained {percent(textbook.energy_retained)}"
         )
     _conditioning(console, result)
@@ -119,8 +107,3 @@ def _conditioning(console: Console, result: Result) -> None:
             f"Chaotic: no digit of the speeds is known after {number(result.known_until)} s, where "
             f"an error of {result.precision:.0e} of the numbers has grown to one of the speeds."
         )
-
-
-def _counts(result: Result) -> str:
-    counts = [write_count(count) for count in result.collisions]
-    return f"{' + '.join(counts)} collision{'' if counts == ['1'] else 's'}"

@@ -90,9 +90,7 @@ def table_of(frame: "pd.DataFrame", title: str | None = None) -> Table:
 
 def table_of_rows(rows: Sequence[Any]) -> Table:
     """Return the table of results that have a name, a value, maybe with an error, and a unit."""
-    table = Table("", box=box.SIMPLE_HEAD)
-    for heading in ("value", "error"):
-        table.add_column(heading, justify="right")
+    table = new_table(None, [""], ("value", "error"))
     table.add_column("unit")
     for row in rows:
         table.add_row(row.name, *_value_and_error(row.value), row.unit)

@@ -18,7 +18,6 @@ from stackbounce.cross2007 import (
     tables,
 )
 from stackbounce.cross2007.bench import CLAIMS, PAPER, Bench, Data
-from stackbounce.cross2007.cases import link_figures
 from stackbounce.cross2007.checks import AGREES, DIFFERS, WITHIN_ERROR, Row, last_place, run_check
 from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.cross2007.style import Picture, data_of, render, use_style
@@ -258,8 +257,7 @@ def write(
     progress : callable, optional
         Receives a line of text for each step.
     explorer : str, optional
-        The address of the explorer from the page. The page then has a way back to it, and links
-        that play the drops of the figures. By default there are none: the page needs no server.
+        The address of the explorer from the page, which then has a way back to it.
 
     Returns
     -------
@@ -332,7 +330,6 @@ def _page(
         version=__version__,
         total=len(done.rows),
         explorer=explorer,
-        links=link_figures(explorer) if explorer else {},
     )
 
 

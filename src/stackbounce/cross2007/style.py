@@ -78,13 +78,12 @@ class Picture(Shown):
         """The words of the figure, and the table."""
         return f"Figure {self.name}: {self.title}\n{self.caption}\n{super().__repr__()}"
 
-    def _repr_html_(self) -> str:
-        """The figure with its words, for a notebook."""
+    def _drawing(self) -> str:
+        """The figure with its words."""
         title = escape(f"Figure {self.name}: {self.title}")
         source = data_uri(render(self.picture, "svg")["svg"])
         image = f'<img src="{source}" alt="{title}" style="background: #fff">'
-        words = f"<p><b>{title}.</b> {escape(self.caption)}</p>"
-        return f"{image}{words}{super()._repr_html_()}"
+        return f"{image}<p><b>{title}.</b> {escape(self.caption)}</p>"
 
 
 def describe(name: str, figure: "Figure", **numbers: object) -> Picture:

@@ -3,17 +3,17 @@
 The paper's errors are propagated by `uncertainties`.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from html import escape
 from math import pi, sqrt
 from typing import TYPE_CHECKING
 
+from stackbounce import shown
 from stackbounce.cross2007.bench import CLAIMS, Bench
 from stackbounce.cross2007.checks import Compute
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.cross2007.stacks import heavier_b1, hollow_pair
 from stackbounce.measure.constants import dynamic_stiffness
-from stackbounce.shown import Shown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -108,7 +108,7 @@ READINGS: dict[str, tuple[Compute, ...]] = {
 
 
 @dataclass(frozen=True, repr=False)
-class Table(Shown):
+class Table(shown.Shown):
     """A recomputed table as text: its number, title, column heads, rows and notes."""
 
     name: str
@@ -124,13 +124,8 @@ class Table(Shown):
 
         return pd.DataFrame(list(self.rows), columns=list(self.head)).set_index(self.head[0])
 
-    def __repr__(self) -> str:
-        """The table with its title and its notes."""
-        return f"Table {self.name}: {self.title}\n{super().__repr__()}"
-
-    def _repr_html_(self) -> str:
-        """The table with its title and its notes, for a notebook."""
-        return f"<p><b>Table {self.name}: {escape(self.title)}</b></p>{super()._repr_html_()}"
+    def _tables(self) -> Sequence[shown.Table]:
+        return (shown.Table(f"Table {self.name}: {self.title}", self.head, self.rows),)
 
 
 def make_table_one(bench: Bench) -> Table:

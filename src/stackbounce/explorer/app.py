@@ -15,7 +15,7 @@ from pydantic import Json
 from stackbounce.errors import StackbounceError
 from stackbounce.explorer import schema
 from stackbounce.explorer.addresses import Place
-from stackbounce.explorer.answers import play, records
+from stackbounce.explorer.answers import predictions, records
 from stackbounce.explorer.guard import add_guard
 from stackbounce.explorer.limits import Limits
 from stackbounce.explorer.made import KINDS, made_file
@@ -111,17 +111,11 @@ def _add_jobs(app: FastAPI, workers: Workers, seconds: float) -> None:
     async def compute(answer: Callable[..., str], *arguments: Any) -> Response:
         return _json(await workers.run(answer, *arguments, seconds=seconds))
 
-    @app.post("/api/simulate")
-    async def play_drop(request: Request, asked: schema.Play) -> Response:
-        """Drop a stack of balls; return its motion at each moment."""
-        async with turn(request):
-            return await compute(play.play_drop, asked.drop, asked.until, asked.frames)
-
     @app.post("/api/predict")
     async def predict_drop(request: Request, asked: schema.Uncertain) -> Response:
         """Carry the errors of a drop's numbers forward; return numbers and curves with errors."""
         async with turn(request):
-            return await compute(play.predict_drop, asked.drop, asked.errors, asked.until)
+            return await compute(predictions.predict_drop, asked.drop, asked.errors, asked.until)
 
     @app.post("/api/measure")
     async def measure_record(

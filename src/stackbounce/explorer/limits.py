@@ -11,8 +11,6 @@ class Limits:
     ----------
     balls : int
         Balls of a drop.
-    frames : int
-        Sample times of a drop.
     events : int
         Events of a run; then it stops with the status EVENT_LIMIT.
     duration : float
@@ -45,7 +43,6 @@ class Limits:
     """
 
     balls: int = 6
-    frames: int = 3000
     events: int = 20_000
     duration: float = 60.0
     map_points: int = 40_000

@@ -30,7 +30,7 @@ class ExplorerFrame:
         return f"<the explorer{balls}: a notebook shows it as the last line of a cell>"
 
     def _repr_html_(self) -> str:
-        state = "" if self.drop is None else explorer_address("", self.drop, {})
+        state = "" if self.drop is None else explorer_address(self.drop, {})
         return (
             f'<iframe title="stackbounce: the explorer" name="{html.escape(state)}" '
             f'style="width: 100%; height: {self.height}px; border: 0" '

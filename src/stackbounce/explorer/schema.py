@@ -83,28 +83,13 @@ def describe_error(error: Any) -> str:
     return f"{where}: {words}{got}"
 
 
-class Request(BaseModel):
-    """The body of a request: a JSON object without unknown keys."""
+class Uncertain(BaseModel):
+    """A drop, the end of its run, and errors by path: SI numbers, or texts with a unit."""
 
     model_config = ConfigDict(extra="forbid")
 
-
-class _Run(Request):
-    """A drop, and the end of its run."""
-
     drop: Scenario
     until: Annotated[float, Field(gt=0.0, le=LIMITS.duration)] | None = None
-
-
-class Play(_Run):
-    """A drop to simulate."""
-
-    frames: Annotated[int, Field(ge=2, le=LIMITS.frames)] = 1200
-
-
-class Uncertain(_Run):
-    """A drop, and the errors of some of its numbers by path: SI numbers, or texts with a unit."""
-
     errors: Annotated[dict[_Name, _Finite | _Name], Field(min_length=1, max_length=LIMITS.varied)]
 
 

@@ -46,12 +46,9 @@ def _prepare(most_bytes: int) -> None:
         resource.setrlimit(resource.RLIMIT_DATA, (most, hard))
 
     from stackbounce.cross2007.cases import list_cases
-    from stackbounce.explorer.answers.play import play_drop
-    from stackbounce.run.driver import simulate
+    from stackbounce.explorer.answers.predictions import run_drop
 
-    drop = next(list_cases()).drop
-    play_drop(drop, until=None, frames=2)  # imports what the first run needs
-    simulate(drop).sample([0.0])  # the first Dataset imports more
+    run_drop(next(list_cases()).drop, None).sample([0.0])  # imports what the first run needs
     for name in _MODULES:
         importlib.import_module(name)
 

@@ -1,6 +1,5 @@
 """A paragraph for the methods section of a paper that used a fit, and what it cites, as BibTeX."""
 
-from collections.abc import Iterable
 from typing import Any
 
 from stackbounce.errors import counted
@@ -46,17 +45,16 @@ def cite(found: Fit | Comparison | SeriesFit) -> str:
         series = [compared.series for compared in found.comparisons]
         numbers = sum(own.values.size for own in series)
         data = f"{numbers} restitutions of {counted(len(series), 'ball')}"
-        names = [law for own in found.comparisons for row in own.outcomes for law in row.laws]
-        laws: Iterable[Any] = [LAWS[name] for name in dict.fromkeys(names)]
+        rows = [row for own in found.comparisons for row in own.outcomes]
+        laws: set[Any] = {LAWS[name] for row in rows for name in row.laws}
         result = "The goodness of each is told by chi squared and its probability p."
     else:
         fits = found.fits if isinstance(found, Comparison) else {"": found}
         one = next(iter(fits.values()))
         drops = one.objective.measured
         data = f"{counted(one.objective.size, 'number')} of {counted(len(drops), 'drop')}"
-        laws = [
-            law for own in fits.values() for drop in own.drops.values() for law in drop.contacts
-        ]
+        stacks = [drop for own in fits.values() for drop in own.drops.values()]
+        laws = {type(law) for drop in stacks for law in drop.contacts if law is not None}
         if isinstance(found, Comparison):
             result = f"The models are compared by {found.criterion.upper()}."
         else:
@@ -64,12 +62,9 @@ def cite(found: Fit | Comparison | SeriesFit) -> str:
                 f"{name} = {found[name]:.1uS} {unit}".rstrip() for name, unit in found.units.items()
             )
             result = f"Best values: {varied}. {found.remarks[0]}"
-    sources: Any = {
-        (law if isinstance(law, type) else type(law)) for law in laws if law is not None
-    }
     listed = "; ".join(
         f"{law.__name__}, {law.formula} ({law.source})"
-        for law in sorted(sources, key=lambda law: law.__name__)
+        for law in sorted(laws, key=lambda law: law.__name__)
     )
     return (
         f"Contact laws were fitted to {data} by weighted least squares with stackbounce "

@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
-from stackbounce.fitting.covariance import OPEN
-from stackbounce.fitting.least_squares import find_minima
 from stackbounce.fitting.problem import FitProblem, TooFewData
 from stackbounce.fitting.result import Fit
 from stackbounce.run.quantities import Array
@@ -21,8 +19,6 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-_DRAWS = 256  # of the parameters, for the spread of a prediction
-_FOLLOWED = 3  # descents of a fit to part of the data, besides that from the best with all
 _ALIKE = 0.01  # errors: models whose best fits differ by less in all data are one
 _DIGITS = 6  # of a criterion, after the point: smaller differences are round-off of the search
 
@@ -48,22 +44,6 @@ class Score(NamedTuple):
     def title(self) -> str:
         """The names of all its models, a line each."""
         return "\n= ".join([self.model, *self.same_as])
-
-
-class Prediction(NamedTuple):
-    """A number that was left out of a fit, beside what the fit to the other data predicts."""
-
-    drop: str
-    name: str
-    measured: float
-    error: float
-    predicted: float
-    predicted_error: float
-
-    @property
-    def pull(self) -> float:
-        """Predicted less measured, in units of their combined error."""
-        return (self.predicted - self.measured) / math.hypot(self.error, self.predicted_error)
 
 
 _SHORT = {"chi_squared": "χ²", "degrees_of_freedom": "degrees", "probability": "p"}
@@ -174,34 +154,6 @@ class Comparison(Shown):
         where = {"model": list(names), "datum": data}
         return xr.DataArray(table, where, ("model", "datum"), attrs={"stackbounce": __version__})
 
-    @functools.cached_property
-    def left_out(self) -> dict[str, list[Prediction]]:
-        """What each model predicts for each drop from all others; with one drop, for each datum.
-
-        The error of a prediction comes from the uncertainty of the parameters. Those that only the
-        drop itself determines follow their priors, or lie anywhere between their bounds.
-        """
-        return {name: _predictions(found) for name, found in self.fits.items()}
-
-    def predictive(self, name: str) -> float:
-        """Return the log predictive density of what was left out, relative to an exact prediction.
-
-        Parameters
-        ----------
-        name : str
-            The model.
-
-        Returns
-        -------
-        float
-            More is better.
-        """
-        return sum(
-            -0.5 * prediction.pull**2
-            - math.log(math.hypot(prediction.error, prediction.predicted_error) / prediction.error)
-            for prediction in self.left_out[name]
-        )
-
     def as_dict(self) -> dict[str, Any]:
         """Return the comparison as plain values, for JSON."""
         return {
@@ -228,8 +180,8 @@ def compare(models: Mapping[str, FitProblem], data: Any, **options: Any) -> Comp
     -------
     Comparison
         `scores` (chi squared, AICc, BIC; models that the data do not tell apart share a row),
-        `pulls` per datum, `left_out` predictions, and each model's `Fit`. A model with more numbers
-        than data is listed in `refused`.
+        `pulls` per datum, and each model's `Fit`. A model with more numbers than data is listed in
+        `refused`.
 
     Raises
     ------
@@ -269,44 +221,3 @@ def compare(models: Mapping[str, FitProblem], data: Any, **options: Any) -> Comp
 def _agree(residuals: Array, others: Array) -> bool:
     """Return whether two models differ by a small part of the errors only."""
     return residuals.shape == others.shape and bool(np.max(np.abs(residuals - others)) < _ALIKE)
-
-
-def _predictions(found: Fit) -> list[Prediction]:
-    """Return what a model predicts for each drop or datum when that is left out of the fit."""
-    objective = found.objective
-    several = len(objective.drops) > 1
-    parts = [
-        (key, None if several else datum.name)
-        for key, measured in objective.measured.items()
-        for datum in (measured.data[:1] if several else measured.data)
-    ]
-    rows: list[Prediction] = []
-    for key, name in parts:
-        rest = objective.without(key, name)
-        minima = find_minima(rest, found.x[None], follow=_FOLLOWED) if rest.size else found.minima
-        numbers = objective.predict(key, _draws(Fit(rest, minima)))
-        for datum, drawn in zip(objective.measured[key].data, numbers.T, strict=True):
-            if name in (None, datum.name):
-                there = drawn[np.isfinite(drawn)]
-                mean = float(np.mean(there)) if len(there) else math.nan
-                spread = float(np.std(there)) if len(there) else math.nan
-                rows.append(Prediction(key, datum.name, datum.value, datum.error, mean, spread))
-    return rows
-
-
-def _draws(found: Fit) -> Array:
-    """Return (n, parameters) trials drawn from the normal distribution around the best trial.
-
-    An undetermined direction is drawn from a uniform distribution between the bounds.
-    """
-    random = np.random.default_rng(0)
-    low, widths = found.objective.spans[:, 0], found.objective.widths
-    sizes, directions = found.directions
-    known = sizes > OPEN
-    middle = (found.x - low) / widths
-    along = directions @ middle
-    along = np.where(known, along, directions @ np.full(len(widths), 0.5))
-    normal = random.standard_normal((_DRAWS, len(widths))) / np.maximum(sizes, 1.0)
-    anywhere = random.uniform(-0.5, 0.5, (_DRAWS, len(widths)))
-    places = (along + np.where(known, normal, anywhere)) @ directions
-    return np.asarray(low + np.clip(places, 0.0, 1.0) * widths)

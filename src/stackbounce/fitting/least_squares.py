@@ -44,11 +44,7 @@ class Minimum(NamedTuple):
 
 
 def find_minima(
-    objective: Objective,
-    first: Array,
-    count: int | None = None,
-    seed: int = 0,
-    follow: int | None = None,
+    objective: Objective, first: Array, count: int | None = None, seed: int = 0
 ) -> list[Minimum]:
     """Return the minima of chi squared, the best first, each once.
 
@@ -64,8 +60,6 @@ def find_minima(
         The number of screened trials.
     seed : int, optional
         The seed of their places.
-    follow : int, optional
-        The number of screened trials from which descents start.
 
     Returns
     -------
@@ -83,8 +77,7 @@ def find_minima(
     9.8696
     """
     trials = spread_trials(objective, count, seed)
-    if follow is None:
-        follow = _FOLLOWED_RECORDS if objective.records else _FOLLOWED
+    follow = _FOLLOWED_RECORDS if objective.records else _FOLLOWED
     screened = trials[np.argsort(objective.chi_squared(trials), kind="stable")]
     chosen = _apart(objective, list(first), screened, _APART, follow)
     rough = sorted((_descend_smooth(objective, x, None, _ROUGH) for x in chosen), key=_chi_squared)

@@ -224,15 +224,6 @@ class Objective:
         places = np.split(where, ends)
         return [forces[wave.index, at] for wave, at in zip(waves, places, strict=True)]
 
-    def without(self, key: str, name: str | None) -> "Objective":
-        """Return the objective without the data of a drop, or without one datum of it."""
-        measured = dict(self.measured)
-        own = measured.pop(key)
-        if name is not None:
-            left = tuple(datum for datum in own.data if datum.name != name)
-            measured[key] = replace(own, data=left)
-        return replace(self, measured=measured)
-
     def residuals(self, x: Array) -> Array:
         """Return the residuals (n, size) of trials (n, parameters), in standard errors.
 

@@ -6,9 +6,9 @@ from typing import Any
 
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.fitting.files import Parts, convert_measured
+from stackbounce.fitting.parameters import list_paths
 from stackbounce.fitting.problem import FitProblem
 from stackbounce.fitting.tables import read_drops
-from stackbounce.run.paths import numbers_of
 from stackbounce.run.quantities import QUANTITIES
 
 
@@ -77,10 +77,9 @@ def build_problem(
     varied = parts.vary | dict(_pairs(vary, "--vary", "PATH=BOUNDS", alone=True))
     tied = parts.tie | dict(_pairs(tie, "--tie", "PATH=FORMULA"))
     if not varied:
-        paths = dict.fromkeys(path for drop in parts.drops.values() for path in numbers_of(drop))
         raise InvalidValue(
             "nothing is to vary: give --vary 'contacts.0.stiffness=1kN/m:1MN/m' or [vary] in the "
-            f"file; {nearest('', paths)}"
+            f"file; {nearest('', list_paths(parts.drops))}"
         )
     return FitProblem(parts.drops, found, varied, tied)
 

@@ -390,11 +390,8 @@ class Fit(Shown):
             (n, parts) each quantity by name, and its standard deviation, by the derivatives by the
             parameters.
         """
-        key, objective, count = (
-            drop or next(iter(self.objective.drops)),
-            self.objective,
-            len(values),
-        )
+        objective, count = self.objective, len(values)
+        key = drop or next(iter(objective.drops))
         trials = objective.neighbours(self.x)
         rows = {
             own: np.repeat(column, count) for own, column in objective.rows(key, trials).items()

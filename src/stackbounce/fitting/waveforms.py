@@ -64,15 +64,12 @@ class Waveform:
         """
         if not np.all(np.isfinite(predicted)):
             return np.full(len(predicted), np.nan)
-        columns = [np.ones_like(predicted)]
-        target = self.force
-        if self.scaled:
-            columns.append(predicted)
-        else:
-            target = target - predicted
-        basis = np.stack(columns, axis=1)
-        best, *_ = np.linalg.lstsq(basis, target, rcond=None)
-        return np.asarray((basis @ best - target) / self.error)
+        if not self.scaled:
+            left = self.force - predicted
+            return np.asarray((np.mean(left) - left) / self.error)
+        basis = np.stack([np.ones_like(predicted), predicted], axis=1)
+        best, *_ = np.linalg.lstsq(basis, self.force, rcond=None)
+        return np.asarray((basis @ best - self.force) / self.error)
 
     def curve(self, predicted: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the predicted force with the best baseline and scale, in the record's unit."""

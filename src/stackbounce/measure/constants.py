@@ -1,15 +1,14 @@
 """A contact time, or the results of files -> stiffness, a contact law, the ball to drop."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
-from stackbounce.errors import InvalidValue, between, fraction, positive, shown
+from stackbounce.errors import InvalidValue, finite, shown
 from stackbounce.measure.quantities import Number, Row, deviation, measured, propagate
 from stackbounce.model import Drop
-from stackbounce.model.laws import STEEPEST, ContactLaw, law_named
+from stackbounce.model.laws import ContactLaw, law_named
 from stackbounce.run.calibration import calibrate
 
 _BOUNDS = {"restitution": (0.0, 1.0), "exponent": (1.0, math.inf)}
@@ -159,7 +158,7 @@ def law_constants(
         "exponent": exponent,
     }
     sources: dict[str, Number] = {
-        name: measured(name, value, _UNITS.get(name, ""), _checks(kind, name))
+        name: measured(name, value, _UNITS.get(name, ""), finite)
         for name, value in given.items()
         if value is not None
     }
@@ -188,13 +187,6 @@ def _moving(mass: Any) -> Number:
         raise InvalidValue(f"mass must be a number or a pair of numbers, got {shown(mass)}")
     one, other = (measured(f"mass.{i}", mass[i], _UNITS["mass"]) for i in (0, 1))
     return one / (1.0 + one / other)
-
-
-def _checks(kind: object, name: str) -> Callable[..., float]:
-    """Return the function that checks the range of a number before `calibrate` is called."""
-    if name == "restitution":
-        return partial(fraction, zero=getattr(kind, "rigid", False))
-    return partial(between, low=1.0, high=STEEPEST) if name == "exponent" else positive
 
 
 def one_ball(parts: Sequence[Mapping[str, Any]], **ball: Any) -> Drop:

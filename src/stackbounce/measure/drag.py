@@ -143,13 +143,10 @@ class Drag:
         try:
             found = wrap(formula)(self.rate, *given)
         except ArithmeticError:
-            raise self._too_far() from None
-        if not nominal(found) < _MOST:
-            raise self._too_far()
-        return found
-
-    def _too_far(self) -> InvalidValue:
-        return InvalidValue(
+            found = math.inf
+        if nominal(found) < _MOST:
+            return found
+        raise InvalidValue(
             "mass, diameter and drag_coefficient must be those of a ball that can fly so far, got "
             f"{nominal(self.rate):.3g} 1/m of drag: its speed would be out of all range"
         )

@@ -70,7 +70,7 @@ def analyse(
     height : float or ufloat, optional
         From where the ball fell, in m: gives the restitution of the first bounce.
     speed : float or ufloat, optional
-        Impact speed in m/s: calibrates the impulse of a force waveform.
+        Impact speed in m/s of a force waveform, for the gap and the ball that is saved.
     height_error : float, optional
         Of each height in a table, in m.
     repeated : bool, optional

@@ -7,6 +7,7 @@ from typing import Any
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.measure.options import Option, options_for
 from stackbounce.measure.quantities import nominal, quantity_with_error, unit_of_both
+from stackbounce.measure.setup import places
 from stackbounce.model.laws import ContactLaw, law_named
 from stackbounce.units import quantity
 
@@ -87,13 +88,6 @@ def _lengths(text: str, option: Option, called: str) -> list[Any]:
     ]
 
 
-def _points(value: Any, _: Option, __: str) -> tuple[str, ...]:
-    """Return the points that the drop's height and the bounces' were measured to."""
-    from stackbounce.measure.setup import places
-
-    return places(value)
-
-
 def _law(value: Any, _: Option, called: str) -> type[ContactLaw]:
     """Return the law's class."""
     if isinstance(value, str) and "=" in value:
@@ -125,7 +119,7 @@ _READERS: dict[str, Callable[[Any, Option, str], Any]] = {
     "number": _number,
     "measured": _number,
     "lengths": _lengths,
-    "points": _points,
+    "points": lambda value, _, __: places(value),
     "law": _law,
     "columns": _columns,
 }

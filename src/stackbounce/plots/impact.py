@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 _BEFORE, _AFTER = 0.15, 0.35  # margins, over the duration of the impact
 _INSTANT = 0.010  # s: used as the duration of an instantaneous impact
 _SAMPLES = 1200
-_LABEL = 0.13  # height of a label in its axes
 
 
 def choose_window(result: Result) -> tuple[float, float]:
@@ -124,11 +123,10 @@ def _draw_positions(
 ) -> None:
     """Draw the position of each ball against time, extended to times before the first touch."""
     drop = result.drop
-    ends = []
     for b, (ball, path) in enumerate(zip(drop.balls, paths, strict=True)):
-        axes.plot(1e3 * times, 1e3 * path, color=color_of(b))
-        ends.append((1e3 * float(path[-1]), b, written(ball.name or f"ball {b}")))
-    _label_ends(axes, 1e3 * times[-1], ends, result.rebound_ratios)
+        name = f"{written(ball.name or f'ball {b}')}: {result.rebound_ratios[b]:.3g} v₀"
+        axes.plot(1e3 * times, 1e3 * path, color=color_of(b), label=name)
+    axes.legend(frameon=False, loc="best", reverse=True)
     axes.set_ylabel("position (mm)")
     axes.axhline(0.0, color="#808080", linewidth=0.8)
     axes.set_title(_summary(result), loc="left", fontsize=10)
@@ -144,26 +142,6 @@ def _draw_bands(
             axes.fill_between(
                 1e3 * after, factor * low, factor * high, color=color_of(k), alpha=0.3, linewidth=0
             )
-
-
-def _label_ends(
-    axes: "Axes", right: float, ends: list[tuple[float, int, str]], ratios: NDArray[np.float64]
-) -> None:
-    """Write each ball's name and rebound ratio at the end of its path, without overlaps."""
-    low, high = axes.get_ylim()
-    apart = _LABEL * (high - low)
-    place = -math.inf
-    for height, b, name in sorted(ends):
-        place = max(height, place + apart)
-        axes.annotate(
-            f"{name}\n{ratios[b]:.3g} v₀",
-            xy=(right, place),
-            xytext=(6, 0),
-            textcoords="offset points",
-            va="center",
-            color=color_of(b),
-            annotation_clip=False,
-        )
 
 
 def _draw_contacts(

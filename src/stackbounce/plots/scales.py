@@ -1,6 +1,5 @@
 """The axes of the plots of sweeps: positions, cell edges, units and ticks."""
 
-import math
 import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -91,9 +90,11 @@ def show_in_handy_unit(
         if most < 300.0 * least:
             axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         axis.set_minor_formatter(NullFormatter())
-    plain = not log or (least * factor >= 1e-3 and most * factor < 1e5)
-    if factor != 1.0 or (log and plain):
-        axis.set_major_formatter(FuncFormatter(lambda x, _: _tick(x * factor, plain)))
+        if least * factor < 1e-3 or most * factor >= 1e5:  # powers of ten, of the unit itself
+            return unit, 1.0
+    if log or factor != 1.0:
+        written = FuncFormatter(lambda x, _: f"{x * factor:.6g}".replace("-", "−"))
+        axis.set_major_formatter(written)
     return name, factor
 
 
@@ -107,14 +108,6 @@ def is_flat(values: NDArray[Any]) -> bool:
     """
     finite = values[np.isfinite(values)]
     return not finite.size or bool(np.ptp(finite) <= _ROUND_OFF * np.abs(finite).max())
-
-
-def _tick(value: float, plain: bool) -> str:
-    if plain or value <= 0.0:
-        return f"{value:.6g}".replace("-", "−")
-    power = math.floor(math.log10(value) + 1e-9)
-    first = round(value / 10.0**power)
-    return f"$10^{{{power}}}$" if first == 1 else f"${first}\\times10^{{{power}}}$"
 
 
 def _with_unit(name: str, unit: str) -> str:

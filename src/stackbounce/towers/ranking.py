@@ -272,9 +272,8 @@ def _stacks(
     found = []
     for stack in dict.fromkeys(chosen):
         names, own, floors = zip(*stack, strict=True)
-        found.append(
-            _Stack(names, Drop(own, join_contacts(names, floors), impact_speed=impact_speed))
-        )
+        drop = Drop(own, join_contacts(names, floors), impact_speed=impact_speed)
+        found.append(_Stack(names, drop))
     return found
 
 

@@ -4,8 +4,9 @@ import numpy as np
 from page_build.data import MAP_RTOL, WORDS
 
 import stackbounce as sb
-from stackbounce.errors import InvalidValue
-from stackbounce.explorer.answers.play import run_drop
+from stackbounce.errors import InvalidValue, StackbounceError
+from stackbounce.explorer.limits import LIMITS, RTOL
+from stackbounce.json_values import plain
 from stackbounce.model import law_named
 from stackbounce.plots.impact import choose_window, sample_with_approach
 from stackbounce.run.paths import drop_at, number_at, numbers_of
@@ -45,9 +46,66 @@ def stacked(balls, height):
     return {"drop": drop.to_mapping()} | sources
 
 
+def run(drop, until=None, events=LIMITS.events):
+    return sb.simulate(drop, until=until, rtol=RTOL, event_limit=events)
+
+
+def played(mapping, until, times, events=LIMITS.events):
+    """Return what there is to say of a drop, with its motion at some times."""
+    drop = sb.Drop.from_mapping(mapping)
+    result = run(drop, until, events)
+    ends = result.intervals["end"]
+    answer = {
+        "drop": drop.to_mapping(),
+        "reference_speed": drop.reference_speed,
+        **numbers(result),
+        "intervals": result.intervals,
+        "impact": [0.0, max(ends[np.isfinite(ends)], default=0.0)],
+        "frames": frames(result, times),
+        "separate": None if drop.rigid else separate(drop, until, times, events),
+    }
+    return plain(answer)
+
+
+def numbers(result):
+    speeds = result.rebound_speeds
+    heights = speeds * np.abs(speeds) / (2.0 * sb.model.STANDARD_GRAVITY)
+    found = result.to_mapping() | {"rebound_heights": heights}
+    del found["advice"]  # the page has words of its own
+    return found
+
+
+def frames(result, times):
+    """Return the motion and the energies of a drop, from before the first touch on."""
+    sample = sample_with_approach(result, times)
+    mass = np.array([ball.mass for ball in result.drop.balls])[:, None]
+    kinetic = 0.5 * mass * sample["velocity"] ** 2
+    potential = np.sum(mass * result.drop.gravity * sample["position"], axis=0)
+    total = sample["energy"]  # the same on the way down
+    stored = np.maximum(total - np.sum(kinetic, axis=0) - potential, 0.0)
+    energy = {"kinetic": kinetic, "stored": stored, "potential": potential, "total": total}
+    names = ("time", "position", "velocity", "force", "compression")
+    return {name: sample[name] for name in names} | {"energy": energy}
+
+
+def separate(drop, until, times, events):
+    """Return what separate collisions make of a drop; with the flights of a whole one."""
+    try:
+        textbook = sb.separate(drop)
+        if until is not None:
+            textbook = textbook.replace(gravity=drop.gravity)
+        result = run(textbook, until, events)
+        reached = result.end_time if result.status > sb.Status.COLLAPSED else np.inf
+        place = sample_with_approach(result, np.minimum(times, reached))["position"]
+    except StackbounceError as error:
+        return {"error": str(error)}
+    restitutions = [law and law.restitution for law in textbook.contacts]
+    return numbers(result) | {"restitutions": restitutions, "position": place}
+
+
 def table(drop):
     """Return the columns of a drop's table by their headings."""
-    result = run_drop(drop, None)
+    result = run(drop)
     times = np.linspace(*choose_window(result), SAMPLES)
     sample = sample_with_approach(result, times)
     columns = {"time (s)": times}

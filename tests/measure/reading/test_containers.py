@@ -229,7 +229,7 @@ def test_records_and_archives_of_arrays_have_names(read):
     (npy(np.zeros((9, 2))).replace(b"(9, 2), }" + 10 * b" ", b"(99999999999, 2), }"), "cannot"),
     (b"\x93NUMPY\x09\x00", "cannot be read"),
     (npy(np.zeros((9, 2))).replace(b"(9, 2), }", b"(9, 2), ("), "cannot be read"),
-    (npy(np.full((9, 2), np.nan)), "no column of numbers"),
+    (npy(np.full((9, 2), np.nan)), "no row of numbers"),
 ])  # fmt: skip
 def test_xml_and_arrays_that_are_refused(read, content, message, monkeypatch):
     monkeypatch.setattr("stackbounce.measure.reading.tables._XML", 4000)

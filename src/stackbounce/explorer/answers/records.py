@@ -1,15 +1,16 @@
 """Records: a file of measurements is analysed, and a drop is fitted to it."""
 
-import re
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, StackbounceError, a_or_an, nearest, shown
-from stackbounce.explorer.answers.play import run_drop
+from stackbounce.explorer.answers.predictions import run_drop
 from stackbounce.fitting import Fit, fit
+from stackbounce.fitting.files import convert_measured
 from stackbounce.fitting.series import fit_series
 from stackbounce.json_values import as_json
 from stackbounce.measure.finding import Branch
@@ -133,14 +134,13 @@ def fit_record(
     data: dict[str, Any] = {}
     record = None
     for what, value in quantities.items():
-        data[what] = value
         if what.startswith("force."):
             if not content:
                 raise InvalidValue(f"{what} needs a file with a force over time")
             record = record or _measure(name, content, options)
             data[what] = _find_channel(drop, what, value, record)
-        elif re.fullmatch(r"collisions\.\d+", what) and re.fullmatch(r"\s*[0-9]{1,9}\s*", value):
-            data[what] = int(value)
+        else:
+            data[what] = convert_measured(what, value, Path())
     done = fit(drop, data, list(vary))
     return as_json(
         {

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from stackbounce.errors import StackbounceError
-from stackbounce.fitting.series.family import Family, families, reason_to_skip
+from stackbounce.fitting.series.family import Family, reason_to_skip
 from stackbounce.fitting.series.series import Series
 from stackbounce.model.laws import LAWS
 from stackbounce.run.quantities import Array
@@ -215,7 +215,9 @@ def compare_laws(
     skipped: dict[str, str] = {}
     found: list[tuple[Array, Outcome]] = []
     curves: dict[str, Family] = {}
-    for name, family in families(series, laws):
+    speed = float(series.speeds.max())
+    for name in (name for name in LAWS if name in laws):
+        family = Family(LAWS[name], speed)
         reason = reason_to_skip(family, series)
         if reason:
             skipped[name] = reason

@@ -1,13 +1,12 @@
 """The laws of one class that a calibration gives: one for each value at one speed."""
 
-from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from stackbounce.errors import StackbounceError
 from stackbounce.fitting.series.series import Series
-from stackbounce.model.laws import LAWS, ContactLaw
+from stackbounce.model.laws import ContactLaw
 from stackbounce.run.calibration import calibrate
 from stackbounce.run.collision import restitution
 from stackbounce.run.quantities import Array
@@ -57,14 +56,6 @@ def restitutions(law: ContactLaw, speeds: Array) -> Array:
     if "impact_speed" not in law.loss_depends_on:
         return np.full(speeds.shape, restitution(law, _MASS, float(speeds[0])))
     return np.array([restitution(law, _MASS, float(speed)) for speed in speeds])
-
-
-def families(series: Series, laws: Collection[str] = LAWS) -> Iterator[tuple[str, Family]]:
-    """Yield the name and the family of some laws, calibrated at the series' highest speed."""
-    speed = float(series.speeds.max())
-    for name, law_class in LAWS.items():
-        if name in laws:
-            yield name, Family(law_class, speed)
 
 
 def reason_to_skip(family: Family, series: Series) -> str:

@@ -1,7 +1,5 @@
 """Tables and data sets beside the contact laws, and the page that says so."""
 
-import csv
-import io
 import json
 import re
 from collections.abc import Callable, Collection, Mapping, Sequence
@@ -242,16 +240,14 @@ def _law_as_dict(name: str, outcome: Outcome) -> dict[str, Any]:
 
 
 def _csv(done: SeriesFit) -> str:
+    import pandas as pd
+
     rows = [
         {"dataset": found["name"], "ball": found["ball"], **law}
         for found in done.as_dict()["series"]
         for law in found["laws"]
     ]
-    stream = io.StringIO()
-    writer = csv.DictWriter(stream, list(rows[0]) if rows else [], lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return stream.getvalue()
+    return str(pd.DataFrame(rows).to_csv(index=False, lineterminator="\n"))
 
 
 def _page(done: SeriesFit, figures: dict[str, bytes]) -> str:

@@ -302,9 +302,8 @@ def _read(data: "xr.Dataset", name: str) -> _Column:
         scatter = float(np.nansum((values - means[:, None]) ** 2)) / freedom / counts
         values = means
     errors = data[f"{name}_error"].values if f"{name}_error" in data else np.zeros(values.size)
-    return _Column(
-        values, np.asarray(errors) ** 2, scatter, freedom, variable.attrs.get("assumed_error", 0.0)
-    )
+    assumed = variable.attrs.get("assumed_error", 0.0)
+    return _Column(values, np.asarray(errors) ** 2, scatter, freedom, assumed)
 
 
 def _flights(drag: float, data: "xr.Dataset") -> _Measured:
@@ -315,9 +314,8 @@ def _flights(drag: float, data: "xr.Dataset") -> _Measured:
     variance worse: n of them as n / (1 + 2 r**2) others, with the correlation r of neighbours.
     """
     leaving, landing = _speeds_of_flight(drag, data.flight_time.values)
-    after = (
-        np.flatnonzero(np.diff(data.flight.values) == 1) + 1
-    )  # whose flight follows that of the row above
+    # the rows whose flight follows that of the row above
+    after = np.flatnonzero(np.diff(data.flight.values) == 1) + 1
     ratios = leaving[after] / landing[after - 1]
     values = ratios.mean(axis=1)
     apart = ratios - values[:, None]

@@ -171,21 +171,14 @@ def _dataset(
 
 def _repeated(readings: "pd.DataFrame") -> "pd.DataFrame | None":
     """Return a row for each height and bounce with all readings, padded; None if none repeats."""
-    import pandas as pd
-
-    alike = readings.start.map(lambda start: float(f"{start:.{_SAME}g}"))
-    found = readings.groupby([alike, "number"], sort=True)
-    most = int(found.size().max())
-    if most < 2:
+    alike = ["drop", "number"]
+    own = readings.assign(drop=readings.start.map(lambda start: float(f"{start:.{_SAME}g}")))
+    each = own.groupby(alike)
+    read = own.assign(turn=each.cumcount()).pivot(index=alike, columns="turn", values="value")
+    if len(read.columns) < 2:
         return None
-    rows = []
-    for (same, number), own in found:
-        read = [*own.value, *[math.nan] * (most - len(own))]
-        rows.append(
-            {"start": own.start.mean(), "drop": same, "number": number, "values_read": read}
-            | {"start_error": own.start_error.mean()}
-        )
-    return pd.DataFrame(rows)
+    found = each[["start", "start_error"]].mean().reset_index()
+    return found.assign(values_read=read.to_numpy().tolist())
 
 
 def _pooled(merged: "pd.DataFrame") -> float:
@@ -205,17 +198,12 @@ def _said_of_scatter(readings: "pd.DataFrame", values: Array, scatter: float, me
         f"The error of one {what}{of} is the scatter of repeated readings, "
         f"{with_unit(scatter, unit)}, with {counted(freedom, 'degree of freedom')}."
     )
-    apart = np.abs(values - np.nanmedian(values, axis=1, keepdims=True))
-    counts = np.isfinite(values).sum(axis=1, keepdims=True)
-    usual = (
-        _ROBUST * float(np.nanmedian(np.where(counts > 2, apart, math.nan)))
-        if (counts > 2).any()
-        else 0.0
-    )
-    for row, column in zip(*np.nonzero((apart > _FAR * usual) & (counts > 2)), strict=True):
-        if usual > 0.0:
-            line = readings.line[np.isclose(readings.value, values[row, column], rtol=1e-12)].iloc[
-                0
-            ]
-            said += f" Row {line} is far from the other readings of its height: it is kept."
+    several = values[np.isfinite(values).sum(axis=1) > 2]
+    if not len(several):
+        return said
+    apart = np.abs(several - np.nanmedian(several, axis=1, keepdims=True))
+    usual = _ROBUST * float(np.nanmedian(apart))
+    for value in several[apart > _FAR * usual] if usual > 0.0 else ():
+        line = readings.line[np.isclose(readings.value, value, rtol=1e-12)].iloc[0]
+        said += f" Row {line} is far from the other readings of its height: it is kept."
     return said

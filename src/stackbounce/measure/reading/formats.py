@@ -10,13 +10,11 @@ from collections.abc import Sequence
 
 from stackbounce.errors import FileError
 from stackbounce.measure.reading.layouts import (
-    LAYOUTS,
     Layout,
     columns_of,
     first_row,
     general,
     keys_above,
-    layout,
     line_of,
     told,
 )
@@ -37,7 +35,6 @@ _NUMBERED = re.compile(r"([xy]) ?([0-9]{1,3})")
 _SPOT = ("TRACK_ID", "FRAME", "POSITION_X", "POSITION_Y", "POSITION_T")
 
 
-@layout
 def audacity(text: Text) -> Layout | None:
     """Recognise labels of Audacity: start and end in s to six digits, then a text; no header."""
     for line in filter(None, text.lines):
@@ -50,7 +47,6 @@ def audacity(text: Text) -> Layout | None:
     return Layout("Audacity: labels", why, starts, 0)
 
 
-@layout
 def labview(text: Text) -> Layout | None:
     """Recognise LabVIEW: two headers of keys and values, then ``X_Value`` beside the channels."""
     if not text.head[0] or text.head[0][0] != "LabVIEW Measurement":
@@ -77,7 +73,6 @@ def labview(text: Text) -> Layout | None:
     return Layout("LabVIEW", why, (time, *channels), first, clock=clock)
 
 
-@layout
 def logger_pro(text: Text) -> Layout | None:
     """Recognise Logger Pro: names, short names and units stand on separate lines."""
     if not text.lines[0].startswith("Vernier Format"):
@@ -104,7 +99,6 @@ def _traces(names: Sequence[str], units: Sequence[str], first: int = 0) -> tuple
     )
 
 
-@layout
 def gwinstek(text: Text) -> Layout | None:
     """Recognise GW Instek: keys and values, ``Waveform Data``, then pairs of time and voltage."""
     keys = keys_above(text, len(text.head))
@@ -124,7 +118,6 @@ def gwinstek(text: Text) -> Layout | None:
     return Layout("GW Instek oscilloscope", why, _traces(names, units), first)
 
 
-@layout
 def lecroy(text: Text) -> Layout | None:
     """Recognise LeCroy: its name, segments, then ``Time,Ampl`` over seconds and volts."""
     k = line_of(text, "Time")
@@ -135,7 +128,6 @@ def lecroy(text: Text) -> Layout | None:
     return Layout("LeCroy oscilloscope", why, columns, first_row(text, k + 1))
 
 
-@layout
 def rigol(text: Text) -> Layout | None:
     """Recognise Rigol: ``X,CH1,…,Start,Increment``, or without X, over units and two numbers.
 
@@ -161,7 +153,6 @@ def rigol(text: Text) -> Layout | None:
     return Layout("Rigol oscilloscope", why, columns, first_row(text, 2), clock=clock)
 
 
-@layout
 def siglent(text: Text) -> Layout | None:
     """Recognise Siglent: ``Source,CH1`` over ``Second,Volt``, below or beside keys and values."""
     for k, row in enumerate(text.head[1:40], 1):
@@ -177,7 +168,6 @@ def siglent(text: Text) -> Layout | None:
     return Layout("Siglent oscilloscope", why, columns, first_row(text, k + 1, [at, at + 1]))
 
 
-@layout
 def tektronix_mdo(text: Text) -> Layout | None:
     """Recognise Tektronix MDO: lines of keys and values, then ``TIME,CH2``."""
     k = line_of(text, "TIME")
@@ -192,7 +182,6 @@ def tektronix_mdo(text: Text) -> Layout | None:
     return Layout("Tektronix MDO oscilloscope", why, columns, first_row(text, k + 1))
 
 
-@layout
 def tektronix_tds(text: Text) -> Layout | None:
     """Recognise Tektronix TDS2000: keys and values in columns A and B, s and V in D and E."""
     keys = {row[0]: row[1] for row in text.head if len(row) > 4 and row[0]}
@@ -209,7 +198,6 @@ def tektronix_tds(text: Text) -> Layout | None:
     return Layout("Tektronix TDS2000 oscilloscope", why, columns, 0)
 
 
-@layout
 def phyphox(text: Text) -> Layout | None:
     """Recognise the (in)elastic collision of phyphox; its one row may be all that is there."""
     header = text.head[0]
@@ -226,7 +214,6 @@ def phyphox(text: Text) -> Layout | None:
     return Layout("phyphox: (in)elastic collision", why, knocks, first, holds="knocks")
 
 
-@layout
 def sensor_logger(text: Text) -> Layout | None:
     """Recognise Sensor Logger: ``time`` since 1970, ``seconds_elapsed``, and the axes."""
     names = text.head[0]
@@ -251,7 +238,6 @@ def sensor_logger(text: Text) -> Layout | None:
     return Layout(f"Sensor Logger: {what}", why, tuple(columns), first, (doubt,))
 
 
-@layout
 def mtrack2(text: Text) -> Layout | None:
     """Recognise MTrack2: ``Frame, X1, Y1, Flag1, X2 …``, often over ``Tracks 1 to 6``."""
     names = [cell.casefold() for cell in text.head[0]]
@@ -280,7 +266,6 @@ def _closed_up(text: Text, first: int, width: int) -> bool:
     return 2 * numbers > len(flags)
 
 
-@layout
 def results(text: Text) -> Layout | None:
     """Recognise a results table of ImageJ, or of its manual tracking: X and Y, by slice or row."""
     names = [cell.casefold() for cell in text.head[0]]
@@ -297,7 +282,6 @@ def results(text: Text) -> Layout | None:
     return Layout("ImageJ", why, (*others, *found), first)
 
 
-@layout
 def tracker(text: Text) -> Layout | None:
     """Recognise Tracker: ``#multi:`` over track names, or one name over ``t``, ``x``, ``y``."""
     head = text.head
@@ -326,7 +310,6 @@ def tracker(text: Text) -> Layout | None:
     return Layout("Tracker", why, tuple(columns), first_row(text, at + 1))
 
 
-@layout
 def trackmate(text: Text) -> Layout | None:
     """Recognise TrackMate's spots: ``POSITION_X`` … over longer names, short ones and units."""
     names = text.head[0]
@@ -343,6 +326,13 @@ def trackmate(text: Text) -> Layout | None:
     return Layout("TrackMate", why, tuple(columns), first)
 
 
+_LAYOUTS = (
+    audacity, labview, logger_pro, gwinstek, lecroy, rigol, siglent, tektronix_mdo, tektronix_tds,
+    phyphox, sensor_logger, mtrack2, results, tracker, trackmate,
+)  # fmt: skip
+"""The functions that recognise the table of a program, in the order in which they are tried."""
+
+
 def layout_of(text: Text) -> Layout:
     """Return the layout of a table: that of the first program that knows it, or a general one."""
-    return next((found for layout in LAYOUTS if (found := layout(text))), None) or general(text)
+    return next(filter(None, (recognise(text) for recognise in _LAYOUTS)), None) or general(text)

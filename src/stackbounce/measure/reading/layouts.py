@@ -1,14 +1,13 @@
 """Where a table's columns are: by the program that wrote it, its header, or its numbers.
 
-The format of a program is a function in `formats.py`: of the table's first lines, marked with
-`layout`, that returns a `Layout`, or None if another program wrote the table.
+The format of a program is a function in `formats.py`: of the table's first lines, that returns a
+`Layout`, or None if another program wrote the table.
 """
 
 import re
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
 
@@ -107,18 +106,6 @@ class Layout:
     holds: str = ""
     bare: bool = False
     end: int | None = None
-
-
-_Recognise: TypeAlias = Callable[[Text], Layout | None]
-
-LAYOUTS: list[_Recognise] = []
-"""The functions that recognise the table of a program, in the order in which they are tried."""
-
-
-def layout(recognise: _Recognise) -> _Recognise:
-    """Register a function that recognises the table of a program."""
-    LAYOUTS.append(recognise)
-    return recognise
 
 
 def first_row(text: Text, start: int = 0, columns: Sequence[int] | None = None) -> int:

@@ -1,28 +1,18 @@
-"""The rows of a table, or an array of NumPy (.npy) -> numbers.
-
-Cells that are not numbers are counted, never hidden. Of an array they are its columns, or the
-fields of its records; nothing is unpickled.
-"""
+"""The rows of a table -> numbers. Cells that are not numbers are counted, never hidden."""
 
 import csv
 import io
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from tokenize import TokenError
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import FileError
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading.layouts import Layout, columns_of, guess
-from stackbounce.measure.reading.limits import CELLS, COLUMNS, LINE
+from stackbounce.measure.reading.limits import CELLS, LINE
 from stackbounce.measure.reading.text import MISSING, Text, number, split
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 _CHUNK = LINE  # characters that are parsed at once, so that no line in them is too long
 _ODD = 2**23  # characters that are parsed cell by cell in Python, at most: some seconds
@@ -30,7 +20,6 @@ _BLANKS = sorted({form for word in MISSING for form in (word, word.upper(), word
 # Sizes within the range of any instrument: oscilloscopes write 9.9E37 for what is beyond it.
 _LEAST, _MOST = 1e-60, 1e30
 _TRUTH = "uUsS"  # letters of "true" and "false" that occur in no number
-_BROKEN = (ValueError, TypeError, LookupError, SyntaxError, EOFError, RecursionError, TokenError)
 
 
 @dataclass
@@ -95,11 +84,7 @@ def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
         if count > CELLS:
             raise FileError(f"it has more than {CELLS} numbers: cut out what is of interest")
         blocks.append(block)
-    return _with(np.concatenate(blocks), table)
-
-
-def _with(values: Array, table: Table) -> Table:
-    """Put numbers into a table, without blank rows and without those that no instrument has."""
+    values = np.concatenate(blocks)
     sizes = np.abs(values)
     beyond = (sizes > _MOST) | ((sizes < _LEAST) & (sizes > 0.0))
     values[beyond] = np.nan
@@ -185,66 +170,3 @@ def _cell_by_cell(lines: list[str], text: Text, used: Sequence[int], table: Tabl
             table.strange += [cell is None for cell in row]
         rows.append(row)
     return np.array(rows, np.float64).reshape(len(rows), len(used))  # None becomes NaN
-
-
-def array_in(content: bytes | bytearray) -> "pd.DataFrame":
-    """Return an array as a table, with a column for each of its own or for each of its fields.
-
-    Raises
-    ------
-    FileError
-        If it is cut off, empty, no table, or holds no numbers.
-    """
-    import pandas as pd
-
-    try:
-        array = np.load(io.BytesIO(content), allow_pickle=False)
-        lying = array.ndim == 2 and array.shape[1] > COLUMNS >= array.shape[0]
-        frame = pd.DataFrame(array.T if lying else array)
-    except (*_BROKEN, MemoryError) as error:
-        why = " ".join(str(error).split())[:200]
-        raise FileError(f"it is a NumPy array that cannot be read ({why})") from error
-    if frame.empty or any(kind.kind not in "biuf" for kind in frame.dtypes):
-        what = f"{array.dtype} and shape {array.shape}"
-        raise FileError(f"it is a NumPy array of {what}: save one with rows of plain numbers")
-    return frame
-
-
-def layout_of_array(array: "pd.DataFrame") -> Layout:
-    """Return the layout of an array: that of its fields' names, or what its numbers look like.
-
-    Raises
-    ------
-    FileError
-        If it has too many columns or too many numbers.
-    """
-    width = len(array.columns)
-    if width > COLUMNS or array.size > CELLS:
-        raise FileError(f"it is a NumPy array of shape {array.shape}: cut out what is of interest")
-    names = [name for name in array.columns if isinstance(name, str)]
-    if names:
-        why = f"a NumPy array with the fields {', '.join(names[:3])}"
-        return Layout("NumPy", why, columns_of(names, width), 0)
-    columns, doubt = guess(array[:200].to_numpy(np.float64))
-    return Layout("NumPy", "a NumPy array", columns, 0, (doubt,), bare=True)
-
-
-def rows_of_array(array: "pd.DataFrame", used: Sequence[int]) -> Table:
-    """Return the numbers of some columns."""
-    values = array.iloc[:, list(used)].to_numpy(np.float64, copy=True)
-    return _with(values, Table(values, np.zeros(len(used), dtype=np.int64)))
-
-
-def joined(members: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Return the arrays of an .npz file, as one table if they are columns of one length."""
-    import pandas as pd
-
-    arrays = {name.removesuffix(".npy"): array_in(member) for name, member in members.items()}
-    if len(arrays) < 2 or len({len(array) for array in arrays.values()}) > 1:
-        return dict(members)
-    if any(list(array.columns) != [0] for array in arrays.values()):
-        return dict(members)
-    packed = io.BytesIO()
-    table = pd.DataFrame({name: array[0] for name, array in arrays.items()})
-    np.save(packed, table.to_records(index=False))
-    return {"arrays": packed.getvalue()}

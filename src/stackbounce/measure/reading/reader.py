@@ -1,9 +1,8 @@
 """`read`: the file of any program -> a Dataset with the kind of measurement that it holds."""
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,11 +12,12 @@ from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
 from stackbounce.files import content_of
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading import numbers, wav
+from stackbounce.measure.reading import wav
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
 from stackbounce.measure.reading.layouts import NOT_NAMED, Layout, columns_of
 from stackbounce.measure.reading.limits import BYTES, refuse_others
+from stackbounce.measure.reading.numbers import Table, rows_of
 from stackbounce.measure.reading.options import ReadOptions, apply_options, of_run, part_of
 from stackbounce.measure.reading.roles import Column
 from stackbounce.measure.reading.series import without_counts
@@ -233,30 +233,23 @@ def _from_table(name: str, content: bytearray, options: ReadOptions) -> "xr.Data
 
 def _table(
     name: str, content: bytearray, options: ReadOptions
-) -> tuple[Layout, list[Column], numbers.Table, list[str], bool]:
+) -> tuple[Layout, list[Column], Table, list[str], bool]:
     """Return the layout of a table, its columns, numbers and doubts, and whether it has runs.
 
     The text is freed on return, as it may be larger than all of these.
     """
-    rows_in: Callable[[Sequence[int]], numbers.Table]
-    if content.startswith(np.lib.format.MAGIC_PREFIX):
-        array = numbers.array_in(content)
-        layout, doubts = numbers.layout_of_array(array), []
-        rows_in = partial(numbers.rows_of_array, array)
-    else:
-        refuse_others(content)
-        text = tabulate(decode(content), options.decimal, Path(name).name)
-        layout = layout_of(text)
-        if layout.end is not None:
-            text = replace(text, content=text.content[: layout.end])
-        rows_in, doubts = partial(numbers.rows_of, text, layout.first), list(text.doubts)
+    refuse_others(content)
+    text = tabulate(decode(content), options.decimal, Path(name).name)
+    layout, doubts = layout_of(text), list(text.doubts)
+    if layout.end is not None:
+        text = replace(text, content=text.content[: layout.end])
     if layout.bare and _told(layout, options):
         layout = replace(layout, columns=columns_of([], len(layout.columns)), doubts=(NOT_NAMED,))
     doubts += () if options.names else layout.doubts
     columns = apply_options(layout.columns, options)
     columns, runs = of_run(columns, options.run, doubts)
     places = [column.index for column in columns if column.index >= 0]
-    table = rows_in(places)
+    table = rows_of(text, layout.first, places)
     if options.holds in (None, "track"):
         by_place = dict(zip(places, table.values.T, strict=True))
         columns, more = on_frames(columns, options.frame_rate, options.scale, by_place)
@@ -270,7 +263,7 @@ def _told(layout: Layout, options: ReadOptions) -> bool:
     return bool(options.names) or options.holds not in (None, looks)
 
 
-def _count(layout: Layout, columns: Sequence[Column], table: numbers.Table) -> None:
+def _count(layout: Layout, columns: Sequence[Column], table: Table) -> None:
     """Put in the numbers of a column that counts rows, and the times of a clock."""
     at = next((k for k, column in enumerate(columns) if column.index < 0), None)
     if at is not None:
@@ -291,7 +284,7 @@ def _signed(
     return data
 
 
-def _flaws(table: numbers.Table) -> list[str]:
+def _flaws(table: Table) -> list[str]:
     rows = len(table.values)
     strange = int(table.strange.sum()) if table.strange.max() <= rows / 2 else 0
     first, word = shown(table.first), shown(table.word)
@@ -304,7 +297,7 @@ def _flaws(table: numbers.Table) -> list[str]:
     return [f"{count} {words}" for count, words in flaws if count]
 
 
-def _numeric(columns: Sequence[Column], table: numbers.Table) -> tuple[list[Column], Array]:
+def _numeric(columns: Sequence[Column], table: Table) -> tuple[list[Column], Array]:
     """Return the columns that have numbers, and their numbers."""
     there = np.isfinite(table.values).any(axis=0) & (table.strange <= len(table.values) / 2)
     if not there.any():

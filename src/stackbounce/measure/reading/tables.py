@@ -2,7 +2,7 @@
 
 Archives are unpacked in memory up to a limit; openpyxl reads spreadsheets of Excel, .xlsx. The own
 files of Tracker (.trk) and Logger Pro (.cmbl) are XML. XML with a document type is refused: without
-one there are no entities, nor other files to read.
+one there are no entities, nor other files to read. Of arrays of NumPy nothing is unpickled.
 """
 
 import io
@@ -11,21 +11,27 @@ import re
 import warnings
 import zipfile
 import zlib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from tokenize import TokenError
+from typing import TYPE_CHECKING, NamedTuple
 from xml.etree.ElementTree import Element, ParseError, fromstring
+
+import numpy as np
 
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
 from stackbounce.extras import need
 from stackbounce.measure.messages import about_option
-from stackbounce.measure.reading.limits import BYTES
-from stackbounce.measure.reading.numbers import joined
+from stackbounce.measure.reading.limits import BYTES, CELLS, COLUMNS
 from stackbounce.measure.reading.text import decode
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 _MEMBERS = 1000  # of an archive, at most
 _RATIO = 400  # of bytes to packed bytes; numbers as text come to about 10
 _BROKEN = (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, RuntimeError)
+_NO_ARRAY = (ValueError, TypeError, LookupError, SyntaxError, EOFError, RecursionError, TokenError)
 _ENDINGS = (".csv", ".tsv", ".txt", ".dat", ".lvm", ".npy", ".trk")
 _BOOK_CELLS = 2**19
 """Cells of a spreadsheet, at most: some seconds."""
@@ -152,7 +158,7 @@ def _tables(archive: zipfile.ZipFile) -> Tables:
         found[entry.filename] = _unzip(archive, entry, left)
         left -= len(found[entry.filename])
     if all(name.endswith(".npy") for name in names):
-        return Tables(joined(found), "NumPy", "its arrays are those of an .npz file")
+        return from_arrays(found)
     if "meta/device.csv" in names:
         return Tables(found, "phyphox", "its meta/device.csv is phyphox's")
     return Tables(found)
@@ -165,6 +171,44 @@ def _unzip(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, left: int) -> bytes
     if len(content) > left:
         raise FileError(f"its tables would unpack to more than {BYTES >> 20} MiB")
     return content
+
+
+def from_arrays(members: Mapping[str, bytes | bytearray]) -> Tables:
+    """Return arrays of NumPy as tables; those that are columns of one length are one table.
+
+    Raises
+    ------
+    FileError
+        If one is cut off, empty, too large, no table, or holds no numbers.
+    """
+    import pandas as pd
+
+    arrays = {name.removesuffix(".npy"): _array(content) for name, content in members.items()}
+    columns = {name: array[0] for name, array in arrays.items() if list(array.columns) == [0]}
+    if len(columns) == len(arrays) > 1 and len(set(map(len, columns.values()))) == 1:
+        arrays = {"arrays": pd.DataFrame(columns)}
+    texts = {
+        name: array.to_csv(sep="\t", index=False, header=isinstance(array.columns[0], str)).encode()
+        for name, array in arrays.items()
+    }
+    return Tables(texts, "NumPy", "it is an array of NumPy", ".")
+
+
+def _array(content: bytes | bytearray) -> "pd.DataFrame":
+    """Return the numbers of an array: its columns, or the fields of its records."""
+    import pandas as pd
+
+    try:
+        array = np.load(io.BytesIO(content), allow_pickle=False)
+        lying = array.ndim == 2 and array.shape[1] > COLUMNS >= array.shape[0]
+        frame = pd.DataFrame(array.T if lying else array)
+    except (*_NO_ARRAY, MemoryError) as error:
+        why = " ".join(str(error).split())[:200]
+        raise FileError(f"it is a NumPy array that cannot be read ({why})") from error
+    if not 0 < frame.size <= CELLS or any(kind.kind not in "biuf" for kind in frame.dtypes):
+        what = f"{array.dtype} and shape {array.shape}"
+        raise FileError(f"it is a NumPy array of {what}: save one with rows of plain numbers")
+    return frame.astype(np.float64).dropna(how="all")
 
 
 def from_xlsx(content: bytearray) -> Tables:
@@ -251,13 +295,15 @@ class _Frame(NamedTuple):
 
 
 def from_project(content: bytearray) -> Tables | None:
-    """Return the tables in a file of Tracker or Logger Pro, None for any other file.
+    """Return the tables in a file of Tracker, Logger Pro or NumPy, None for any other file.
 
     Raises
     ------
     FileError
         If it is too large, broken, has a document type, or no table.
     """
+    if content.startswith(np.lib.format.MAGIC_PREFIX):
+        return from_arrays({"array": content})
     if not content[:64].removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
         return None
     begin = bytes(content[:2000])

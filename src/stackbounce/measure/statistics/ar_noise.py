@@ -10,14 +10,13 @@ from numpy.typing import NDArray
 from stackbounce.measure.quantities import Array
 
 _CHUNK = 1024  # samples in a row from which a linear prediction is learned
+_ORDER = 24  # samples that a prediction is made from
 _MOST_LAGS = 200  # of an autocorrelation that are added up, for speed
 _LEAST_SAMPLES = 48  # of a series whose autocorrelation is estimated
 _NORMAL_MEDIAN = 0.6745  # median absolute value of a standard normal variable
 
 
-def linear_prediction_residual(
-    values: NDArray[np.float32], order: int, rounding: float
-) -> NDArray[np.float32]:
+def whitened(values: NDArray[np.float32], rounding: float) -> NDArray[np.float32]:
     """Return the linear-prediction residual of a signal, learned from its quiet half.
 
     The prediction removes hum and stationary noise of any spectrum; sudden changes remain.
@@ -26,20 +25,18 @@ def linear_prediction_residual(
     ----------
     values : ndarray
         (N,).
-    order : int
-        Samples that a prediction is made from.
     rounding : float
         Variance of the quantisation error, which cannot be predicted.
 
     Returns
     -------
     ndarray
-        (N,), 0 in the first `order` samples; the values themselves where all is 0.
+        (N,), 0 in the first 24 samples; the values themselves where all is 0.
 
     Examples
     --------
     >>> hum = np.sin(np.arange(48000) * 2 * np.pi * 50 / 48000).astype(np.float32)
-    >>> bool(np.abs(linear_prediction_residual(hum, 24, 0.0)[1000:]).max() < 0.01)
+    >>> bool(np.abs(whitened(hum, 0.0)[1000:]).max() < 0.01)
     True
     """
     from scipy.linalg import solve_toeplitz
@@ -51,7 +48,7 @@ def linear_prediction_residual(
     some = quiet[:: max(1, len(quiet) // 512)].astype(np.float64)
     products = [
         float(np.einsum("ij,ij->", some[:, lag:], some[:, : _CHUNK - lag]))
-        for lag in range(order + 1)
+        for lag in range(_ORDER + 1)
     ]
     products[0] = products[0] * (1.0 + 1e-7) + some.size * rounding
     if not products[0] > 0.0:
@@ -59,7 +56,7 @@ def linear_prediction_residual(
     prediction = solve_toeplitz(products[:-1], products[1:])
     weights = np.concatenate([[1.0], -prediction]).astype(np.float32)
     residual = np.convolve(weights, values)[: len(values)]
-    residual[:order] = 0.0
+    residual[:_ORDER] = 0.0
     return residual
 
 

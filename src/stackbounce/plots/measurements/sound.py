@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_COLUMNS = 2400  # of the envelope
 _MARGIN = 0.06
 _WORDS = {"echo": "echoes", "second sound of one impact": "second sounds of one impact"}
 _BLUE, _RED = COLORS[:2]
@@ -50,11 +49,8 @@ def _draw_sound(axes: "Axes", data: Any, found: Any, times: NDArray[np.float64])
     first = max(0, int((times[0] - pad - origin) * found.rate))
     last = min(len(samples), int((times[-1] + pad - origin) * found.rate) + 1)
     part = samples[first:last]
-    step = max(1, len(part) // _COLUMNS)
-    rows = part[: len(part) // step * step].reshape(-1, step)
-    at = origin + (first + step * (np.arange(len(rows)) + 0.5)) / found.rate
-    gray: Any = {"color": "#9a9a9a", "edgecolor": "#9a9a9a", "linewidth": 0.4}
-    axes.fill_between(at, rows.min(axis=1), rows.max(axis=1), **gray)
+    at = origin + np.arange(first, last) / found.rate
+    axes.plot(at, part, color="#9a9a9a", linewidth=0.4, rasterized=True)
     top = 1.12 * float(np.abs(part).max() or 1.0)
     above = np.full(len(times), top)
     label = f"{len(times)} knock{'s' * (len(times) != 1)}"

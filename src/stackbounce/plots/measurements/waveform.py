@@ -13,7 +13,7 @@ _TINY = 0.03  # of the whole extent: a contact too narrow to be seen
 _MOST = 6  # contacts that are labelled one by one
 _BESIDE = 0.6  # of all contacts' extent, shown on each side
 _DOTS = 160  # samples within the picture, up to which each gets a dot
-_BINS = 2400  # beyond, the record is drawn as the range of each bin
+_MANY = 5000  # beyond, the line is drawn in pixels, also in a vector graphic
 
 
 def draw(data: Any, found: Any, axes: Any = None) -> "Figure":
@@ -99,24 +99,16 @@ def _extent(found: Any, contacts: Any) -> tuple[float, float]:
 
 
 def _draw_record(axes: "Axes", found: Any, low: float, high: float, factor: float) -> None:
-    """Draw the samples: as dots if they are few, else as the range of values in each bin."""
+    """Draw the samples: as dots if they are few, else as a line, of pixels if they are many."""
     inside = (found.times >= low) & (found.times <= high)
     times, force = factor * found.times[inside], found.force[inside]
     axes.axhspan(
         -found.noise, found.noise, color="#bdbdbd", alpha=0.45, lw=0, label="baseline ± noise"
     )
     axes.axhline(0.0, color="#808080", linewidth=0.8)
-    look: Any = {"color": _RECORD, "label": "record"}
-    if len(times) <= _DOTS:
-        axes.plot(times, force, "o", markersize=3.2, **look)
-    elif len(times) <= 2 * _BINS:
-        axes.plot(times, force, linewidth=0.9, **look)
-    else:
-        width = len(times) // _BINS
-        bins = force[: len(force) // width * width].reshape(-1, width)
-        axes.fill_between(
-            times[: bins.size : width], bins.min(1), bins.max(1), linewidth=0.6, **look
-        )
+    look: Any = {"color": _RECORD, "label": "record", "markersize": 3.2, "linewidth": 0.9}
+    style = "o" if len(times) <= _DOTS else "-"
+    axes.plot(times, force, style, rasterized=len(times) > _MANY, **look)
 
 
 def _draw_contact(axes: "Axes", found: Any, contact: Any, factor: float, *, flanks: bool) -> None:

@@ -2,13 +2,11 @@
 
 from stackbounce.measure.kind import Kind
 
-__all__ = ["ACCELERATION"]
-
 _AXES = ("acceleration", "acceleration_absolute", "acceleration_z", "acceleration_y")
 ACCELERATION = Kind(
     "acceleration",
     "drop height, restitution, contact times of fast sensors",
-    f"{__name__}.kind",
+    f"{__name__}.analysis",
     options=("gravity",),
     columns=(("time",), (*_AXES, "acceleration_x")),
 )

@@ -11,6 +11,7 @@ from stackbounce.errors import positive
 from stackbounce.measure.finding import Finding, rigid_contact
 from stackbounce.measure.kinds.acceleration.series import is_held, record_of, refuse_gain, series_of
 from stackbounce.measure.quantities import Array, Number, Row, known_rows, nominal
+from stackbounce.measure.setup import Setup
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.units import checked
 
@@ -99,6 +100,11 @@ class Accelerometer(Finding):
         if self.fall is not None:
             found |= {"impact_speed": self.impact_speeds[0], "contact_time": self.contact_times[0]}
         return found
+
+
+def analyse(data: Any, setup: Setup) -> Accelerometer:
+    """Return the flights and bounces of a falling sensor."""
+    return accelerometer(data, gravity=setup.gravity)
 
 
 def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerometer:

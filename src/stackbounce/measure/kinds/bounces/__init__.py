@@ -2,12 +2,10 @@
 
 from stackbounce.measure.kind import IN_AIR, Kind
 
-__all__ = ["KNOCKS"]
-
 KNOCKS = Kind(
     "knocks",
     "restitution of each bounce, its fall with speed",
-    f"{__name__}.kind",
+    f"{__name__}.analysis",
     options=("height", "measured_to", "gravity", *IN_AIR),
     columns=(("knock_time",),),
     dimension="knock",

@@ -14,6 +14,7 @@ from stackbounce.measure.kinds.bounces.result import Bounces
 from stackbounce.measure.kinds.bounces.scatter import meaning_of, scatter_of
 from stackbounce.measure.quantities import Number, measured, nominal
 from stackbounce.measure.samples import columns
+from stackbounce.measure.setup import Setup
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.units import checked, magnitude
@@ -21,6 +22,11 @@ from stackbounce.units import checked, magnitude
 _MOST_BOUNCES = 200  # of one drop
 _ROUNDING = 5e-3  # of an interval: rounding makes equal ones differ by less, and a ball loses more
 _INSTANT = 1e-6  # s: no ball bounces twice in so short a time
+
+
+def analyse(data: Any, setup: Setup) -> Bounces:
+    """Return the restitutions that times of bounces tell."""
+    return bounces(data, drop_height=setup.drop_height, gravity=setup.gravity, drag=setup.drag)
 
 
 def bounces(

@@ -2,8 +2,6 @@
 
 from stackbounce.measure.kind import Kind
 
-__all__ = ["CONTACT"]
-
 CONTACT = Kind(
     "contact",
     "dynamic stiffness of a contact time",

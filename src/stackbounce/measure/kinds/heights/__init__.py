@@ -2,8 +2,6 @@
 
 from stackbounce.measure.kind import IN_AIR, Kind
 
-__all__ = ["TABLE"]
-
 TABLE = Kind(
     "table",
     "restitution of each bounce, where its one column is heights",

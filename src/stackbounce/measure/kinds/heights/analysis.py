@@ -182,10 +182,8 @@ def _listed(values: Any) -> list[Any]:
 
 
 def _with_error(name: str, value: Any, error: float) -> Number:
-    from uncertainties import UFloat, ufloat
+    from uncertainties import ufloat
 
-    if isinstance(value, UFloat):
-        return value
     found = measured(name, value, "metres")
     return found if found.std_dev > 0.0 else ufloat(found.nominal_value, error)
 

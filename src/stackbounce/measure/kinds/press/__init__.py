@@ -8,8 +8,6 @@ from stackbounce.measure.kind import Kind
 if TYPE_CHECKING:
     from stackbounce.measure.reading.roles import Column
 
-__all__ = ["PRESS"]
-
 
 def _recognised(columns: "Sequence[Column]") -> bool:
     """Return whether the columns have a force and a compression, or one length.
@@ -25,7 +23,7 @@ def _recognised(columns: "Sequence[Column]") -> bool:
 PRESS = Kind(
     "press curve",
     "static stiffness, exponent, loss",
-    f"{__name__}.kind",
+    f"{__name__}.analysis",
     options=("tabulated",),
     columns=(("force",), ("compression",)),
     dimension="point",

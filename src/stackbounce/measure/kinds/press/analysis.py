@@ -3,12 +3,11 @@
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from stackbounce.errors import InvalidType, InvalidValue, non_negative, shown, whole
-from stackbounce.measure.drag import with_difference
+from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.measure.kinds.press.cycle import result_of
 from stackbounce.measure.kinds.press.record import cycles, record_of
 from stackbounce.measure.kinds.press.result import Press
-from stackbounce.measure.quantities import measured
+from stackbounce.measure.setup import Setup
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -16,13 +15,12 @@ if TYPE_CHECKING:
 _CLEAR = 3.0  # standard errors
 
 
-def press(
-    data: "xr.Dataset | Any",
-    *,
-    compliance: Any = 0.0,
-    cycle: int | None = None,
-    tabulated: bool = False,
-) -> Press:
+def analyse(data: Any, setup: Setup) -> Press:
+    """Return the contact that a press curve tells."""
+    return press(data, tabulated=setup.tabulated)
+
+
+def press(data: "xr.Dataset | Any", *, tabulated: bool = False) -> Press:
     """Return stiffness, exponent and energy loss of a curve of force against compression.
 
     Parameters
@@ -30,12 +28,8 @@ def press(
     data : xarray.Dataset or (compression, force)
         `compression` in m and `force` in N, in the order of recording. A record has one or more
         cycles of loading and, if recorded, unloading; slack before the contact and a hold at the
-        peak may occur. Points without a number are left out.
-    compliance : float or UFloat, optional
-        Of the machine, in m/N; the compression of the machine is subtracted.
-    cycle : int, optional
-        Which cycle, from 0; negative from the last. By default the last one that has a loading and
-        an unloading, as the first cycles of a ball differ from later ones.
+        peak may occur. Points without a number are left out. The last cycle with a loading and an
+        unloading is analysed, as the first cycles of a ball differ from later ones.
     tabulated : bool, optional
         Whether the contact of `Press.parts` is the table of the curve, a `Tabulated` law, in place
         of the fitted one.
@@ -49,8 +43,8 @@ def press(
     InvalidType
         If `data` is neither of these.
     InvalidValue
-        If there are fewer than 6 points of loading, values are constant, the force does not exceed
-        its noise, or there is no such cycle.
+        If there are fewer than 6 points of loading, values are constant, or the force does not
+        exceed its noise.
 
     Notes
     -----
@@ -84,30 +78,17 @@ def press(
     """
     if not isinstance(tabulated, bool):
         raise InvalidType(f"tabulated must be True or False, got {shown(tabulated)}")
-    soft = measured("compliance", compliance, "m/N", non_negative)
-    at = float(soft.nominal_value)
-    found = replace(_press(data, at, cycle), tabulated=tabulated)
-    if soft.std_dev == 0.0:
-        return found
-    moved = _press(data, at + float(soft.std_dev), cycle)
-    uncertain: Press = with_difference(found, found, moved, off=(soft - at) / soft.std_dev)
-    return uncertain
-
-
-def _press(data: Any, compliance: float, number: int | None) -> Press:
-    record = record_of(data, compliance)
+    record = record_of(data)
     found = cycles(record)
-    # a cycle with both branches is preferred to a loading alone
     pressed = [k for k, cycle in enumerate(found) if len(cycle.loading)]
-    both = [k for k in pressed if len(found[k].unloading)]
-    chosen = (both or pressed or [-1])[-1]
-    if number is not None:
-        chosen = whole("cycle", number, -len(found), len(found) - 1) % len(found)
-    if not len(found[chosen].loading):
+    if not pressed:
         raise InvalidValue("a press curve must have a loading of 6 points, got none")
+    # a cycle with both branches is preferred to a loading alone
+    chosen = max(pressed, key=lambda k: (len(found[k].unloading) > 0, k))
     result = result_of(record, found[chosen])
     which = f"{chosen + 1} of {len(found)}" if len(found) > 1 else None
-    return replace(result, cycle=which, notes=(*record.notes, *_notes(result)))
+    notes = (*record.notes, *_notes(result))
+    return replace(result, cycle=which, notes=notes, tabulated=tabulated)
 
 
 def _notes(found: Press) -> list[str]:

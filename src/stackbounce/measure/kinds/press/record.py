@@ -64,7 +64,7 @@ class Cycle:
     peak_error: float
 
 
-def record_of(data: "xr.Dataset | Any", compliance: float) -> Record:
+def record_of(data: "xr.Dataset | Any") -> Record:
     """Return a press curve's record; see `press`.
 
     Raises
@@ -90,9 +90,6 @@ def record_of(data: "xr.Dataset | Any", compliance: float) -> Record:
         raise InvalidValue(f"{constant} must change in a press curve, got one value throughout")
     compression, force, turned = _oriented(compression, force)
     notes += turned
-    if compliance:
-        compression = compression - compliance * force
-        notes.append(f"The compliance of the machine, {compliance:.3g} m/N, was subtracted.")
     steps = resolution(compression), resolution(force)
     jitter, hiss = (
         max(difference_noise(values), step / np.sqrt(12.0))

@@ -2,8 +2,6 @@
 
 from stackbounce.measure.kind import IN_AIR, Kind
 
-__all__ = ["SOUND"]
-
 SOUND = Kind(
     "sound",
     "restitution of each bounce, its fall with speed",

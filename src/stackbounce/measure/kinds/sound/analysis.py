@@ -9,13 +9,14 @@ from stackbounce.errors import InvalidValue, positive
 from stackbounce.measure.kinds.bounces.knocks import Dropped, Knocks
 from stackbounce.measure.kinds.sound.alignment import aligned
 from stackbounce.measure.kinds.sound.consistency import misjudgement
-from stackbounce.measure.kinds.sound.loudness import Rises, find_rises, whitened
+from stackbounce.measure.kinds.sound.loudness import Rises, find_rises
 from stackbounce.measure.kinds.sound.onset import onsets
 from stackbounce.measure.kinds.sound.plausibility import reason_against, tails
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns, resolution, runs
+from stackbounce.measure.statistics.ar_noise import whitened
 
 _LEAST_RATE = 400  # samples per second: with fewer an onset lies between two samples
 _DEAD_SECONDS = 8e-3  # s: two knocks closer than that are one impact

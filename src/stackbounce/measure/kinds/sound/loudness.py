@@ -1,4 +1,4 @@
-"""Sudden rises of a recording's loudness, and the whitening before it."""
+"""Sudden rises of a recording's loudness."""
 
 from typing import NamedTuple
 
@@ -6,14 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.statistics.ar_noise import linear_prediction_residual
 
 # Set by hand on the recordings of `benchmarks/coverage/sound.py` and `docs/lab`.
 _HOP_SECONDS = 0.5e-3  # s, step of the search
 _SETTLING_SECONDS = 0.03  # s at the start, in which no noise rises above that of the recording
 _QUIET_PERCENT = 20.0  # of the recording are quieter than its noise, or hardly louder
 _HOPS_AFTER, _HOPS_BEFORE, _HOPS_BETWEEN = 4, 16, 1  # whose loudness is compared, and between them
-_ORDER = 24  # of the linear prediction that removes hum and stationary noise
 _FALSE_ALARMS = 0.01  # rises of stationary noise in a recording, on average
 _CHANCE_MARGIN = 1.2  # by which the energy must rise more than noise does by chance
 _LEAST_RISE = 3.0  # of the energy: the amplitude rises by 1.7
@@ -32,11 +30,6 @@ class Rises(NamedTuple):
     ratios: Array
 
 
-def whitened(samples: NDArray[np.float32], rounded: float) -> NDArray[np.float32]:
-    """Return the linear-prediction residual, of samples whose rounding has a variance."""
-    return linear_prediction_residual(samples, _ORDER, rounded)
-
-
 def find_rises(white: NDArray[np.float32], rate: float, rounded: float) -> Rises:
     """Return where a whitened recording becomes suddenly louder, to 0.5 ms or so.
 
@@ -46,7 +39,7 @@ def find_rises(white: NDArray[np.float32], rate: float, rounded: float) -> Rises
     Parameters
     ----------
     white : ndarray
-        (N,), as of `whitened`.
+        (N,), as of `ar_noise.whitened`.
     rate : float
         Samples per second.
     rounded : float

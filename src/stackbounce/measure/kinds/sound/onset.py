@@ -46,7 +46,7 @@ def onsets(
     Parameters
     ----------
     white : ndarray
-        (N,), as of `loudness.whitened`.
+        (N,), as of `ar_noise.whitened`.
     rate : float
         Samples per second.
     about : ndarray

@@ -2,12 +2,10 @@
 
 from stackbounce.measure.kind import IN_AIR, Kind
 
-__all__ = ["TRACK"]
-
 TRACK = Kind(
     "track",
     "drop height, speeds, restitution, rebound ratios, a check of clock and ruler",
-    f"{__name__}.kind",
+    f"{__name__}.analysis",
     options=("floor", "measured_to", "gravity", *IN_AIR),
     columns=(("time",), ("y", "x")),
     dimension="track",

@@ -26,6 +26,7 @@ from stackbounce.measure.kinds.track.steadiness import (
 from stackbounce.measure.kinds.track.time_base import SI, TrackUnits, check_time_base, units_of
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, known_to, nominal
+from stackbounce.measure.setup import Setup, above_bottom, places
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.units import checked
@@ -52,6 +53,21 @@ class _Flown(NamedTuple):
         """Return the same flights, with heights along another direction."""
         heights = up.heights(self.position)
         return self._replace(fit=Parabolas(self.fit.times, heights, self.fit.flights))
+
+
+def analyse(data: Any, setup: Setup) -> Tracks:
+    """Analyse a track; the floor's level becomes that of the point that was followed."""
+    _, point = places(setup.measured_to)
+    floor = setup.floor
+    if floor is not None:
+        floor += nominal(above_bottom(point, setup.diameter))
+    found = track(data, gravity=setup.gravity, floor=floor, drag=setup.drag)
+    if floor is not None and len(found.balls) > 1:
+        raise InvalidValue(
+            f"floor is for the track of one ball, as the others bounce on balls, got "
+            f"{len(found.balls)}"
+        )
+    return found
 
 
 def track(

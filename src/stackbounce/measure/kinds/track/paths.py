@@ -88,11 +88,8 @@ def positions_of(data: Any) -> Columns:
 def _from_dataset(data: Any) -> Columns:
     axes = [axis for axis in ("x", "y") if axis in data.data_vars]
     if not axes:
-        if "position" in data.data_vars:  # a motion detector's
-            data, axes = data.rename(position="y"), ["y"]
-        else:
-            held = ", ".join(map(str, data.data_vars)) or "none"
-            raise InvalidType(f"data must hold variables x and y of a track, got {held}")
+        held = ", ".join(map(str, data.data_vars)) or "none"
+        raise InvalidType(f"data must hold variables x and y of a track, got {held}")
     times = np.asarray(data["time"].values, dtype=np.float64)
     if "track" not in data[axes[0]].dims:
         data = data[axes].expand_dims(track=["ball"])

@@ -2,8 +2,6 @@
 
 from stackbounce.measure.kind import Kind
 
-__all__ = ["WAVEFORM"]
-
 WAVEFORM = Kind(
     "waveform",
     "contacts, contact times, peaks, impulse, stiffness, gaps",

@@ -23,7 +23,6 @@ from stackbounce.measure.kinds.waveform.peaks import flat_top
 from stackbounce.measure.kinds.waveform.record import Record, read_record, undrooped
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.ringing import ringing_of
-from stackbounce.measure.kinds.waveform.sensor import sensitivity_of
 from stackbounce.measure.kinds.waveform.shapes import UNTOLD, Ends, ends_of
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, known_to, measured_if_given, nominal
@@ -67,7 +66,7 @@ def waveform(
     mass : float or UFloat, optional
         Of the ball in kg: gives the dynamic stiffness.
     impact_speed : float or UFloat, optional
-        In m/s: with `mass` it calibrates a sensor that shows volts, see Notes.
+        In m/s: kept with the result, for `Waveform.parts` and a law's constants.
     time_constant : float, optional
         RC in s of a piezo sensor and its amplifier: the droop is corrected.
     law : ContactLaw, its class or its name, optional
@@ -104,10 +103,6 @@ def waveform(
     the errors of exponents of 2 and more and those of the releases of `Hysteretic` and
     `Viscoelastic` contacts are too small.
 
-    The impulse is ``m v0 (1 + e)``. With `mass` and `impact_speed`, and e from the time to the next
-    contact, if one follows, it gives the volts per newton; without a next contact e may be
-    anything from 0 to 1, and the error says so.
-
     Examples
     --------
     >>> import numpy as np
@@ -143,13 +138,13 @@ def waveform(
     seen, contacts = _contacts(seen, ends)
     if _are_square(contacts):
         unlike, contacts = unlike + len(contacts), ()
-    notes = [*record.notes, *_notes(record.unit, seen, contacts, m, unlike)]
+    notes = _notes(record.unit, seen, contacts, m, unlike)
     if time_constant is None:
         notes += _droops(seen, record.step)
     if ends == UNTOLD:
         notes += _steep(contacts)
     zero = seen.zero
-    found = Waveform(
+    return Waveform(
         contacts=contacts,
         unit=record.unit,
         noise=zero.noise,
@@ -157,15 +152,12 @@ def waveform(
         hum=zero.base.height,
         sign=seen.sign,
         step=record.step,
-        notes=tuple(notes),
-        sensitivity=None,
+        notes=(*record.notes, *notes),
         mass=m,
         impact_speed=v,
         times=record.times,
         force=seen.signal,
     )
-    sensitivity, why = sensitivity_of(found)
-    return replace(found, notes=(*notes, *why), sensitivity=sensitivity)
 
 
 def _see(record: Record, raw: Array) -> Seen:

@@ -79,8 +79,6 @@ class Waveform(Finding):
         The sampling interval in s.
     notes : tuple of str
         What should be known about the record, a sentence each.
-    sensitivity : UFloat or None
-        In V/N, where `mass` and `impact_speed` calibrate the sensor.
     mass, impact_speed : UFloat, float or None
         As they were given, in kg and m/s.
     times, force : ndarray
@@ -98,7 +96,6 @@ class Waveform(Finding):
     sign: int
     step: float
     notes: tuple[str, ...]
-    sensitivity: Number | None
     mass: Number | float | None
     impact_speed: Number | float | None
     times: Array = field(repr=False)
@@ -127,8 +124,6 @@ class Waveform(Finding):
             rows.append(Row("further contacts, not listed", len(self.contacts) - _LISTED))
         if self.stiffness is not None:
             rows.append(Row("dynamic stiffness", self.stiffness, "N/m"))
-        if self.sensitivity is not None:
-            rows.append(Row("sensitivity", self.sensitivity, "V/N"))
         rows += [Row("noise", self.noise, self.unit), Row("baseline", self.baseline, self.unit)]
         if self.hum:
             rows.append(Row("amplitude of the subtracted hum", self.hum, self.unit))

@@ -19,7 +19,7 @@ export function exportText(kind, mapping, until_, errors = {}) {
   return kind === "toml" ? writeToml(withErrors(drop, pairs)) : writePython(drop, until, pairs);
 }
 
-/** Return `{number, value, error}` of each error, in SI units: as add_values of stackbounce/explorer/answers/play.py. */
+/** Return `{number, value, error}` of each error, in SI units: as add_values of stackbounce/explorer/answers/predictions.py. */
 function addValues(drop, errors) {
   const all = numbersOf(drop);
   return Object.entries(errors).map(([path, error]) => {

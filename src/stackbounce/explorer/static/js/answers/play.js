@@ -1,4 +1,4 @@
-/** The motion of a drop at each moment, and the textbook's beside it: as stackbounce/explorer/answers/play.py. */
+/** The motion of a drop at each moment, and the textbook's beside it. */
 
 import { separate } from "../model/calibration.js";
 import { InvalidValue } from "../model/errors.js";
