@@ -103,6 +103,8 @@ def test_balls_off_the_middle_leave_alike(asked):
     line = {"x": {"path": "balls.1.offset", "low": 0.0, "high": 1e-3, "log": False}}
     played = asked([["simulate", drop, None, 2] for drop in drops])
     lines = asked([["line", {"drop": drop, "show": "angle"} | line] for drop in drops])
+    [python] = asked([["exportText", "python", drops[0], None, {}]])
+    assert "\nprint(result.sideways({1: 0.001}))\n" in python["answer"]
     for theirs, one, curves in zip(told, played, lines, strict=True):
         for name in ("offset", "angle", "landing"):
             found = np.array(one["answer"]["sideways"][name], float)

@@ -16,7 +16,8 @@ export function exportText(kind, mapping, until_, errors = {}) {
   const until = checkUntil(until_);
   if (kind === "csv") return writeTable(drop, until);
   const pairs = addValues(drop, errors).filter(({ error }) => error > 0);
-  return kind === "toml" ? writeToml(withErrors(drop, pairs)) : writePython(drop, until, pairs);
+  const moved = mapping.balls.flatMap(({ offset }, ball) => (offset && until === null ? [`${ball}: ${writeFloat(offset)}`] : []));
+  return kind === "toml" ? writeToml(withErrors(drop, pairs)) : writePython(drop, until, pairs, moved);
 }
 
 /** Return `{number, value, error}` of each error, in SI units: as add_values of stackbounce/explorer/answers/predictions.py. */
@@ -78,8 +79,8 @@ function written(value) {
   return Array.isArray(value) ? `[${value.map(written).join(", ")}]` : writeFloat(value);
 }
 
-/** Return lines of Python that simulate a drop and draw it. */
-function writePython(drop, until, pairs) {
+/** Return lines of Python that simulate a drop and draw it; `moved` has the offsets of balls off the middle. */
+function writePython(drop, until, pairs, moved) {
   const { balls, contacts: _, ...rest } = drop.toMapping();
   const call = (ball) => `sb.Ball(${Object.entries(ball).map(([name, value]) => `${name}=${repr(value)}`).join(", ")})`;
   const contacts = drop.contacts.map((law) => (law === null ? "None" : `sb.${lawCode(law)}`));
@@ -100,6 +101,7 @@ function writePython(drop, until, pairs) {
     ")",
     ...run,
     'print("rebound ratios:", result.rebound_ratios)',
+    ...(moved.length && !pairs.length ? [`print(result.sideways({${moved.join(", ")}}))`] : []),
     'plots.bounce(result).savefig("bounce.svg")',
   ];
   return `${lines.join("\n")}\n`;
