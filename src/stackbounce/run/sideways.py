@@ -41,9 +41,10 @@ def leave_sideways(
     import xarray as xr
 
     count = len(result.drop.balls)
-    ball, attrs = np.arange(count), {"stackbounce": __version__, "drop": result.drop.to_toml()}
+    ball = np.arange(count)
+    attrs: dict[str, Any] = {"stackbounce": __version__, "drop": result.drop.to_toml()}
     if not offsets and not speeds:
-        offset, sideways = _carried(result, np.eye(count, 2 * count))
+        offset, sideways, attrs["error"] = _carried(result, np.eye(count, 2 * count))
         return xr.Dataset(
             {
                 "transfer": (("ball", "moved"), sideways, {"units": "1/s"}),
@@ -53,7 +54,8 @@ def leave_sideways(
             attrs,
         )
     begun = [*_given("offsets", offsets, "m", count), *_given("speeds", speeds, "m/s", count)]
-    offset, sideways = (values[:, 0] for values in _carried(result, np.array([begun])))
+    offset, sideways, attrs["error"] = _carried(result, np.array([begun]))
+    offset, sideways = offset[:, 0], sideways[:, 0]
     upward = np.array(result.final_velocities)
     angle = np.arctan2(sideways, upward)
     pull = result.drop.gravity or STANDARD_GRAVITY
@@ -90,10 +92,11 @@ def _given(name: str, values: Mapping[int, Any] | None, unit: str, count: int) -
     return found
 
 
-def _carried(result: "Result", begun: _Array) -> tuple[_Array, _Array]:
+def _carried(result: "Result", begun: _Array) -> tuple[_Array, _Array, float]:
     """Return the offsets in m and sideways speeds in m/s at the end of a run, (balls, rows).
 
-    Each row of `begun` has the offsets at the start and the sideways speeds.
+    Each row of `begun` has the offsets at the start and the sideways speeds. The third is an
+    estimate of the error of the speeds, over the largest.
     """
     balls, rows = result.drop.balls, result._rows
     for i, ball in enumerate(balls):
@@ -109,7 +112,7 @@ def _carried(result: "Result", begun: _Array) -> tuple[_Array, _Array]:
         pushes.time[:], pushes.share[:] = struck[:, codes.TIME], 1.0
         at = np.arange(len(struck)) * len(balls) + struck[:, codes.CONTACT].astype(int)
         pushes.force[at] = struck[:, codes.IMPULSE]
-        return _carry(pushes, begun, 1, result.end_time)[:2]
+        return *_carry(pushes, begun, 1, result.end_time)[:2], 0.0
     times = rows[:, [codes.TIME, codes.START, codes.PEAK_TIME]].ravel()
     moments = np.unique([0.0, *times[(times > 0.0) & (times < result.end_time)]])  # and no nan
     count = FEW
@@ -122,8 +125,9 @@ def _carried(result: "Result", begun: _Array) -> tuple[_Array, _Array]:
             tables[name].T.ravel() for name in ("force", "compression")
         )
         offset, speed, error = _carry(pushes, begun, LEVELS, result.end_time)
-        if error <= ENOUGH * np.max(np.abs(speed)) or len(pushes.time) >= MANY:
-            return offset, speed
+        error = float(error / (np.max(np.abs(speed)) or 1.0))
+        if error <= ENOUGH or len(pushes.time) >= MANY:
+            return offset, speed, error
         count *= 2
 
 

@@ -13,7 +13,7 @@ from explorer.page import library as own
 from explorer.page.scenarios import drawn
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.errors import StackbounceError
-from stackbounce.explorer.answers.predictions import add_values
+from stackbounce.explorer.answers.predictions import add_values, run_drop
 from stackbounce.json_values import plain
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS
 from stackbounce.model.toml import read_law
@@ -97,7 +97,7 @@ def test_balls_off_the_middle_leave_alike(asked):
     for drop in drops:
         for i, ball in enumerate(drop["balls"]):
             ball["diameter"] = 0.16 / (i + 1)
-    told = [play.run_drop(sb.Drop.from_mapping(drop), None).sideways({1: 1e-3}) for drop in drops]
+    told = [run_drop(sb.Drop.from_mapping(drop), None).sideways({1: 1e-3}) for drop in drops]
     for drop in drops:
         drop["balls"][1]["offset"] = 1e-3
     line = {"x": {"path": "balls.1.offset", "low": 0.0, "high": 1e-3, "log": False}}
