@@ -56,6 +56,7 @@ export function moveBalls(groups, moment, { view, floor, middle, fastest, legibl
     const down = names[ball] - places[ball];
     const isMoved = Math.abs(down) > MOVED;
     const column = Math.max(isMoved ? -widest - 24 : -side - 10, WIDE * letter * name.textContent.length - across[ball]);
+    const isAside = Math.abs(across[ball] - middle) > widest;
     const lane = side + 17 + LANE * ball * (1 - view.near);
     put(group, "data-position", moment.position[ball]);
     put(group, "transform", `translate(${across[ball]} ${places[ball].toFixed(2)})`);
@@ -63,9 +64,10 @@ export function moveBalls(groups, moment, { view, floor, middle, fastest, legibl
     put(light, "d", path);
     squash(pattern, side, radius - flat[ball].upper, radius - flat[ball].lower);
     put(arrow, "d", Math.abs(velocity) < STILL ? "" : arrowPath(lane.toFixed(1), (-ARROW * velocity) / fastest));
-    put(name, "x", column.toFixed(1));
-    put(name, "y", (down + 4).toFixed(1));
-    put(leader, "d", isMoved ? `M${(-side - 2).toFixed(1)} 0L${(column + 3).toFixed(1)} ${down.toFixed(1)}` : "");
+    put(name, "text-anchor", isAside ? "middle" : "end");
+    put(name, "x", isAside ? 0 : column.toFixed(1));
+    put(name, "y", (isAside ? -radius - 6 : down + 4).toFixed(1)); // not over the balls that it left
+    put(leader, "d", isMoved && !isAside ? `M${(-side - 2).toFixed(1)} 0L${(column + 3).toFixed(1)} ${down.toFixed(1)}` : "");
     put(speed, "x", (lane + 11 + LANE * (groups.length - 1 - ball) * (1 - view.near)).toFixed(1));
     put(speed, "y", (speeds[ball] - places[ball] + 4).toFixed(1));
     if (legible) write(speed, !speaks || lies(ball) || Math.abs(velocity) < STILL ? "" : `${fixed(velocity, 2)} m/s`);

@@ -35,7 +35,8 @@ export function storyOf(result, until = null, brief = false) {
   const theirs = textbookOf(result);
   const how = motion(drop, top, own[top]);
   const lead = theirs && top > 0 ? `${how}, ${compared(own[top], theirs[top])}.` : `${how}.`;
-  return { lead, more: [sideways(result, top), more(result, own, theirs, top, brief)].filter(Boolean).join(" ") };
+  const aside = sideways(result, top);
+  return { lead, more: [aside, more(result, own, theirs, top, brief || aside !== "")].filter(Boolean).join(" ") };
 }
 
 /** Return what a ball is called within a sentence: "the tennis ball", "B1", "the lower ball", "ball 3". */
