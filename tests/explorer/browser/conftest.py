@@ -25,7 +25,7 @@ IN_BOTH = (
 )  # `make browsers` runs the others, too, in Firefox, where they are slow
 FORMS = ("served", "one file")
 LAPTOP = {"width": 1366, "height": 768}
-[PAPER] = [explorer_address("", one.drop, {}) for one in list_cases() if one.name == "figure-9"]
+[PAPER] = [explorer_address(one.drop, {}) for one in list_cases() if one.name == "figure-9"]
 
 
 def path_of(name):

@@ -8,7 +8,7 @@ from stackbounce.cross2007.cases import explorer_address
 pytestmark = pytest.mark.slow
 FORMS = ("served",)
 PHONE = {"viewport": {"width": 360, "height": 740}, "has_touch": True, "is_mobile": True}
-[CANNON] = [explorer_address("", one.drop, {}) for one in list_examples() if one.name == "cannon"]
+[CANNON] = [explorer_address(one.drop, {}) for one in list_examples() if one.name == "cannon"]
 
 
 @pytest.mark.parametrize(("width", "lesson"), [(1024, ""), (1366, "&lesson=gap")])
