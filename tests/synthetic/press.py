@@ -43,12 +43,12 @@ def press_record(
     >>> import stackbounce as sb
     >>> data = press_record(sb.Spring(1e4), peak=2e-3, points=8)
     >>> (1e3 * data.compression.values).round(2)
-    array([ 0.  ,  0.67,  1.33,  2.  ,  1.5 ,  1.  ,  0.5 , -0.  ])
+    array([0. , 0.67, 1.33, 2. , 1.5 , 1. , 0.5 , 0. ])
     >>> data.force.values.round(1)
     array([ 0. ,  6.7, 13.3, 20. , 15. , 10. ,  5. ,  0. ])
     """
     inward = np.linspace(-slack, peak, points // 2)
-    outward = np.linspace(peak, -slack, points - points // 2 + 1)[1:]
+    outward = np.linspace(peak, 0.0 - slack, points - points // 2 + 1)[1:]  # 0.0, not -0.0
     way = np.concatenate([inward, np.full(hold, peak), outward])
     force = _force(law, way, len(inward), hold, peak, relaxation)
     way, force = (np.tile(column, cycles) for column in (way, force))
