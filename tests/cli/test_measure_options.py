@@ -126,22 +126,11 @@ def test_one_bounce_again_and_again(run):
     assert "restitution 2" in found
 
 
-def test_heights_are_drawn_and_saved(run):
-    options = ["--height-error", "5mm", "--plot", "h.svg", "--save", "b.toml", "--mass", "57g"]
-    run("--heights", HEIGHTS, *options)
-    assert Path("h.svg").read_bytes().startswith(b"<?xml")
-    drop = sb.Drop.from_toml("b.toml")
-    assert (drop.height, drop.contacts[0].restitution) == (1.0, pytest.approx(0.8))
-
-
-def test_the_floor_of_a_soft_balls_track():
-    """The centre of a ball that stays down for 30 ms: parabolas meet below the floor."""
+def test_the_floor_of_a_track_of_the_centre_is_a_radius_below():
     law = sb.Spring(0.15 * (3.14159265 / 0.03) ** 2)
     drop = sb.Drop([sb.Ball(0.15, diameter=0.16)], [law], height=0.6, gravity=9.80665)
     data = tracked(sb.simulate(drop, until=0.6), frame_rate=240, noise=2e-4, seed=1)
-    (without,) = analyse(data)
     (found,) = analyse(data, floor=0.0, measured_to="centre", diameter=0.16)
-    assert without.balls[0].drop_height.nominal_value > 0.63
     true = found.balls[0].drop_height
     assert abs(true.nominal_value - 0.6) < 3.0 * true.std_dev < 3e-3
     (same,) = analyse(data, floor=0.08)

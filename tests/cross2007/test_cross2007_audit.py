@@ -272,10 +272,6 @@ def test_each_claim_is_computed_once():
     assert all(CLAIMS[name].reason for name in READINGS)
 
 
-def test_half_a_unit():
-    assert [half_unit(number) for number in ("9", "0.236", "1.03e4")] == [0.5, 0.0005, 50.0]
-
-
 def test_errors_are_carried_through():
     def twice(b):
         return 2.0 * b("tennis.mass") / b("basketball.mass")

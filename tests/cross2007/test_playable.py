@@ -32,13 +32,8 @@ def written(folder, **options):
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("short")
-def test_the_page_by_itself_leads_to_no_explorer(tmp_path):
+def test_the_page_leads_back_to_the_explorer_that_serves_it_and_by_itself_to_none(tmp_path):
     assert not [address for address in written(tmp_path) if "../" in address]
-
-
-@pytest.mark.slow
-@pytest.mark.usefixtures("short")
-def test_the_page_of_the_explorer_leads_back(tmp_path):
     assert written(tmp_path, explorer="../")[0] == "../"
 
 

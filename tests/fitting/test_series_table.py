@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stackbounce.cli import main
-from stackbounce.errors import FileError, InvalidValue
+from stackbounce.errors import InvalidValue
 from stackbounce.fitting.series import fit_series, read_table
 from stackbounce.fitting.series.family import Family
 from stackbounce.fitting.series.series import make_series
@@ -167,9 +167,7 @@ def test_what_is_wrong_is_said_with_row_and_column(table, text, message):
     assert str(refused.value).count("\n") == 0
 
 
-def test_a_missing_file_and_a_wrong_error(tmp_path, table):
-    with pytest.raises(FileError, match="cannot be read"):
-        read_table(tmp_path / "no.csv")
+def test_an_error_of_no_column_is_refused(table):
     with pytest.raises(InvalidValue, match="an error must name its column, got 'width'"):
         table(PAIRS[0], "width = 2 mm")
 

@@ -84,19 +84,6 @@ def test_half_of_a_flight_is_near_zero():
     assert kept.nominal_value == pytest.approx(0.5 * 0.16 / 0.2)  # half a flight over the fall
 
 
-def test_a_bounce_between_two_samples_makes_a_restitution_too_large():
-    record = record_of(fall(), seed=1)
-    size = record.acceleration_absolute.values.copy()
-    low = size < 1.0
-    first = int(np.flatnonzero(low)[0])
-    touch = first + int(np.flatnonzero(~low[first:])[0])
-    second = touch + int(np.flatnonzero(low[touch:])[0])
-    gone = second + int(np.flatnonzero(~low[second:])[0])
-    size[gone : gone + 4] = 0.0  # the second bounce
-    found = accelerometer((record.time.values, size))
-    assert found.restitutions[0].nominal_value > 0.9
-
-
 @pytest.mark.parametrize(
     ("data", "error", "words"),
     [

@@ -13,7 +13,6 @@ from measure.near import near, nominal, possible
 from stackbounce import plots
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.explorer.answers import records
-from stackbounce.fitting.series.series import make_series
 from stackbounce.measure import Drag, analyse, bounces, heights, knocks, one_ball, one_law, track
 from stackbounce.measure.kinds.sound.few_bounces import few_bounces
 from synthetic.falls import falls
@@ -200,13 +199,6 @@ def test_a_ball_has_the_impact_speed_in_air():
     shape = {"mass": BALL[0], "contact_time": 1e-3, "impact_speed": FALL.speeds[0]}
     wanted = sb.calibrate(sb.HuntCrossley, restitution=ruler.mean.n, **shape)
     assert law.stiffness == pytest.approx(wanted.stiffness, rel=1e-8)
-
-
-def test_a_published_series_has_the_restitutions_of_the_validation():
-    data = sb.datasets.load("table-tennis-bounces")
-    rows = data.apex_height.values.tolist()
-    found = heights(rows[0], rows[1:], drag=Drag(2.7e-3, 0.040, 0.45, 1.2))
-    assert nominal(found.restitutions) == pytest.approx(make_series(data).values, rel=1e-9)
 
 
 @pytest.mark.parametrize(

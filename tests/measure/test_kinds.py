@@ -4,7 +4,6 @@ import json
 import sys
 import types
 from dataclasses import dataclass
-from importlib import import_module
 
 import pytest
 from page_build.data import options_json
@@ -18,7 +17,7 @@ from stackbounce.explorer.answers import records
 from stackbounce.measure import analyse, heights, one_law
 from stackbounce.measure.finding import Finding
 from stackbounce.measure.kind import Kind
-from stackbounce.measure.kinds import KINDS, TYPED
+from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.quantities import Row
 
 
@@ -99,13 +98,6 @@ def test_it_is_in_the_page_s_answer_and_form(path):
     options = json.loads(options_json())["options"]
     (holds,) = [one for one in options if one["name"] == "holds"]
     assert "pendulum" in holds["choices"]
-
-
-def test_a_kind_is_recognised_by_the_columns_that_it_needs():
-    for kind in (*KINDS.values(), *TYPED):
-        module = import_module(kind.module)
-        assert hasattr(module, "analyse") == (kind.name in KINDS)
-        assert hasattr(module, "of_numbers") == (kind in TYPED)
 
 
 def test_what_no_analysis_returned_has_no_picture():

@@ -121,13 +121,6 @@ def test_bounces_of_a_ball_are_kept(count, options, restitution):
     assert len(found.times) == len(fall.touches)
 
 
-@pytest.mark.parametrize("speech", [0.05, 0.2])
-def test_bounces_after_speech_are_kept(speech):
-    found = knocks(sound(falls(0.5, 0.8, bounces=8), speech=speech, before=2.0, seed=2))
-    assert found.against == ""
-    assert len(found.times) == 8
-
-
 def test_few_loud_sounds_among_others_are_no_series():
     values = noise(np.random.default_rng(1), 3.0)
     for time, loud in ((0.3, 0.5), (0.9, 0.45), (1.2, 0.6), (1.4, 0.4), (2.2, 0.55)):

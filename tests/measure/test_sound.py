@@ -55,6 +55,7 @@ def test_each_bounce_is_found_and_nothing_else(options, seed):
 def test_speech_before_the_series_is_left_out():
     found = knocks(sound(FALL, speech=0.1, before=2.0, seed=1))
     assert as_true(found, FALL, 2.0)
+    assert found.against == ""
     assert any(one.time < 2.0 for one in found.dropped)
 
 

@@ -1,5 +1,4 @@
 import json
-import os
 
 import pytest
 from hypothesis import given
@@ -228,33 +227,10 @@ def test_keys_of_many_parts_are_refused_before_they_are_read(read, content):
     assert got == "drop.toml: a key has more than 5 parts between dots"
 
 
-@pytest.mark.skipif(os.name != "posix", reason="devices and pipes of POSIX")
-def test_what_may_never_end_is_not_read(tmp_path):
-    os.mkfifo(tmp_path / "pipe.toml")
-    for path in ("/dev/zero", tmp_path / "pipe.toml"):
-        assert "is no ordinary file" in refusal(errors.FileError, Drop.from_toml, path)
-
-
 def test_a_file_too_large_is_not_read(tmp_path):
     path = tmp_path / "large.toml"
     path.write_bytes(b"#" * (2**19 + 1))
     assert "is larger than 512 KiB" in refusal(errors.FileError, Drop.from_toml, path)
-
-
-def test_files_that_cannot_be_opened(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    got = refusal(errors.FileError, Drop.from_toml, "none.toml")
-    assert got == "none.toml cannot be read: No such file or directory"
-    (tmp_path / "folder.toml").mkdir()
-    got = refusal(errors.FileError, Drop.from_toml, "folder.toml")
-    assert got == "folder.toml is a folder: give one of its files"
-    assert refusal(errors.FileError, Drop.from_toml, "a\0b").startswith("'a\\x00b' cannot be read")
-
-
-@pytest.mark.parametrize("path", [None, 1.0, [], b"", b"drop.toml"])
-def test_what_is_no_path(path):
-    got = refusal(errors.InvalidType, Drop.from_toml, path)
-    assert got == f"path must be a string or a path, got {path!r}"
 
 
 def test_a_path_in_bytes_of_an_object_is_refused():

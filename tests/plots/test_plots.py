@@ -38,15 +38,6 @@ def test_a_map_has_a_color_for_each_value():
     assert np.array_equal(lowest.collections[0].get_array(), ds.rebound_ratio[:, :, 0])
 
 
-def test_a_map_of_collisions_names_infinity():
-    ds = sb.sweep(DROP, OVER_BOTH)
-    assert (ds.collisions == -1).any()
-    _, bar = plots.heatmap(ds, "collisions").axes
-    names = texts(bar.get_yticklabels())
-    assert names[-1] == "∞"
-    assert names[0] == str(int(ds.collisions.where(ds.collisions > 0).min()))
-
-
 def test_unfinished_drops_are_told_and_left_out():
     ds = sb.sweep(DROP, {"balls.0.mass": MASS}, event_limit=3)
     unfinished = ds.status.isin([sb.Status.EVENT_LIMIT, sb.Status.INVALID]).values
@@ -164,6 +155,7 @@ def test_many_counts_are_grouped():
     names = texts(bar.get_yticklabels())
     counts = ds.collisions[:, :, 1].values
     assert counts.max() > 12
+    assert counts.min() == -1
     for count, place in zip(counts.ravel(), axes.collections[0].get_array().ravel(), strict=True):
         first, _, last = names[int(place)].partition("–")
         assert count == -1 if first == "∞" else int(first) <= count <= int(last or first)
@@ -191,7 +183,6 @@ def test_small_maps_fill_their_axes(shape, show):
         (plots.bounce, "must be a Result or a Prediction, got a Dataset: plots.lines, heatmap or"),
         (lambda _: plots.lines(DROP), r"got a Drop: plots.bounce\(simulate\(drop\)\) draws it"),
         (lambda _: plots.fit(sb.simulate(DROP)), "got a Result: plots.bounce draws it"),
-        (lambda ds: plots.heatmap(ds, axes=plt.subplots(2)[1]), "axes must be 1 Axes of matplot"),
         (
             lambda ds: plots.heatmap(ds, axes="left"),
             "axes must be 1 Axes of matplotlib, got 0",

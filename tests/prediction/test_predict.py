@@ -46,12 +46,6 @@ def test_correlated_numbers_keep_their_covariance():
     assert "correlated" in found.advice("durations.0")
 
 
-def test_the_same_variable_twice_cancels():
-    off = ufloat(1.0, 0.01)
-    found = sb.predict(ONE, {"balls.0.mass": 0.06 * off, "contacts.0.stiffness": 2e4 * off})
-    assert found["durations.0"].std_dev < 1e-6 * found["durations.0"].nominal_value
-
-
 def test_errors_of_offsets_and_of_the_drop_add_up():
     drop = sb.stack("basketball", "B1", "tennis", height=1.0, gap="1 mm")
     drop = drop.replace(contacts=[sb.Hertz(1e6)] * 3, impact_speed=2.0)

@@ -28,7 +28,6 @@ def press_record(
     drift: float = 0.0,
     offset: float = 0.0,
     force_step: float = 0.0,
-    compliance: float = 0.0,
     seed: int = 0,
 ) -> xr.Dataset:
     """Return the record of slow loading and unloading of a contact, as a testing machine writes it.
@@ -37,7 +36,7 @@ def press_record(
     of a cycle, rounded down, are the loading to the `peak` (m), after a travel (`slack`) before the
     contact; `hold` are further points at the peak, where the `relaxation`, a share of the force, is
     lost. `noise` is of the force (N), with a `memory` in points, and `jitter` of the compression;
-    the zero has an `offset` and a `drift` over the record; the machine's `compliance` is in m/N.
+    the zero has an `offset` and a `drift` over the record.
 
     Examples
     --------
@@ -49,11 +48,10 @@ def press_record(
     array([ 0. ,  6.7, 13.3, 20. , 15. , 10. ,  5. ,  0. ])
     """
     inward = np.linspace(-slack, peak, points // 2)
-    outward = np.linspace(peak, -slack, points - points // 2 + 1)[1:]
+    outward = np.linspace(peak, 0.0 - slack, points - points // 2 + 1)[1:]  # 0.0, not -0.0
     way = np.concatenate([inward, np.full(hold, peak), outward])
     force = _force(law, way, len(inward), hold, peak, relaxation)
     way, force = (np.tile(column, cycles) for column in (way, force))
-    compression = way + compliance * force
     generator = np.random.default_rng(seed)
     count = len(force)
     force = force + offset + drift * np.linspace(0.0, 1.0, count)
@@ -61,7 +59,7 @@ def press_record(
     force = force + noise * ar_noise(generator, (count,), correlation)
     if force_step:
         force = force_step * np.round(force / force_step)
-    compression = compression + jitter * generator.standard_normal(count)
+    compression = way + jitter * generator.standard_normal(count)
     columns = {
         "compression": ("point", compression, {"units": "m", "long_name": "Compression (m)"}),
         "force": ("point", force, {"units": "N", "long_name": "Force (N)"}),
