@@ -60,14 +60,23 @@ def draw_levels(axes: "Axes", x: Scale, y: Scale, values: NDArray[Any], unit: st
 
 
 def _name_contours(axes: "Axes", drawn: "ContourSet", color: str, factor: float) -> None:
-    """Write the levels on their lines."""
+    """Write the levels on their lines, without overlaps."""
+    from matplotlib.figure import Figure
     from matplotlib.patheffects import withStroke
 
     if color == "white":
         drawn.set_path_effects([withStroke(linewidth=1.2, foreground="#404040")])
     look: Any = {"fontsize": 8, "fmt": lambda level: f"{level * factor:.3g}", "colors": "black"}
-    for text in axes.clabel(drawn, **look):
-        text.set_path_effects([withStroke(linewidth=3.0, foreground="white")])
+    assert isinstance(axes.figure, Figure)
+    axes.figure.draw_without_rendering()  # computes the places of the labels
+    kept: list[Any] = []
+    for text in axes.clabel(drawn, inline=False, **look):
+        box = text.get_window_extent()
+        if any(box.padded(14.0).overlaps(other) for other in kept):
+            text.remove()
+            continue
+        kept.append(box)
+        text.set(clip_on=False, path_effects=[withStroke(linewidth=3.0, foreground="white")])
 
 
 def group_counts(low: int, high: int) -> list[tuple[int, int]]:
