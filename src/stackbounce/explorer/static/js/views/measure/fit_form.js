@@ -1,6 +1,7 @@
 /** The form of a fit: the measured values, the numbers that vary, and the outcome. */
 
 import { partsOf, write } from "../../dom.js";
+import { aligned } from "../../model/drop.js";
 import { sayProblem } from "../../set_up/fields.js";
 import { describeFit, describeVerdict } from "./found.js";
 import { t } from "../../words/language.js";
