@@ -61,7 +61,9 @@ def layout() -> dict[str, Any]:
             "Outcomes": _rows_of_drops(Outcomes),
         },
         "sizes": {"scratch": two_springs.SCRATCH, "log_columns": LOG_COLUMNS},
-        "pushes": {name: getattr(sideways, name) for name in ("LEVELS", "FEW", "MANY", "ENOUGH")},
+        "pushes": {
+            name: getattr(sideways, name) for name in ("LEVELS", "FEW", "MANY", "ENOUGH", "WRONG")
+        },
         "stages": {
             name: getattr(records, name) for name in ("CONTINUE", "BEGIN", "BEGIN_WITH_PEAKS")
         },

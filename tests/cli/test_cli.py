@@ -232,7 +232,8 @@ def test_a_ball_off_the_middle_and_how_straight_it_must_lie(laws, printed, told)
     off, within = rows(printed(*asked), "tennis")[1:]
     numbers = [math.degrees(top["angle"]), top["sideways_speed"], top["landing"]]
     assert [float(cell) for cell in off[1:]] == pytest.approx(numbers, rel=1e-3)
-    assert float(within[1]) == pytest.approx(1e3 * straight["most"][1], rel=1e-3)
+    within = [1e-3 * float(cell) for cell in within[1:]]
+    assert within == pytest.approx(straight["most"], rel=1e-3)
 
 
 def test_a_tower_says_which_ball_matters_most_and_where_first_order_ends(printed, told):

@@ -39,7 +39,9 @@ class Sideways:
             self.offset = quantity(split_error(offset, "", uncertain), "m", "--offset")
         if straight is not None:
             degrees = round(math.degrees(quantity(straight, "rad", "--straight")), 9)
-            self.within = between("--straight", degrees, 0.0, math.degrees(LIMIT), "degrees")
+            self.within = between(
+                "--straight", degrees, 0.0, round(math.degrees(LIMIT), 9), "degrees"
+            )
         if (offset or straight) and not self.moved:
             raise InvalidValue("--offset and --straight need two balls or more, got 1")
         self.errors = {f"offsets.{i}": text for text in uncertain.values() for i in self.moved}
@@ -49,7 +51,7 @@ class Sideways:
 
         ``sideways``: how the uppermost ball leaves for each ball that lies off the middle alone.
         ``straight``: how far each ball alone may lie off, in m, for each ball to leave within the
-        angle; nan for a ball that does not move up.
+        angle; nan for a ball that does not move up, or that would lie beside the one below first.
         """
         answers: dict[str, list[dict[str, Any]]] = {}
         if self.offset is not None and not self.errors:
@@ -63,6 +65,8 @@ class Sideways:
             transfer = result.sideways().transfer.values
             with np.errstate(divide="ignore"):
                 most = math.tan(math.radians(self.within)) * upward[:, None] / np.abs(transfer)
+            sizes = [ball.diameter or 0.0 for ball in result.drop.balls]
+            most[most > 0.5 * np.add(sizes, [math.inf, *sizes[:-1]])] = math.nan
             answers["straight"] = [{"moved": i, "most": most[:, i].tolist()} for i in self.moved]
         return answers
 
@@ -87,7 +91,7 @@ class Sideways:
             rows = [{key: found[f"{key}.{i}"] for key in _HEADINGS} for i in balls]
             _print_leaving(console, title, "ball", self.names, rows)
         if "straight" in answers:
-            shown = self.moved[-_COLUMNS:]
+            shown = range(len(self.names))[-_COLUMNS:]
             title = "How far off a ball alone may lie, in mm, for each to leave within"
             console.print(f"\n{title} {self.within:g}°", style="bold")
             headings = [f"\n{self.names[i]}" for i in shown]
@@ -95,8 +99,9 @@ class Sideways:
             for name, row in zip(self.names[1:], answers["straight"], strict=True):
                 table.add_row(name, *(number(1e3 * row["most"][i]) for i in shown))
             console.print(table)
-            if len(self.moved) > 1:
-                worst = min(answers["straight"], key=lambda row: row["most"][-1])["moved"]
+            most = [row["most"][-1] for row in answers["straight"]]
+            if len(most) > 1 and not np.all(np.isnan(most)):
+                worst = 1 + int(np.nanargmin(most))
                 console.print(
                     f"For the {self.names[-1]}, the place of {self.names[worst]} matters most."
                 )

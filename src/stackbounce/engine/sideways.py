@@ -22,6 +22,7 @@ LEVELS = 4  # of the extrapolation, in which every push, every second, fourth an
 FEW = 128  # pushes in a stretch, of which most stacks need no more; they are doubled until the
 MANY = 65536  # error is small, or all stretches together have so many
 ENOUGH = 1e-9  # of the largest sideways speed: an error that is small
+WRONG = 1e-3  # and one that is too large, as where a stack topples
 
 
 class Pushes(NamedTuple):

@@ -94,6 +94,9 @@ def predict(
     need("a number with an error", *MEASURING)
     options = run_options(drop, until, rtol, event_limit)
     inputs = read_inputs(drop, errors)
+    if inputs.offsets:  # refuses what has no sideways motion, before the draws
+        middle = {ball: offset.nominal_value for ball, offset in inputs.offsets.items()}
+        solve_one(drop, options).sideways(middle)
     count = _default_draws(inputs, options) if draws is None else draws
     count = whole("draws", count, FEWEST, _MOST)
     drawn, refused, share = inputs.draw(count, seed_of(rng))

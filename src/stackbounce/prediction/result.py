@@ -1,5 +1,6 @@
 """The result of `predict`: what follows of a drop whose numbers have errors, with errors."""
 
+import contextlib
 import functools
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -385,7 +386,12 @@ class Prediction(Shown):
             columns = result.sideways(at).items()
             return {f"{name}.{i}": x for name, xs in columns for i, x in enumerate(xs.values)}
 
-        found = self.carry(leaving)
+        def known(result: Result) -> dict[str, float]:
+            with contextlib.suppress(InvalidValue):
+                return leaving(result)
+            return {}
+
+        found = self.carry(known)
         for ball, offset in self.inputs.offsets.items():
             if offset.std_dev > 0.0:
                 apart = offset - middle[ball]

@@ -393,7 +393,7 @@ class Result(Shown):
         Returns
         -------
         xarray.Dataset
-            By ball: `sideways_speed` (m/s), `angle` (rad, from straight up) and `offset` (m) at the
+            By ball: `sideways_speed` (m/s), `angle` (rad, off the vertical) and `offset` (m) at the
             end of the run; `offset_at_top` and `landing` (m) where it flies on to its highest point
             and comes down to where it lay, nan where it does not. The attribute `remark` says where
             first order ends, and `error` estimates that of the sideways speeds, over the largest: a
@@ -405,8 +405,9 @@ class Result(Shown):
         Raises
         ------
         InvalidValue
-            If a ball has no diameter, or a number makes no sense; if the run is INVALID, or had
-            infinitely many collisions.
+            If a ball has no diameter, or a number makes no sense; if the run is INVALID, met a
+            limit, came to rest or had infinitely many collisions; if a compression exceeds the sum
+            of two radii; if the sideways motion grows too fast to be followed.
         InvalidType
             If an argument has the wrong type.
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from stackbounce.engine import codes, native
 from stackbounce.engine.memory import kernel_named
-from stackbounce.engine.sideways import ENOUGH, FEW, LEVELS, MANY, new_pushes
+from stackbounce.engine.sideways import ENOUGH, FEW, LEVELS, MANY, WRONG, new_pushes
 from stackbounce.engine.stack import as_arrays
 from stackbounce.engine.tables import Table
 from stackbounce.errors import InvalidType, InvalidValue, finite, shown, whole
@@ -31,6 +31,7 @@ LIMIT = math.radians(15.0)  # an exact angle of 16.5 degrees is 16.1 to first or
 UNITS = {"sideways_speed": "m/s", "angle": "rad"} | dict.fromkeys(
     ("offset", "offset_at_top", "landing"), "m"
 )
+_ENDED = ("FINISHED", "TIME_REACHED")  # statuses of runs in which no impulse is missing
 REMARK = "an angle is above 15 degrees, where first order ends"
 
 
@@ -54,10 +55,18 @@ def leave_sideways(
             attrs,
         )
     begun = [*_given("offsets", offsets, "m", count), *_given("speeds", speeds, "m/s", count)]
+    for i, (lower, upper) in enumerate(zip(result.drop.balls, result.drop.balls[1:], strict=False)):
+        apart = abs(begun[i + 1] - begun[i])
+        reach = 0.5 * ((lower.diameter or math.inf) + (upper.diameter or math.inf))
+        if apart >= reach:
+            raise InvalidValue(
+                f"offsets must leave ball {i + 1} on ball {i}, less than {reach:.6g} m to the side "
+                f"of it, got {apart:.6g} m"
+            )
     offset, sideways, attrs["error"] = _carried(result, np.array([begun]))
     offset, sideways = offset[:, 0], sideways[:, 0]
     upward = np.array(result.final_velocities)
-    angle = np.arctan2(sideways, upward)
+    angle = np.arctan2(sideways, np.abs(upward))
     pull = result.drop.gravity or STANDARD_GRAVITY
     above = result.sampled([result.end_time])["position"][:, 0]
     with np.errstate(invalid="ignore"):
@@ -102,9 +111,9 @@ def _carried(result: "Result", begun: _Array) -> tuple[_Array, _Array, float]:
     for i, ball in enumerate(balls):
         if ball.diameter is None:
             raise InvalidValue(f"sideways motion needs each ball's diameter: ball {i} has none")
-    invalid = result.status.name == "INVALID"
-    if invalid or any(result.infinite):
-        what = "is INVALID" if invalid else "had infinitely many collisions"
+    endless = any(result.infinite)
+    if endless or result.status.name not in _ENDED:
+        what = "had infinitely many collisions" if endless else f"is {result.status.name}"
         raise InvalidValue(f"sideways motion needs all impulses of a run: this one {what}")
     struck = rows[rows[:, codes.KIND] == codes.COLLISION]
     if len(struck):
@@ -124,8 +133,19 @@ def _carried(result: "Result", begun: _Array) -> tuple[_Array, _Array, float]:
         pushes.force[:], pushes.compression[:] = (
             tables[name].T.ravel() for name in ("force", "compression")
         )
+        deep = tables["compression"].max(axis=1) >= pushes.distance
+        if any(deep[1:]):
+            raise InvalidValue(
+                "sideways motion needs centres that stay apart: the compression of contact "
+                f"{1 + np.argmax(deep[1:])} exceeds the sum of the radii"
+            )
         offset, speed, error = _carry(pushes, begun, LEVELS, result.end_time)
         error = float(error / (np.max(np.abs(speed)) or 1.0))
+        if error > WRONG and len(pushes.time) >= MANY:
+            raise InvalidValue(
+                "sideways motion grows too fast in this run to be followed: the error of the "
+                f"speeds would be {100.0 * error:.1g} %"
+            )
         if error <= ENOUGH or len(pushes.time) >= MANY:
             return offset, speed, error
         count *= 2

@@ -21,7 +21,7 @@ function carried(result, begun) {
     const pushes = { ...stack, time: struck.map((row) => row[log.TIME]), share: struck.map(() => 1), force };
     return theEngine().lendPushes(radii.length, struck.length, (room) => carry(room, pushes, begun, 1, end).found);
   }
-  const { LEVELS, FEW, MANY, ENOUGH } = layout.pushes;
+  const { LEVELS, FEW, MANY, ENOUGH, WRONG } = layout.pushes;
   const times = rows.flatMap((row) => [row[log.TIME], row[log.START], row[log.PEAK_TIME]]).filter((time) => time > 0 && time < end);
   const moments = [...new Set([0, ...times])].sort((a, b) => a - b);
   if (moments.length > MOST) throw new InvalidValue(`sideways motion needs a run of at most ${MOST} stretches between events, got ${moments.length}`);
@@ -30,10 +30,14 @@ function carried(result, begun) {
       room.put({ time: moments.flatMap((moment) => [moment, ...new Array(count - 1).fill(0)]) });
       room.call("place_pushes", count, end);
       const { force, compression } = result.again(room.read("time")).samples;
+      const isDeep = compression.some((deep, k) => k % radii.length > 0 && deep >= stack.distance[k % radii.length]);
+      if (isDeep) throw new InvalidValue("sideways motion needs centres that stay apart");
       return carry(room, { ...stack, force, compression }, begun, LEVELS, end);
     });
     const most = Math.max(...found.flatMap(({ speed }) => speed.map(Math.abs)));
-    if (error <= ENOUGH * most || count * moments.length >= MANY) return found;
+    const isLast = count * moments.length >= MANY;
+    if (isLast && error > WRONG * most) throw new InvalidValue("sideways motion grows too fast in this run to be followed");
+    if (isLast || error <= ENOUGH * most) return found;
   }
 }
 
@@ -41,7 +45,8 @@ function carried(result, begun) {
 function check({ drop, run, status }) {
   const bare = drop.balls.findIndex(({ diameter }) => diameter === undefined);
   if (bare >= 0) throw new InvalidValue(`sideways motion needs each ball's diameter: ball ${bare} has none`);
-  const why = status === "INVALID" ? "is INVALID" : run.infinite.some(Boolean) ? "had infinitely many collisions" : null;
+  const ended = ["FINISHED", "TIME_REACHED"].includes(status);
+  const why = run.infinite.some(Boolean) ? "had infinitely many collisions" : ended ? null : `is ${status}`;
   if (why) throw new InvalidValue(`sideways motion needs all impulses of a run: this one ${why}`);
 }
 
@@ -69,7 +74,7 @@ export function leaveSideways(result, begun) {
   const { pull } = result.drop;
   const down = result.speeds.map((speed, ball) => (speed + Math.sqrt(speed * speed + 2 * pull * position[ball][0])) / pull);
   return carried(result, begun).map(({ offset, speed, ...way }) => {
-    const angle = speed.map((sideways, ball) => Math.atan2(sideways, result.speeds[ball]));
+    const angle = speed.map((sideways, ball) => Math.atan2(sideways, Math.abs(result.speeds[ball])));
     return { offset, speed, angle, landing: offset.map((at, ball) => (down[ball] >= 0 ? at + down[ball] * speed[ball] : NaN)), ...way };
   });
 }

@@ -21,6 +21,7 @@ export class NumberField {
     this.latest = []; // value, error and whether somebody types: of many fields few change
     this.build(spec);
     this.input.addEventListener("change", () => this.commit());
+    this.input.addEventListener("input", () => this.fail(null));
     this.input.addEventListener("keydown", (event) => this.press(event));
     this.slider.addEventListener("input", () => this.slide(Number(this.slider.value)));
   }

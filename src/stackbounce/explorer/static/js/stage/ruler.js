@@ -38,6 +38,8 @@ export function drawRuler(root, { film, camera, result, floor, width, middle, le
   const dropped = width < NARROW ? "" : t("dropped from {height}", { height: metres(fallen) });
   const marks = film.tops.map((found, ball) => found && { ...found, ball, group: topMark(drop, ball, film.whole ? found.height : result.rebound_heights[ball], width, middle) }).filter(Boolean);
   const highest = marks.reduce((one, other) => (one && one.height > other.height ? one : other), null);
+  const theirs = film.whole ? null : result.separate?.rebound_heights?.[top];
+  if (theirs > 0 && highest?.ball === top) marks.unshift({ ...line(theirs, "mark textbook-mark", width < NARROW ? "" : `${t("textbook")} ${metres(theirs)}`), time: highest.time });
   if (fallen > 0) marks.unshift(line(fallen, "mark drop-mark", dropped));
   root.replaceChildren(...[...ticks, ...marks].map(({ group }) => group));
   return (view, time, isTop) => {

@@ -56,7 +56,7 @@ export function mountStage(root, store, clock, onRuler = () => null) {
     const names = JSON.stringify(result.drop.balls.map((_, ball) => ballName(result.drop, ball)));
     if (names !== stack) {
       balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball)));
-      trails.replaceChildren(...result.drop.balls.map((_, ball) => s("line", { class: "trail", "--ball": `var(--ball-${ball % 6})` })));
+      trails.replaceChildren(...result.drop.balls.map((_, ball) => s("path", { class: "trail", "--ball": `var(--ball-${ball % 6})` })));
     }
     if (names !== stack || Boolean(film.ghosts) !== ghosts.hasChildNodes()) ghosts.replaceChildren(...(film.ghosts ? ghostGroup(result.drop) : []));
     stack = names;
@@ -95,14 +95,15 @@ export function mountStage(root, store, clock, onRuler = () => null) {
   };
 
   const showParts = () => {
-    const { arrows, forces: pushes, centre: mass } = store.get();
+    const { arrows, forces: pushes, centre: mass, ghosts: pale } = store.get();
+    ruler.classList.toggle("no-textbook", !pale);
     forces.classList.toggle("hidden", !pushes);
     balls.classList.toggle("no-arrows", !arrows);
     centre.classList.toggle("hidden", !mass);
   };
   letWind(svg, store, clock, () => size.width);
   store.watch(["result", "magnify", "kept", "predict"], build);
-  store.watch(["arrows", "forces", "centre"], showParts);
+  store.watch(["arrows", "forces", "centre", "ghosts"], showParts);
   store.watch(["ghosts"], () => clock.touch());
   clock.subscribe(draw);
   new ResizeObserver(([{ contentRect }]) => {
@@ -155,12 +156,14 @@ function moveTrails(root, { film, floor, middle }, view, time) {
   const now = film.at(time);
   [...root.children].forEach((line, ball) => {
     const top = film.tops[ball];
-    const moment = top && time > top.time ? film.at(top.time) : now;
-    put(line, "x1", middle + besideOf(view, { sideways: now.begun, begun: now.begun }, ball));
-    put(line, "x2", middle + besideOf(view, moment, ball));
+    const isUp = top && time > top.time;
     const lowest = (position) => (Number(heightAt(view, floor, ball, position)) + view.radius[ball]).toFixed(2);
-    put(line, "y1", lowest(0));
-    put(line, "y2", lowest(moment === now ? now.position[ball] : top.height));
+    const from = middle + besideOf(view, { sideways: now.begun, begun: now.begun }, ball);
+    const to = middle + besideOf(view, isUp ? film.at(top.time) : now, ball);
+    // A parabola leaves along the line to a point half as far aside, as high as without gravity.
+    const risen = top ? (isUp ? 1 : (time - film.last) / (top.time - film.last)) : 0;
+    const end = lowest(isUp ? top.height : now.position[ball]);
+    put(line, "d", `M${from} ${lowest(0)}Q${0.5 * (from + to)} ${top ? lowest(risen * top.height) : end} ${to} ${end}`);
   });
 }
 
