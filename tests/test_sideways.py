@@ -117,7 +117,9 @@ LAWS = [
 
 
 @pytest.mark.fast_cases(3)
-@pytest.mark.parametrize("seed", range(50))
+@pytest.mark.parametrize(
+    "seed", [*range(15), *(pytest.param(seed, marks=pytest.mark.release) for seed in range(15, 50))]
+)
 def test_random_stacks_of_all_laws(seed):
     random = np.random.default_rng(seed)
     count = 2 + seed % 3

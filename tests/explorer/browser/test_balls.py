@@ -5,7 +5,7 @@ import pytest
 import stackbounce as sb
 from stackbounce.model.catalogue import stacked
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
 
 COLORS = """() => [0, 1].map((i) =>
   getComputedStyle(document.documentElement).getPropertyValue(`--ball-${i}`).trim())"""

@@ -4,7 +4,7 @@ import pytest
 
 from stackbounce.model.catalogue import stacked
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
 FORMS = ("served",)
 
 

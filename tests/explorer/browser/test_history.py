@@ -2,7 +2,7 @@
 
 import pytest
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
 FORMS = ("served",)  # the other forms have the same modules
 
 FIRST_MASS = 0.057

@@ -2,7 +2,7 @@
 
 import pytest
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
 
 FIRST = "Der Tennisball fliegt mit dem 1,80-Fachen der Aufprallgeschwindigkeit nach oben"
 

@@ -7,7 +7,7 @@ import pytest
 
 import stackbounce as sb
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
 
 MASSES = "#view=line&line.x.path=mass_ratio&line.x.low=1&line.x.high=10&line.x.log=false"
 CURVES = """() => [...document.querySelectorAll('.line-curve')].map((curve) =>

@@ -7,7 +7,7 @@ import pytest
 
 import stackbounce as sb
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
 
 LEFT, RIGHT, TOP, BOTTOM = 58, 14, 48, 44  # px around the field of the map
 

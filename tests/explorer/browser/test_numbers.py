@@ -2,7 +2,7 @@
 
 import pytest
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
 NAMES = "&balls.0.mass=0.6&balls.0.name=big+basketball&balls.1.mass=0.057&balls.1.name=table+tennis"
 LONG = (
     f"#height=5{NAMES}&contacts.0.law=Spring&contacts.0.stiffness=9e4"
