@@ -55,6 +55,11 @@ class Inputs:
     offsets: Mapping[int, Any]
 
     @property
+    def middle(self) -> dict[int, float]:
+        """Offsets in m without their errors, by ball."""
+        return {ball: offset.nominal_value for ball, offset in self.offsets.items()}
+
+    @property
     def paths(self) -> list[str]:
         """The paths of the numbers."""
         return [number.path for number in self.numbers]

@@ -94,9 +94,11 @@ def predict(
     need("a number with an error", *MEASURING)
     options = run_options(drop, until, rtol, event_limit)
     inputs = read_inputs(drop, errors)
-    if inputs.offsets:  # refuses what has no sideways motion, before the draws
-        middle = {ball: offset.nominal_value for ball, offset in inputs.offsets.items()}
-        solve_one(drop, options).sideways(middle)
+    if inputs.offsets:  # what has no sideways motion is refused before the draws
+        result = solve_one(drop, options)
+        for ball, offset in inputs.offsets.items():
+            for end in (-offset.std_dev, offset.std_dev):
+                result.sideways(inputs.middle | {ball: offset.nominal_value + end})
     count = _default_draws(inputs, options) if draws is None else draws
     count = whole("draws", count, FEWEST, _MOST)
     drawn, refused, share = inputs.draw(count, seed_of(rng))

@@ -380,7 +380,7 @@ class Prediction(Shown):
         """
         if not self.inputs.offsets:
             return {}
-        middle = {ball: offset.nominal_value for ball, offset in self.inputs.offsets.items()}
+        middle = self.inputs.middle
 
         def leaving(result: Result, at: Mapping[int, float] = middle) -> dict[str, float]:
             columns = result.sideways(at).items()

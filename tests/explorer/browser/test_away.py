@@ -14,6 +14,7 @@ def test_a_view_opened_while_the_server_is_away_can_be_tried_again(visit, page):
     page.context.set_offline(False)
     page.locator("#measure").get_by_role("button", name="Try again").click()
     page.get_by_role("button", name="Choose a file").wait_for()
+    assert page.locator("#measure .field-error:visible").count() == 0
     visit.complaints.clear()  # Chromium logs the requests that failed
 
 

@@ -98,3 +98,4 @@ def test_a_drag_and_a_wheel_on_the_stage_wind_the_film(page):
     page.wait_for_function("() => clock.time > clock.begin && !clock.playing")
     page.mouse.wheel(0, -3000)
     page.wait_for_function("() => clock.time === clock.begin")
+    assert not page.evaluate("() => clock.playing")
