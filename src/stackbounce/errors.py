@@ -5,10 +5,11 @@ with the name, so that the reader of a file can prefix the path (``mass must be 
 ``balls.1.mass must be …``).
 """
 
+import contextlib
 import functools
 import itertools
 import math
-from collections.abc import Callable, Iterable, Mapping, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping, Set
 from numbers import Integral, Real
 from typing import Any, TypeVar
 
@@ -57,6 +58,36 @@ class FileError(StackbounceError, OSError):
 
 class MissingExtra(StackbounceError, ImportError):
     """A library that an extra of the package brings, and that is not installed."""
+
+
+@contextlib.contextmanager
+def placed(place: str, kind: type[StackbounceError] | None = None) -> Iterator[None]:
+    """Begin the message of a wrong value with its place, such as the name of a file.
+
+    Parameters
+    ----------
+    place : str
+        What the message begins with, as it is.
+    kind : type, optional
+        The class of the error that is raised; by default its own.
+
+    Raises
+    ------
+    StackbounceError
+        In place of any `InvalidValue` or `InvalidType` within the context.
+
+    Examples
+    --------
+    >>> with placed("balls.1."):
+    ...     _ = positive("mass", -1.0, "kilograms")
+    Traceback (most recent call last):
+        ...
+    stackbounce.errors.InvalidValue: balls.1.mass must be a positive number of kilograms, got -1.0
+    """
+    try:
+        yield
+    except (InvalidValue, InvalidType) as error:
+        raise (kind or type(error))(f"{place}{error}") from error
 
 
 def listed(name: str, values: Any, most: int) -> tuple[Any, ...]:

@@ -7,12 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from stackbounce.errors import (
-    InvalidType,
     InvalidValue,
     ScenarioError,
-    StackbounceError,
     a_or_an,
     nearest,
+    placed,
     positive,
     shown,
 )
@@ -81,19 +80,15 @@ def read_question(path: str | os.PathLike[str]) -> FitProblem:
     stackbounce.errors.FileError: no-such-file.toml cannot be read: No such file or directory
     """
     parts = read_parts(path)
-    try:
+    with placed(f"{os.fspath(path)}: ", ScenarioError):
         return FitProblem(*parts)
-    except (InvalidValue, InvalidType) as error:
-        raise ScenarioError(f"{os.fspath(path)}: {error}") from error
 
 
 def read_parts(path: str | os.PathLike[str]) -> Parts:
     """Return the parts of a fit problem from a file, not checked; see `read_question`."""
     name, mapping = load_toml(path)
-    try:
+    with placed(f"{name}: ", ScenarioError):
         return _parts(mapping, Path(name).parent)
-    except (InvalidValue, InvalidType) as error:
-        raise ScenarioError(f"{name}: {error}") from error
 
 
 def convert_measured(name: str, value: object, folder: Path) -> Any:
@@ -189,10 +184,8 @@ def _several(
             for key, value in rest.items()
             if not (key in _INCIDENCE and any(other in own for other in _INCIDENCE))
         }
-        try:
+        with placed(f"{name}: ", ScenarioError):
             drops[name] = Drop.from_mapping(common | own)
-        except StackbounceError as error:
-            raise ScenarioError(f"{name}: {error}") from error
     return drops, data
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
+from stackbounce.errors import InvalidValue, nearest, placed, shown
 from stackbounce.fitting.files import check_name, read_force_record
 from stackbounce.fitting.quantities import find_quantity, read_with_error
 from stackbounce.fitting.rows import Row, decimal_comma, rows_of
@@ -87,10 +87,8 @@ def read_drops(
     stackbounce.errors.FileError: no-such-file.csv cannot be read: No such file or directory
     """
     name, rows = rows_of(path)
-    try:
+    with placed(f"{name}: "):
         return _drops(drop, rows, Path(name).parent)
-    except (InvalidValue, InvalidType) as error:
-        raise type(error)(f"{name}: {error}") from error
 
 
 def _drops(
@@ -191,10 +189,8 @@ def drop_of(drop: Drop, values: Mapping[str, float], line: int) -> Drop:
     numbers = numbers_of(drop)
     falls = {name: value for name, value in values.items() if name in _FALLS}
     given = {numbers[path]: value for path, value in values.items() if path not in _FALLS}
-    try:
+    with placed(f"row {line}: "):
         return drop_at(drop.replace(**falls), given)
-    except (InvalidValue, InvalidType) as error:
-        raise type(error)(f"row {line}: {error}") from error
 
 
 def _data(row: Mapping[str, Mapping[str, _Cell]], folder: Path) -> dict[str, Any]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, positive, shown, unmasked
+from stackbounce.errors import InvalidType, InvalidValue, placed, positive, shown, unmasked
 from stackbounce.fitting.quantities import read_index
 from stackbounce.measure.kinds.waveform.analysis import waveform as analysed
 from stackbounce.model import Drop
@@ -116,10 +116,8 @@ def read_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
     """
     index = read_index(drop, "contact", name.partition(".")[2], path)
     times, force, error, scaled = _arrays(value, path)
-    try:
+    with placed(f"{path}: "):
         found = analysed((times, force))
-    except (InvalidValue, InvalidType) as problem:
-        raise type(problem)(f"{path}: {problem}") from problem
     if not found.contacts or found.contacts[0].start is None:
         raise InvalidValue(
             f"{path} must begin before a contact and contain it, got {len(times)} samples"

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, fields
 from typing import Any, TypeVar, get_type_hints
 
-from stackbounce.errors import InvalidType, InvalidValue, ScenarioError, between, nearest, shown
+from stackbounce.errors import InvalidValue, ScenarioError, between, nearest, placed, shown
 from stackbounce.files import content_of
 from stackbounce.model.ball import Ball
 from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw, law_named
@@ -144,10 +144,8 @@ def _units(kind: type) -> dict[str, Unit | None]:
 
 def _raised(path: str, make: Callable[..., _T], *arguments: object, **values: Any) -> _T:
     """Return what a function returns; its errors are those of a scenario, at a path."""
-    try:
+    with placed(_join(path, ""), ScenarioError):
         return make(*arguments, **values)
-    except (InvalidValue, InvalidType) as error:
-        raise ScenarioError(_join(path, str(error))) from error
 
 
 def _join(path: str, key: str) -> str:
@@ -157,10 +155,8 @@ def _join(path: str, key: str) -> str:
 def read_toml(kind: type[_T], path: str | os.PathLike[str]) -> _T:
     """Return the drop, of class `kind`, of a scenario file; see `Drop.from_toml`."""
     name, mapping = load_toml(path)
-    try:
+    with placed(f"{name}: "):
         return read_mapping(kind, mapping)
-    except ScenarioError as error:
-        raise ScenarioError(f"{name}: {error}") from error
 
 
 def load_toml(path: object) -> tuple[str, dict[str, Any]]:

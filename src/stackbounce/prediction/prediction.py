@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.errors import ScenarioError, whole
+from stackbounce.errors import placed, whole
 from stackbounce.extras import MEASURING, need
 from stackbounce.measure.quantities import without_error
 from stackbounce.model import Drop
@@ -153,10 +153,8 @@ def read_scenario(path: str | os.PathLike[str]) -> tuple[Drop, dict[str, str]]:
     """
     name, mapping = load_toml(path)
     plain, errors = split_errors(mapping)
-    try:
+    with placed(f"{name}: "):
         return Drop.from_mapping(plain), errors
-    except ScenarioError as error:
-        raise ScenarioError(f"{name}: {error}") from error
 
 
 def split_errors(mapping: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, str]]:

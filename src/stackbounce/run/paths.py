@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.engine.records import Drops
-from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
+from stackbounce.errors import InvalidType, InvalidValue, nearest, placed, shown
 from stackbounce.model import STANDARD_GRAVITY, Ball, ContactLaw, Drop
 from stackbounce.model.laws import contact_numbers
 from stackbounce.units import unit_of
@@ -185,10 +185,8 @@ def drop_at(drop: Drop, values: Mapping[Number, float]) -> Drop:
 
 
 def _changed(part: Any, chosen: Mapping[str, float], path: str) -> Any:
-    try:
+    with placed(f"{path}."):
         return part.replaced(chosen) if isinstance(part, ContactLaw) else replace(part, **chosen)
-    except (InvalidValue, InvalidType) as error:
-        raise type(error)(f"{path}.{error}") from error
 
 
 @functools.cache

@@ -11,9 +11,9 @@ import numpy as np
 from stackbounce.errors import (
     InvalidType,
     InvalidValue,
-    StackbounceError,
     listed,
     non_negative,
+    placed,
     positive,
     shown,
     whole,
@@ -235,10 +235,8 @@ def join_contacts(names: Sequence[str], laws: Sequence[ContactLaw]) -> list[Cont
     """
     found = [laws[0]]
     for (one, lower), (other, upper) in itertools.pairwise(zip(names, laws, strict=True)):
-        try:
+        with placed(f"{one} and {other}: ", InvalidValue):
             found.append(_pressed(lower, upper))
-        except StackbounceError as error:
-            raise InvalidValue(f"{one} and {other}: {error}") from error
     return found
 
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import FileError, InvalidValue, counted
+from stackbounce.errors import FileError, InvalidValue, counted, placed
 from stackbounce.fitting.rows import Row, rows_of
 from stackbounce.fitting.series.columns import UNITS, Column, columns_of
 from stackbounce.fitting.series.readings import Numbers, headed, numbers_in, with_unit
@@ -73,11 +73,9 @@ def read_stack(path: str | os.PathLike[str], errors: Sequence[str] = ()) -> Stac
     }
     if len(named) < 2:
         return None
-    try:
-        balls = sorted(named, key=lambda ball: -named[ball])
+    balls = sorted(named, key=lambda ball: -named[ball])
+    with placed(f"{name}: "):
         return _drops(columns, body, told_errors(errors), balls)
-    except InvalidValue as error:
-        raise type(error)(f"{name}: {error}") from error
 
 
 def _drops(

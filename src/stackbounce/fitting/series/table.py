@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, counted, nearest, positive, shown
+from stackbounce.errors import InvalidValue, counted, nearest, placed, positive, shown
 from stackbounce.fitting.rows import File, rows_of
 from stackbounce.fitting.series.columns import UNITS, role_of
 from stackbounce.fitting.series.readings import MEASURED, STARTS, readings_of, with_unit
@@ -85,7 +85,7 @@ def read_table(
            [0.64, 0.66]])
     """
     name, rows = rows_of(path)
-    try:
+    with placed(f"{name}: "):
         told = told_errors(errors)
         known = {
             key: positive(key, value, unit)
@@ -98,8 +98,6 @@ def read_table(
             data = _dataset(own, measured, told, notes)
             title = str(group) or Path(name).name
             groups[str(group)] = data.assign_attrs(name=title, title=title, ball=title, **known)
-    except InvalidValue as error:
-        raise type(error)(f"{name}: {error}") from error
     return Table(Path(name).name, groups, tuple(dict.fromkeys(notes)))
 
 
