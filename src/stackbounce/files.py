@@ -15,6 +15,7 @@ import tempfile
 import zlib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 from stackbounce.errors import FileError, InvalidType, shown
 
@@ -27,6 +28,26 @@ _COMMENTS = {
 }
 _PNG_END = 12  # bytes of the last chunk, before which a comment has to be
 _LARGEST = 2**30  # bytes of a file of ours
+
+
+def shipped(package: str, name: str) -> str:
+    """Return the text of a file that lies in one of the package's folders.
+
+    Examples
+    --------
+    >>> shipped("stackbounce", "attributes.toml").partition(",")[0]
+    '# Attributes that people try and that are not there'
+    """
+    from importlib.resources import files
+
+    return (files(package) / name).read_text("utf-8")
+
+
+def shipped_table(package: str, name: str) -> dict[str, Any]:
+    """Return what a file in TOML says that lies in one of the package's folders."""
+    import tomllib
+
+    return tomllib.loads(shipped(package, name))
 
 
 def content_of(path: object, most: int) -> tuple[str, bytearray]:

@@ -9,17 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from stackbounce.cli import (
-    balls,
-    datasets,
-    explorer,
-    fit,
-    highest,
-    measure,
-    paper,
-    simulate,
-    sweep,
-)
+from stackbounce.cli import balls, datasets, explorer, fit, highest, measure, paper, simulate, sweep
 from stackbounce.cli.options import add_command
 from stackbounce.cli.output import Unsolved
 from stackbounce.errors import StackbounceError

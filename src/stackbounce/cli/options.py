@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+from stackbounce.files import shipped
 from stackbounce.measure.options import OPTIONS, Option
 from stackbounce.model.laws import LAWS, usual_laws
 
@@ -71,7 +72,7 @@ def _measured(option: Option) -> dict[str, Any]:
 
 def _read() -> dict[str, Any]:
     """Return the table, with the options of measurements after the files of ``measure``."""
-    text = Path(__file__).with_name("options.toml").read_text("utf-8")
+    text = shipped(__package__, "options.toml")
     for field, laws in (("{laws}", LAWS), ("{usual_laws}", usual_laws())):
         text = text.replace(field, ", ".join(laws))
     table = tomllib.loads(text)

@@ -17,14 +17,13 @@ calls that a row shows, and the data of a figure, are this record.
 """
 
 import csv
-import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from functools import lru_cache
-from importlib.resources import files
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from stackbounce.files import shipped, shipped_table
 from stackbounce.model.drop import Drop
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
@@ -102,7 +101,7 @@ def changed(data: Data, key: str, factor: float) -> Data:
 
 def _read_numbers() -> Iterator[Input]:
     """Yield the rows of ``numbers.csv``, in the order of the paper."""
-    text = (files(__package__) / "numbers.csv").read_text("utf-8")
+    text = shipped(__package__, "numbers.csv")
     for key, printed, value, unit, spread, where, what in [*csv.reader(text.splitlines())][1:]:
         yield Input(key, printed, float(value), unit, float(spread), where, what)
 
@@ -287,7 +286,7 @@ class Claim:
 
 
 def _read_claims() -> dict[str, Claim]:
-    read = tomllib.loads((files(__package__) / "claims.toml").read_text("utf-8"))
+    read = shipped_table(__package__, "claims.toml")
     claims = {}
     for name, entry in read["claims"].items():
         reason = entry.pop("reason", "").format(**read["reasons"])

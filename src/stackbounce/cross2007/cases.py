@@ -4,16 +4,15 @@ Cases are all drops that it computes or measures; their words stand in ``cases.t
 those of Figures 2, 4 and 6: a drop, the number of it that varies, and between which ends.
 """
 
-import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from importlib.resources import files
 from typing import Any
 from urllib.parse import urlencode
 
 from stackbounce.cross2007 import datasets, stacks
 from stackbounce.cross2007.bench import PAPER, Bench
 from stackbounce.cross2007.drops import rigid_pair, spring_pair
+from stackbounce.files import shipped_table
 from stackbounce.model import Drop
 
 
@@ -57,8 +56,7 @@ def list_cases() -> Iterator[Case]:
 'figure-9-other', 'measured-basketball-tennis']
     """
     bench = Bench(PAPER)
-    cases = tomllib.loads((files(__package__) / "cases.toml").read_text("utf-8"))
-    for name, words in cases.items():
+    for name, words in shipped_table(__package__, "cases.toml").items():
         yield Case(name, **words, drop=_sized(bench, _DROPS[name](bench)))
 
 

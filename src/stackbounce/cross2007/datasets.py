@@ -146,10 +146,7 @@ def _alone(name: str) -> DataSet:
         impact_speed=fallen_speed(height),
     )
     drop = Drop([_ball(name)], [law], height=height)
-    data = {
-        "durations.0": _known(f"{name}.contact_time"),
-        "rebound_ratios": [kept],
-    }
+    data = {"durations.0": _known(f"{name}.contact_time"), "rebound_ratios": [kept]}
     vary = {"contacts.0.stiffness": _STIFF, "contacts.0.restitution": (0.3, 1.0)}
     return DataSet(drop, data, vary, f"Table I: {name} alone")
 

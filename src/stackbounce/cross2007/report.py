@@ -31,13 +31,7 @@ from stackbounce.version import __version__
 if TYPE_CHECKING:
     import pandas as pd
 
-_MODULES = (
-    checks_models,
-    checks_basketball,
-    tables,
-    checks_superballs,
-    checks_fits,
-)
+_MODULES = (checks_models, checks_basketball, tables, checks_superballs, checks_fits)
 COMPUTED = {name: compute for module in _MODULES for name, compute in module.COMPUTED.items()}
 """The function that computes each claim, by name."""
 
@@ -239,10 +233,7 @@ def table(name: str | int, data: Data = PAPER) -> Table:
 
 
 def write(
-    out: Path,
-    progress: Callable[[str], None] = lambda _: None,
-    *,
-    explorer: str | None = None,
+    out: Path, progress: Callable[[str], None] = lambda _: None, *, explorer: str | None = None
 ) -> Audit:
     """Recompute the paper and write the results to files.
 
@@ -315,10 +306,7 @@ def _cells(row: Row) -> dict[str, Any]:
 
 
 def _page(
-    done: Audit,
-    drawn: list[tuple[Picture, str]],
-    tables: list[Table],
-    explorer: str | None,
+    done: Audit, drawn: list[tuple[Picture, str]], tables: list[Table], explorer: str | None
 ) -> str:
     pages = make_environment()
     pages.filters["digits"] = _digits

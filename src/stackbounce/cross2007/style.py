@@ -5,19 +5,18 @@ apart, and so can readers of a print in grey; line styles and labels carry the s
 """
 
 import io
-import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from html import escape
-from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.cross2007.bench import CLAIMS, Bench
 from stackbounce.cross2007.checks import SCALES
 from stackbounce.cross2007.pages import data_uri
+from stackbounce.files import shipped_table
 from stackbounce.shown import Shown
 from stackbounce.version import __version__
 
@@ -129,7 +128,7 @@ def _place(bench: Bench, key: str | float) -> tuple[str, float]:
 @cache
 def read_words() -> dict[str, Any]:
     """Return the contents of ``figures.toml``: the words of each figure by its number."""
-    return tomllib.loads((files(__package__) / "figures.toml").read_text("utf-8"))
+    return shipped_table(__package__, "figures.toml")
 
 
 @contextmanager

@@ -19,14 +19,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from uncertainties import UFloat
 
-PAIRS = (
-    "B2_on_B1",
-    "B1_on_B2",
-    "B3_on_B1",
-    "B1_on_B3",
-    "B1_on_B1",
-    "tennis_on_basketball",
-)
+PAIRS = ("B2_on_B1", "B1_on_B2", "B3_on_B1", "B1_on_B3", "B1_on_B1", "tennis_on_basketball")
 """Table II's rows, by upper and lower ball."""
 
 

@@ -3,28 +3,12 @@
 from typing import Any
 
 from stackbounce.errors import counted
+from stackbounce.files import shipped
 from stackbounce.fitting.comparison import Comparison
 from stackbounce.fitting.result import Fit
 from stackbounce.fitting.series import SeriesFit
 from stackbounce.model.laws import LAWS
 from stackbounce.version import __version__
-
-_ENTRIES = """\
-@software{{stackbounce,
-  author  = {{{{The stackbounce developers}}}},
-  title   = {{stackbounce: bounces of stacked balls}},
-  version = {{{version}}}
-}}
-@article{{cross2007,
-  author  = {{Cross, Rod}},
-  title   = {{Vertical bounce of two vertically aligned balls}},
-  journal = {{American Journal of Physics}},
-  volume  = {{75}},
-  number  = {{11}},
-  pages   = {{1009--1016}},
-  year    = {{2007}},
-  doi     = {{10.1119/1.2772286}}
-}}"""
 
 
 def cite(found: Fit | Comparison | SeriesFit) -> str:
@@ -66,7 +50,8 @@ def cite(found: Fit | Comparison | SeriesFit) -> str:
         f"{law.__name__}, {law.formula} ({law.source})"
         for law in sorted(laws, key=lambda law: law.__name__)
     )
+    entries = shipped(__package__, "cite.bib").strip().replace("VERSION", __version__)
     return (
         f"Contact laws were fitted to {data} by weighted least squares with stackbounce "
-        f"{__version__}. {result} Laws: {listed}.\n\n{_ENTRIES.format(version=__version__)}"
+        f"{__version__}. {result} Laws: {listed}.\n\n{entries}"
     )

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
-from stackbounce.errors import StackbounceError
+from stackbounce.errors import InvalidValue, StackbounceError
 
 
 @dataclass(frozen=True)
@@ -88,12 +88,14 @@ class Message(str):
         return "".join(wording(p) if isinstance(p, OptionHint) else p for p in self.parts)
 
 
-def about_option(name: str, text: str) -> Message:
-    """Return a message that begins with the name of an option.
+def about_option(
+    name: str, text: str, kind: type[StackbounceError] = InvalidValue
+) -> StackbounceError:
+    """Return an error whose message begins with the name of an option.
 
     Examples
     --------
     >>> about_option("run", " must be one that is there")
-    'run must be one that is there'
+    InvalidValue('run must be one that is there')
     """
-    return Message(OptionHint({name: None}), text)
+    return kind(Message(OptionHint({name: None}), text))

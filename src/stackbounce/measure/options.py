@@ -5,13 +5,12 @@ table in `docs/measure.md`. An option is in effect for the kinds that name it in
 """
 
 import re
-import tomllib
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Literal, TypeAlias
 
 from stackbounce.errors import finite, fraction, non_negative, positive
+from stackbounce.files import shipped_table
 from stackbounce.measure.kinds import KINDS
 from stackbounce.model.laws import LAWS
 from stackbounce.units import examples
@@ -105,7 +104,7 @@ def _typed(law: str) -> str:
 
 def _read_options() -> Iterator[Option]:
     """Yield the options, those of each panel together."""
-    groups = tomllib.loads(Path(__file__).with_name("options.toml").read_text("utf-8"))
+    groups = shipped_table(__package__, "options.toml")
     laws, kinds = _listed(map(_typed, LAWS)), _listed(KINDS)
     for group, options in groups.items():
         for name, option in options.items():

@@ -7,7 +7,7 @@ import numpy as np
 
 from stackbounce.plots.fitted_curves import Curve, Points, draw_fitted, spread_over
 from stackbounce.plots.scales import Scale, label, show_in_handy_unit
-from stackbounce.plots.style import STYLE, figure_of, list_axes, written
+from stackbounce.plots.style import figure_of, list_axes, read_style, written
 from stackbounce.run.paths import Number, numbers_of, value_in
 from stackbounce.run.quantities import QUANTITIES, Array
 
@@ -79,7 +79,7 @@ def draw_into(axes: Any, fits: Mapping[str, Any], number: Number) -> "Figure":
 
     count = len(list_quantities(next(iter(fits.values()))))
     own = list_axes(axes, count, 2 * count)
-    with mpl.rc_context(STYLE):
+    with mpl.rc_context(read_style()):
         draw_by_number([own[k::count] for k in range(count)], fits, number)
     return figure_of(own)
 

@@ -4,6 +4,7 @@ import functools
 import io
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numpy as np
@@ -22,24 +23,19 @@ COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 FORCES = {"N": "force (N)", "V": "signal (V)"}
 """The label of a force axis, by the unit of the record."""
 
-STYLE: Any = {
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": "#e4e4e4",
-    "grid.linewidth": 0.6,
-    "axes.axisbelow": True,
-    "lines.linewidth": 1.8,
-    "svg.fonttype": "none",
-    "svg.hashsalt": "stackbounce",
-    "figure.constrained_layout.use": True,
-}
-"""Matplotlib's settings."""
-
 WIDTH = 7.2
 """The usual width of a figure in inches."""
 
 _UNDATED = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+
+
+@functools.cache
+def read_style() -> dict[str, Any]:
+    """Return matplotlib's settings from ``plots.mplstyle``."""
+    import matplotlib as mpl
+
+    path = Path(__file__).with_name("plots.mplstyle")
+    return dict(mpl.rc_params_from_file(path, use_default_template=False))
 
 
 @contextmanager
@@ -59,7 +55,7 @@ def styled_figure(width: float, height: float, style: Any = None) -> "Iterator[F
 
     from stackbounce.plots.figure import Figure
 
-    with mpl.rc_context(STYLE | (style or {})):
+    with mpl.rc_context(read_style() | (style or {})):
         yield Figure(figsize=(width, height))
 
 
@@ -217,7 +213,7 @@ def render(make: "Callable[[], Figure]", kind: str) -> bytes:
     with mpl.rc_context():
         mpl.rcdefaults()
         figure = make()
-        mpl.rcParams.update(STYLE)
+        mpl.rcParams.update(read_style())
         figure.savefig(stream, format=kind, dpi=150, metadata=_UNDATED.get(kind))
     return stream.getvalue()
 

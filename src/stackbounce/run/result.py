@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from stackbounce.engine import codes
 from stackbounce.engine.ratios import energy_kept
 from stackbounce.errors import InvalidType, InvalidValue, finite, no_attribute, shown, unmasked
+from stackbounce.files import shipped_table
 from stackbounce.model import STANDARD_GRAVITY, Drop
 from stackbounce.model.drawing import label, meeting
 from stackbounce.run.conditioning import amplification, known_until
@@ -33,14 +34,9 @@ _COLUMNS = {  # of the log, by the field of an interval
     "peak_time": codes.PEAK_TIME,
 }
 INTERVAL = np.dtype([("contact", "i8"), *((name, "f8") for name in _COLUMNS)])
+_VELOCITIES = ("lower_velocity", "upper_velocity")
 EVENT = np.dtype(
-    [
-        ("time", "f8"),
-        ("contact", "i8"),
-        ("kind", "U9"),
-        ("lower_velocity", "f8"),
-        ("upper_velocity", "f8"),
-    ]
+    [("time", "f8"), ("contact", "i8"), ("kind", "U9"), *((name, "f8") for name in _VELOCITIES)]
 )
 APEX = np.dtype([("ball", "i8"), ("time", "f8"), ("height", "f8")])
 _PER_BALL = ("rebound_speed", "rebound_ratio", "rebound_height")
@@ -66,13 +62,18 @@ _UNITS = {  # of the variables of `Result.to_dataset`
 _KINDS = {codes.TOUCH: "touch", codes.RELEASE: "release", codes.COLLISION: "collision"}
 
 
+@functools.cache
+def _advice() -> Any:
+    return shipped_table(__package__, "advice.toml")
+
+
 class _Ending(enum.IntEnum):
     """How or why a run ended, by the engine's number."""
 
     @property
     def advice(self) -> str:
         """What it means and what can be done about it, in one line."""
-        return _ADVICE[self.name]
+        return str(_advice()[self.name])
 
 
 class Status(_Ending):
@@ -98,29 +99,6 @@ class Cause(_Ending):
     ENDLESS = codes.ENDLESS
     STIFF = codes.STIFF
     EXTREME = codes.EXTREME
-
-
-_ADVICE = {
-    "FINISHED": "all contacts are open and no ball approaches another: nothing to do",
-    "SETTLED": "the stack has come to rest: nothing to do",
-    "COLLAPSED": "infinitely many collisions took place in a finite time and ended at their "
-    "limit: their count is given as -1",
-    "TIME_REACHED": "the time asked for was reached first: raise until to see more",
-    "EVENT_LIMIT": "a limit was met, by balls that swing or bounce on each other almost "
-    "without loss, by a contact that is far stiffer or far more damped than the others, or because "
-    "masses or stiffnesses are of very different sizes: stop earlier with until, bring these "
-    "numbers closer together, or raise event_limit",
-    "INVALID": "numbers left the range of floating point, or a contact was shorter than the "
-    "resolution of time, so that no speeds are known: bring masses, stiffnesses, gaps and "
-    "speeds closer together",
-    "ENDLESS": "a limit was met, because the balls swing or bounce on each other almost "
-    "without loss, perhaps for ever: stop earlier with until, or raise event_limit",
-    "STIFF": "a limit was met, because a contact is so stiff or so damped that all steps are "
-    "short: lower its stiffness or its damping, raise rtol, or raise event_limit",
-    "EXTREME": "a limit was met, because masses or stiffnesses are of very different sizes, so "
-    "that the fastest contact swings countless times during the slowest: bring them closer "
-    "together, or raise event_limit",
-}
 
 
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)

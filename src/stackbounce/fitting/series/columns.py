@@ -1,15 +1,14 @@
 """Which column of a table of bounces holds what, by its heading."""
 
 import re
-import tomllib
 from dataclasses import dataclass
-from importlib.resources import files
 
+from stackbounce.files import shipped_table
 from stackbounce.measure.reading.roles import heading
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS
 from stackbounce.units import in_si
 
-_KNOWN = tomllib.loads((files(__package__) / "columns.toml").read_text("utf-8"))
+_KNOWN = shipped_table(__package__, "columns.toml")
 _ROLES = {role: re.compile(known["words"]) for role, known in _KNOWN.items()}
 
 UNITS: dict[str, str] = {role: known["unit"] for role, known in _KNOWN.items()}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.errors import FileError, InvalidValue, a_or_an
+from stackbounce.errors import FileError, a_or_an
 from stackbounce.measure.kind import Kind
 from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.messages import Message, OptionHint, about_option
@@ -132,8 +132,7 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
                 column.heading.text or f"column {column.index + 1}" for column in found[:20]
             )
             said = f": {a_or_an(holds)} needs columns of {needs}; it has {names}: by their units "
-            wrong = f"{said}none of them is {' or '.join(roles)}"
-            raise InvalidValue(about_option("holds", wrong))
+            raise about_option("holds", f"{said}none of them is {' or '.join(roles)}")
         taken.add(free[0])
         found[free[0]] = replace(found[free[0]], role=roles[0], named="")
     return found
@@ -246,7 +245,7 @@ def _track(columns: Sequence[Column], values: Array, run: object) -> _Built:
 def _rows(kind: Kind, columns: Sequence[Column], values: Array, run: object) -> _Built:
     """Return rows, without those that lack a needed number."""
     if run is not None:
-        raise InvalidValue(about_option("run", ": there is none to choose, as this holds no times"))
+        raise about_option("run", ": there is none to choose, as this holds no times")
     roles = [each[0] for each in kind.columns]
     whole = np.isfinite(values[:, [_at(columns, role) for role in roles]]).all(axis=1)
     if not whole.any():

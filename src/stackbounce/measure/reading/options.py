@@ -37,22 +37,21 @@ class ReadOptions:
             if holds is None:
                 near = nearest(self.holds, KINDS)
                 wrong = f" must be what a file holds, got {shown(self.holds)}; {near}"
-                raise InvalidValue(about_option("holds", wrong))
+                raise about_option("holds", wrong)
             object.__setattr__(self, "holds", holds)
         if self.decimal not in (None, ".", ","):
-            wrong = f' must be "." or ",", got {shown(self.decimal)}'
-            raise InvalidValue(about_option("decimal", wrong))
+            raise about_option("decimal", f' must be "." or ",", got {shown(self.decimal)}')
         for option, unit in (("frame_rate", "frames per second"), ("scale", "metres per pixel")):
             if getattr(self, option) is not None:
                 positive(option, getattr(self, option), unit)
         for name in _checked("names", self.names).values():
             if not name.isidentifier():
                 wrong = f" must give a column its meaning, such as 2=force, got {shown(name)}"
-                raise InvalidValue(about_option("names", wrong))
+                raise about_option("names", wrong)
         for unit in _checked("units", self.units).values():
             if in_si(unit) is None:
                 wrong = f": {shown(unit)} is no unit that is known, such as 'mm'"
-                raise InvalidValue(about_option("units", wrong))
+                raise about_option("units", wrong)
 
 
 def _checked(option: str, given: object) -> Mapping[_Key, str]:
@@ -61,11 +60,11 @@ def _checked(option: str, given: object) -> Mapping[_Key, str]:
         return {}
     if not isinstance(given, Mapping):
         wrong = f" must be a mapping of columns, got {shown(given)}"
-        raise InvalidType(about_option(option, wrong))
+        raise about_option(option, wrong, InvalidType)
     for key, value in given.items():
         if not isinstance(key, str | int) or not isinstance(value, str):
             wrong = f" must map columns to text, got {shown({key: value})}"
-            raise InvalidType(about_option(option, wrong))
+            raise about_option(option, wrong, InvalidType)
     return given
 
 
@@ -77,8 +76,8 @@ def apply_options(columns: Sequence[Column], options: ReadOptions) -> list[Colum
             places = [k for k, column in enumerate(found) if _is(column, key)]
             if not places:
                 known = [column.heading.text or str(column.index + 1) for column in found[:50]]
-                message = f": there is no column {shown(key)}; {nearest(key, known)}"
-                raise InvalidValue(about_option(option, message))
+                wrong = f": there is no column {shown(key)}; {nearest(key, known)}"
+                raise about_option(option, wrong)
             for k in places:
                 name, unit = (value, None) if option == "names" else ("", value)
                 found[k] = found[k].called(name, unit)
@@ -109,7 +108,7 @@ def of_run(
         named = [name for k, name in enumerate(runs, 1) if word in (name.casefold(), str(k))]
         if not named:
             wrong = f" must be one that is there, got {shown(run)}; {nearest(run, runs)}"
-            raise InvalidValue(about_option("run", wrong))
+            raise about_option("run", wrong)
         chosen = named[0]
     return [column for column in columns if column.heading.run in (chosen, "")], True
 
@@ -142,12 +141,12 @@ def part_of(
         written = unit_written(str(given))
         if written is None or (written and (in_si(written) or ("", ""))[1] != "s"):
             wrong = " must be a time, such as 1.2s, or a frame or row, such as 120"
-            raise InvalidValue(about_option(option, f"{wrong}, got {shown(given)}"))
+            raise about_option(option, f"{wrong}, got {shown(given)}")
         if frame and not written:
             return (float(given) + half) * frame
         if unit != "s":
             wrong = f" must be the number of a {unit}, as the file has no times, got {shown(given)}"
-            raise InvalidValue(about_option(option, wrong))
+            raise about_option(option, wrong)
         return quantity(given, "s", option)
 
     low = float("-inf") if start is None else end("start", start, -0.5)

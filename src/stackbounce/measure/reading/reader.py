@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
+from stackbounce.errors import FileError, StackbounceError, shown
 from stackbounce.files import content_of
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
@@ -177,15 +177,13 @@ def _read(name: str, content: bytearray, options: ReadOptions) -> "xr.Dataset":
     if wav.is_wav(content):
         data, why, doubts = wav.read_wav(content)
         if options.holds not in (None, "sound"):
-            wrong = f": the file is a sound, got {shown(options.holds)}"
-            raise InvalidValue(about_option("holds", wrong))
+            raise about_option("holds", f": the file is a sound, got {shown(options.holds)}")
         return _signed(data, "WAV", why, "sound", doubts)
     tables = tables_in(content)
     if tables is not None:
         return _from_tables(tables, options)
     if options.table is not None:
-        alone = ": there is one only, as it is no zip archive or spreadsheet"
-        raise InvalidValue(about_option("table", alone))
+        raise about_option("table", ": there is one only, as it is no zip archive or spreadsheet")
     return _from_table(name, content, options)
 
 

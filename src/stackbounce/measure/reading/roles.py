@@ -1,10 +1,9 @@
 """The header "Run 1: Time (ms)" -> name, unit and run, and what a column is: a time, a force."""
 
 import re
-import tomllib
 from dataclasses import dataclass, replace
-from importlib.resources import files
 
+from stackbounce.files import shipped_table
 from stackbounce.units import in_si
 
 _BEFORE = re.compile(r"(Latest|(?:Run|Data Set|Durchgang|Lauf)\b[^:]{0,40}|[^:(\[]{1,40}):\s*(.+)")
@@ -21,9 +20,7 @@ FRAME, PIXEL = "frame", "px"
 POINT = "point "
 """Begins the name of a track whose points are in no order, those of any ball in each frame."""
 
-_KNOWN: dict[str, dict[str, list[str]]] = tomllib.loads(
-    (files(__package__) / "roles.toml").read_text("utf-8")
-)
+_KNOWN: dict[str, dict[str, list[str]]] = shipped_table(__package__, "roles.toml")
 _ROLES = {role: re.compile("|".join(known["words"])) for role, known in _KNOWN.items()}
 _ACCELERATION = re.compile(
     r"(?P<before>.*\b)?(acceleration|accelerometer|beschleunigung|accélération|aceleración"

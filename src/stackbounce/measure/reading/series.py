@@ -217,8 +217,7 @@ def _gaps(own: Array, unit: str) -> list[str]:
 
 def _counted(run: object, count: int) -> int:
     if not str(run).isascii() or not str(run).isdigit() or not 1 <= int(str(run)[:9]) <= count:
-        wrong = f" must be one of the {count} that there are, got {shown(run)}"
-        raise InvalidValue(about_option("run", wrong))
+        raise about_option("run", f" must be one of the {count} that there are, got {shown(run)}")
     return int(str(run))
 
 

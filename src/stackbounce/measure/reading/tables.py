@@ -19,7 +19,7 @@ from xml.etree.ElementTree import Element, ParseError, fromstring
 
 import numpy as np
 
-from stackbounce.errors import FileError, InvalidValue, nearest, shown
+from stackbounce.errors import FileError, nearest, shown
 from stackbounce.extras import need
 from stackbounce.measure.messages import about_option
 from stackbounce.measure.reading.limits import BYTES, CELLS, COLUMNS
@@ -110,8 +110,7 @@ def chosen(tables: Tables, table: object) -> str:
             found.append(name)
     if len(found) != 1:
         near = nearest(table, tables.members)
-        wrong = f" must be one in the file, got {shown(table)}; {near}"
-        raise InvalidValue(about_option("table", wrong))
+        raise about_option("table", f" must be one in the file, got {shown(table)}; {near}")
     return found[0]
 
 

@@ -14,10 +14,10 @@ import csv
 import itertools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
-from importlib.resources import files
 from operator import itemgetter
 from typing import Annotated, Any
 
+from stackbounce.files import shipped
 from stackbounce.model.ball import Ball
 from stackbounce.model.laws import ContactLaw, Hysteretic, Spring
 from stackbounce.shown import Shown, Table
@@ -119,7 +119,7 @@ class CatalogueBall(Shown):
 
 def _read_balls(group: str) -> Iterator[CatalogueBall]:
     """Yield the balls of a group, in the order of ``balls.csv``."""
-    text = (files(__package__) / "balls.csv").read_text("utf-8")
+    text = shipped(__package__, "balls.csv")
     rows = [row for row in csv.DictReader(text.splitlines()) if row["group"] == group]
     for name, figures in itertools.groupby(rows, itemgetter("ball")):
         yield _entry(name, list(figures))

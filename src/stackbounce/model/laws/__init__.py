@@ -23,13 +23,7 @@ from stackbounce.model.laws.bond import Bond
 
 # isort: on
 from stackbounce.engine import codes
-from stackbounce.model.laws.law import (
-    STEEPEST,
-    ContactLaw,
-    Quantity,
-    contact_numbers,
-    stiffness_in,
-)
+from stackbounce.model.laws.law import STEEPEST, ContactLaw, Quantity, contact_numbers, stiffness_in
 from stackbounce.model.laws.registry import LAWS, law_named, register, usual_laws
 from stackbounce.model.laws.series import series
 

@@ -2,17 +2,18 @@
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar, Self
+from typing import Annotated, Self
 
 from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, non_negative
-from stackbounce.model.laws.law import ContactLaw, Given, Quantity, stiffness_in
+from stackbounce.model.laws.dashpot import DampedSpring
+from stackbounce.model.laws.law import Given, number_in, stiffness_in
 from stackbounce.model.laws.registry import register
 
 
 @register
 @dataclass(frozen=True)
-class Bond(ContactLaw):
+class Bond(DampedSpring):
     """A spring and a dashpot that push and pull, and never open: two parts of one body.
 
     ``F = k c + b ċ``, for compression and extension alike. Two balls with a bond between them are
@@ -60,25 +61,11 @@ class Bond(ContactLaw):
     formula = "F = stiffness c + damping c'"
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section II"
     form = codes.BOND
-    third_number = "damping"
     listed = False
     pulls = True
-    loss = "damping"
 
-    exponent: ClassVar[float] = 1.0
     stiffness: Annotated[float, stiffness_in("N/m")]
-    damping: Annotated[
-        float,
-        Quantity("N s/m", lambda n, v: non_negative(n, v, "N s/m"), (0.0, 0.0, 1e3)),
-    ] = 0.0
-
-    def series_constants(self) -> dict[str, float]:
-        """Return what two bonds in series must have in common: b/k."""
-        return {"damping/stiffness": self.damping / self.stiffness}
-
-    def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
-        """Return stiffness and damping of two bonds in series; b/k is that of each."""
-        return {"stiffness": stiffness, "damping": stiffness * (self.damping / self.stiffness)}
+    damping: Annotated[float, number_in("N s/m", non_negative, (0.0, 0.0, 1e3))] = 0.0
 
     @classmethod
     def calibration_needs(cls, exponent: float | None = None) -> list[str]:

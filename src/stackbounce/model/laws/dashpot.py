@@ -23,13 +23,29 @@ from stackbounce.engine import codes
 from stackbounce.errors import non_negative
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import root
-from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Given, Quantity, stiffness_in
+from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Given, number_in, stiffness_in
 from stackbounce.model.laws.registry import register
+
+
+class DampedSpring(ContactLaw):
+    """A linear spring and a dashpot in parallel, with fields `stiffness` and `damping`."""
+
+    third_number = "damping"
+    loss = "damping"
+    exponent: ClassVar[float] = 1.0
+
+    def series_constants(self) -> dict[str, float]:
+        """Return what two such contacts in series must have in common: b/k."""
+        return {"damping/stiffness": self.damping / self.stiffness}
+
+    def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
+        """Return stiffness and damping of two contacts in series; b/k is that of each."""
+        return {"stiffness": stiffness, "damping": stiffness * (self.damping / self.stiffness)}
 
 
 @register
 @dataclass(frozen=True)
-class Dashpot(ContactLaw):
+class Dashpot(DampedSpring):
     """A linear spring and a dashpot in parallel (Kelvin-Voigt), which cannot pull.
 
     This is the Kelvin-Voigt model, spring and dashpot in parallel, without tension:
@@ -65,16 +81,10 @@ class Dashpot(ContactLaw):
     formula = "F = max(0, stiffness c + damping c')"
     source = "Bartz, arXiv 2007.15005"
     form = codes.DASHPOT
-    third_number = "damping"
-    loss = "damping"
     loss_depends_on = ("mass",)
 
-    exponent: ClassVar[float] = 1.0
     stiffness: Annotated[float, stiffness_in("N/m")]
-    damping: Annotated[
-        float,
-        Quantity("N s/m", lambda n, v: non_negative(n, v, "N s/m"), (2.0, 1e-2, 1e3)),
-    ]
+    damping: Annotated[float, number_in("N s/m", non_negative, (2.0, 1e-2, 1e3))]
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return e, which follows from the damping ratio ``ζ = b/(2 sqrt(k m))``."""
@@ -104,14 +114,6 @@ class Dashpot(ContactLaw):
     def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
         """Return the flanks: the force jumps at the touch, and falls linearly at the release."""
         return Flank(0.01, 0.3, "jump"), Flank(1.0, 1.0)
-
-    def series_constants(self) -> dict[str, float]:
-        """Return what two dashpots in series must have in common: b/k."""
-        return {"damping/stiffness": self.damping / self.stiffness}
-
-    def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
-        """Return stiffness and damping of two dashpots in series; b/k is that of each."""
-        return {"stiffness": stiffness, "damping": stiffness * (self.damping / self.stiffness)}
 
 
 _FAR = 2.0  # from here on 1 - x would lose digits

@@ -22,6 +22,7 @@ from stackbounce.model.laws.law import (
     Flanks,
     Given,
     Quantity,
+    number_in,
     stiffness_in,
 )
 from stackbounce.model.laws.registry import register
@@ -101,9 +102,7 @@ restitution 0.75'
 
     exponent: ClassVar[float] = 1.0
     stiffness: Annotated[float, stiffness_in("N/m")]
-    buckling_compression: Annotated[
-        float, Quantity("m", lambda n, v: positive(n, v, "metres"), (2e-3, 1e-5, 0.1))
-    ]
+    buckling_compression: Annotated[float, number_in("m", positive, (2e-3, 1e-5, 0.1))]
     stiffness_ratio: Annotated[
         float, Quantity("", lambda n, v: fraction(n, v, zero=False), (0.3, 0.01, 1.0))
     ]

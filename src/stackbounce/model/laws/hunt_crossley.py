@@ -30,7 +30,7 @@ from stackbounce.model.laws.law import (
     Flank,
     Flanks,
     Given,
-    Quantity,
+    number_in,
     stiffness_in,
 )
 from stackbounce.model.laws.registry import register
@@ -89,9 +89,7 @@ class HuntCrossley(ContactLaw):
 
     stiffness: Annotated[float, stiffness_in("N/m**exponent")]
     exponent: Annotated[float, EXPONENT]
-    dissipation: Annotated[
-        float, Quantity("s/m", lambda n, v: non_negative(n, v, "s/m"), (0.2, 1e-3, 10.0))
-    ]
+    dissipation: Annotated[float, number_in("s/m", non_negative, (0.2, 1e-3, 10.0))]
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return e, which follows from ``d = χ v``."""

@@ -23,7 +23,7 @@ from stackbounce.errors import InvalidValue, between, positive
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import rising_root
 from stackbounce.shown import Shown, Table, call_of
-from stackbounce.units import Unit, in_unit, unit_of
+from stackbounce.units import WORDS, Unit, in_unit, unit_of
 
 STEEPEST = 1e6
 """The largest exponent of a loading or unloading curve; above it the curve is almost a step."""
@@ -74,7 +74,23 @@ def stiffness_in(unit: str) -> Quantity:
     'N/m**2'
     """
     slider = (5e3, 1e2, 1e6) if unit == "N/m" else (2e5, 1e3, 1e10)
-    return Quantity(unit, lambda name, value: positive(name, value, unit), slider)
+    return number_in(unit, positive, slider)
+
+
+def number_in(
+    unit: str, check: Callable[..., float], slider: tuple[float, float, float]
+) -> Quantity:
+    """Return the `Quantity` of a number whose unit is in the messages of its check.
+
+    Examples
+    --------
+    >>> number_in("s", positive, (1e-3, 1e-6, 1.0)).check("relaxation_time", -1.0)
+    Traceback (most recent call last):
+        ...
+    stackbounce.errors.InvalidValue: relaxation_time must be a positive number of seconds, got -1.0
+    """
+    of = next((word for word, symbol in WORDS.items() if symbol == unit), unit)
+    return Quantity(unit, lambda name, value: check(name, value, of), slider)
 
 
 EXPONENT = Quantity("", lambda name, value: between(name, value, 1.0, STEEPEST), (1.5, 1.0, 4.0))

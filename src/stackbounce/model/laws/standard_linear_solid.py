@@ -7,7 +7,15 @@ from typing import Annotated, ClassVar, Self
 
 from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, non_negative, positive
-from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Given, Quantity, stiffness_in
+from stackbounce.model.laws.law import (
+    ContactLaw,
+    Flank,
+    Flanks,
+    Given,
+    Quantity,
+    number_in,
+    stiffness_in,
+)
 from stackbounce.model.laws.registry import register
 
 
@@ -73,9 +81,7 @@ class StandardLinearSolid(ContactLaw):
     exponent: ClassVar[float] = 1.0
     stiffness: Annotated[float, stiffness_in("N/m")]
     relaxation_strength: Annotated[float, Quantity("", non_negative, (0.5, 1e-3, 10.0))]
-    relaxation_time: Annotated[
-        float, Quantity("s", lambda n, v: positive(n, v, "seconds"), (1e-3, 1e-6, 1.0))
-    ]
+    relaxation_time: Annotated[float, number_in("s", positive, (1e-3, 1e-6, 1.0))]
 
     @classmethod
     def assumed(cls, given: Given, numbers: Mapping[str, float]) -> dict[str, float]:

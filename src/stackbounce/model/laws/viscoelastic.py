@@ -12,7 +12,7 @@ from typing import Annotated, ClassVar
 
 from stackbounce.engine import codes
 from stackbounce.errors import non_negative
-from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Quantity, stiffness_in
+from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, number_in, stiffness_in
 from stackbounce.model.laws.registry import register
 
 
@@ -64,9 +64,7 @@ class Viscoelastic(ContactLaw):
 
     exponent: ClassVar[float] = 1.5
     stiffness: Annotated[float, stiffness_in("N/m**1.5")]
-    dissipative_time: Annotated[
-        float, Quantity("s", lambda n, v: non_negative(n, v, "seconds"), (3e-4, 1e-6, 1e-2))
-    ]
+    dissipative_time: Annotated[float, number_in("s", non_negative, (3e-4, 1e-6, 1e-2))]
 
     @property
     def linger(self) -> float:

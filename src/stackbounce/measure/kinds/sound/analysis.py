@@ -39,10 +39,7 @@ _ADVICE = Message(
 
 
 def knocks(
-    data: Any,
-    *,
-    longest_flight: float = _LONGEST_FLIGHT,
-    rate: float | None = None,
+    data: Any, *, longest_flight: float = _LONGEST_FLIGHT, rate: float | None = None
 ) -> Knocks:
     """Return the times of a bouncing ball's knocks in a recording.
 

@@ -26,11 +26,7 @@ _TAIL_SECONDS, _TAIL = 0.25, 10.0  # after a sound so many times clearer, a rise
 
 
 def reason_against(
-    chain: Chain,
-    rises: Rises,
-    echoes: NDArray[np.bool_],
-    origin: float,
-    longest: float,
+    chain: Chain, rises: Rises, echoes: NDArray[np.bool_], origin: float, longest: float
 ) -> str:
     """Return why a series of sounds is no bouncing ball; nothing if it may be one.
 
