@@ -38,9 +38,8 @@ def shipped(package: str, name: str) -> str:
     >>> shipped("stackbounce", "attributes.toml").partition(",")[0]
     '# Attributes that people try and that are not there'
     """
-    from importlib.resources import files
-
-    return (files(package) / name).read_text("utf-8")
+    folders = package.split(".")[1:]
+    return Path(__file__).parent.joinpath(*folders, name).read_text("utf-8")
 
 
 def shipped_table(package: str, name: str) -> dict[str, Any]:

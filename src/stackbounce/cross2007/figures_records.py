@@ -15,6 +15,7 @@ from stackbounce.cross2007.style import (
     GREY,
     UPPER,
     Picture,
+    beside,
     bracket,
     describe,
     make_axes,
@@ -54,19 +55,13 @@ def draw_one_panel(
     """Draw both forces of a drop in one panel, labelled at two times in ms; return its result."""
     (floor, between), result = sample_forces(bench, drop, times)
     ms = 1e3 * times
-    for curve, color, at, text, side in (
-        (floor, FLOOR, labels[0], "$F_1$, floor", "right"),
-        (between, UPPER, labels[1], "$F_2$, ball-ball", "left"),
+    for curve, color, at, text, side, by in (
+        (floor, FLOOR, labels[0], "$F_1$, floor", "right", -6),
+        (between, UPPER, labels[1], "$F_2$, ball-ball", "left", 6),
     ):
         ax.plot(ms, curve, color=color)
-        ax.annotate(
-            text,
-            xy=(at, float(np.interp(at, ms, curve))),
-            xytext=(-6 if side == "right" else 6, 1),
-            textcoords="offset points",
-            color=color,
-            ha=side,
-        )
+        point = (at, float(np.interp(at, ms, curve)))
+        beside(ax, text, point, (by, 1), color=color, ha=side)
     ax.set(xlabel=r"$t$ (ms)", ylabel=r"$F$ (N)", xlim=(0, ms[-1]), ylim=(0, 1.15 * floor.max()))
     return result
 
@@ -77,15 +72,8 @@ def number_contacts(panels: "list[Axes]", result: Result) -> None:
         ax = panels[int(row["contact"])]
         middle = 5e2 * (row["start"] + row["end"])
         if middle < ax.get_xlim()[1]:
-            ax.annotate(
-                str(number),
-                xy=(middle, row["peak_force"]),
-                xytext=(0, 2.5),
-                textcoords="offset points",
-                ha="center",
-                color=GREY,
-                fontsize=9,
-            )
+            look = {"ha": "center", "color": GREY, "fontsize": 9}
+            beside(ax, str(number), (middle, row["peak_force"]), (0, 2.5), **look)
 
 
 def draw_figure_7(bench: Bench) -> Picture:

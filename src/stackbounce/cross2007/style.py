@@ -173,29 +173,18 @@ def make_axes(
 def bracket(ax: "Axes", end: float, text: str) -> None:
     """Mark an interval from 0 that the paper reports above the curves, with a text."""
     place = ax.get_xaxis_transform()
-    ax.annotate(
-        "",
-        xy=(end, _BRACKET),
-        xytext=(0.0, _BRACKET),
-        xycoords=place,
-        textcoords=place,
-        arrowprops={
-            "arrowstyle": "|-|,widthA=0.25,widthB=0.25",
-            "color": GREY,
-            "lw": 0.8,
-            "shrinkA": 0.0,
-            "shrinkB": 0.0,
-        },
-    )
-    ax.annotate(
-        text,
-        xy=(0.0, _BRACKET),
-        xycoords=place,
-        xytext=(4.0, 5.0),
-        textcoords="offset points",
-        color=GREY,
-        fontsize=9,
-    )
+    ends: Any = {"arrowstyle": "|-|,widthA=0.25,widthB=0.25", "shrinkA": 0.0, "shrinkB": 0.0}
+    line = ends | {"color": GREY, "lw": 0.8}
+    both: Any = {"xycoords": place, "textcoords": place}
+    ax.annotate("", (end, _BRACKET), (0.0, _BRACKET), arrowprops=line, **both)
+    beside(ax, text, (0.0, _BRACKET), (4.0, 5.0), xycoords=place, color=GREY, fontsize=9)
+
+
+def beside(
+    ax: "Axes", text: str, xy: tuple[float, float], by: tuple[float, float], **look: Any
+) -> None:
+    """Write a text beside a point, moved by some points of type."""
+    ax.annotate(text, xy, by, textcoords="offset points", **look)
 
 
 def note(ax: "Axes", text: str) -> None:
@@ -209,15 +198,9 @@ def tag(
     """Label a curve above or below its point at x = `at`."""
     import numpy as np
 
-    ax.annotate(
-        text,
-        xy=(at, float(np.interp(at, xs, ys))),
-        xytext=(0, 3.5 if above else -3.5),
-        textcoords="offset points",
-        ha="center",
-        va="bottom" if above else "top",
-        color=color,
-    )
+    point = (at, float(np.interp(at, xs, ys)))
+    side, by = ("bottom", 3.5) if above else ("top", -3.5)
+    beside(ax, text, point, (0, by), ha="center", va=side, color=color)
 
 
 def render(figure: "Figure", *endings: str) -> dict[str, bytes]:

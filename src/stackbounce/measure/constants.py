@@ -149,18 +149,12 @@ def law_constants(
     from contact time: 0.00500+/-0.00010 s
     from restitution: 0.750+/-0.020
     """
+    given = {name: value for name, value in locals().items() if name != "law" and value is not None}
     kind = law_named(law) if isinstance(law, str) else law
-    given = {
-        "mass": None if mass is None else _moving(mass),
-        "contact_time": contact_time,
-        "restitution": restitution,
-        "impact_speed": impact_speed,
-        "exponent": exponent,
-    }
+    if mass is not None:
+        given["mass"] = _moving(mass)
     sources: dict[str, Number] = {
-        name: measured(name, value, _UNITS.get(name, ""), finite)
-        for name, value in given.items()
-        if value is not None
+        name: measured(name, value, _UNITS.get(name, ""), finite) for name, value in given.items()
     }
     at = {name: value.nominal_value for name, value in sources.items()}
     found: Any = calibrate(kind, **at)

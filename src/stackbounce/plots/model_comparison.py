@@ -122,15 +122,10 @@ def draw_pulls(axes: "Axes", pulls: Mapping[str, Sequence[float]], data: Sequenc
     """Draw pulls, a row for each model, as a colored table with the numbers in its cells."""
     table = np.array(list(pulls.values()))
     shown = axes.imshow(table, cmap="RdBu_r", vmin=-_MOST, vmax=_MOST, aspect="auto")
+    look: Any = {"ha": "center", "va": "center", "fontsize": 7.5}
     for (row, column), pull in np.ndenumerate(table if len(data) <= _WIDEST else table[:, :0]):
-        axes.annotate(
-            _written(float(pull)),
-            (column, row),
-            ha="center",
-            va="center",
-            fontsize=7.5,
-            color="white" if abs(pull) > 0.6 * _MOST else "black",
-        )
+        color = "white" if abs(pull) > 0.6 * _MOST else "black"
+        axes.annotate(_written(float(pull)), (column, row), color=color, **look)
     axes.set_xticks(np.arange(len(data)), data, rotation=40, ha="right")
     axes.set_yticks(np.arange(len(table)), list(pulls))
     axes.tick_params(axis="x", labelsize=8)

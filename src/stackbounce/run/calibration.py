@@ -8,14 +8,8 @@ from stackbounce.model.laws.registry import UNLISTED
 from stackbounce.run.collision import Mass, reduced
 from stackbounce.units import checked, in_unit
 
-_UNITS = {
-    "contact_time": "seconds",
-    "impact_speed": "m/s",
-    "relaxation_time": "seconds",
-    "buckling_time": "seconds",
-    "frequency": "Hz",
-    "decay_time": "seconds",
-}
+_TIMES = ("contact_time", "relaxation_time", "buckling_time", "decay_time")
+_UNITS = dict.fromkeys(_TIMES, "seconds") | {"impact_speed": "m/s", "frequency": "Hz"}
 _KNOWN_BESIDES = {"relaxation_time", "buckling_time", "buckling_share"}
 
 _Law = TypeVar("_Law", bound=ContactLaw)

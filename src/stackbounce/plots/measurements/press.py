@@ -79,12 +79,9 @@ def _shade(axes: "Axes", found: Any, at: Any) -> None:
         order = np.argsort(curve.compression)
         fits.append(np.interp(at, 1e3 * curve.compression[order], curve.fit[order]))
     axes.fill_between(at, fits[1], fits[0], color=COLORS[0], alpha=0.10, linewidth=0)
-    text: Any = {"textcoords": "axes fraction", "ha": "right", "color": "#404040"}
+    look: Any = {"textcoords": "axes fraction", "ha": "right", "color": "#404040"}
+    look["arrowprops"] = {"arrowstyle": "-", "color": "#808080", "linewidth": 0.8}
     widest = int((fits[0] - fits[1]).argmax())
-    axes.annotate(
-        f"{100.0 * found.loss.nominal_value:.0f} % of the work lost",
-        xy=(at[widest], 0.5 * (fits[0][widest] + fits[1][widest])),
-        xytext=(0.97, 0.10),
-        arrowprops={"arrowstyle": "-", "color": "#808080", "linewidth": 0.8},
-        **text,
-    )
+    place = at[widest], 0.5 * (fits[0][widest] + fits[1][widest])
+    said = f"{100.0 * found.loss.nominal_value:.0f} % of the work lost"
+    axes.annotate(said, place, (0.97, 0.10), **look)
