@@ -90,6 +90,26 @@ def placed(place: str, kind: type[StackbounceError] | None = None) -> Iterator[N
         raise (kind or type(error))(f"{place}{error}") from error
 
 
+def instance(name: str, value: object, kind: type[_Given]) -> _Given:
+    """Return a value if it is of a class.
+
+    Raises
+    ------
+    InvalidType
+        If it is not.
+
+    Examples
+    --------
+    >>> instance("drop", 3.5, dict)
+    Traceback (most recent call last):
+        ...
+    stackbounce.errors.InvalidType: drop must be a dict, got 3.5
+    """
+    if not isinstance(value, kind):
+        raise InvalidType(f"{name} must be {a_or_an(kind.__name__)}, got {shown(value)}")
+    return value
+
+
 def listed(name: str, values: Any, most: int) -> tuple[Any, ...]:
     """Return the values of a list, which may have no end; raise if they are more than ``most``.
 
@@ -339,7 +359,7 @@ def a_or_an(noun: str) -> str:
     >>> a_or_an("acceleration"), a_or_an("press curve")
     ('an acceleration', 'a press curve')
     """
-    return f"{'an' if noun[:1] in 'aeiou' else 'a'} {noun}"
+    return f"{'an' if noun[:1] in 'aeiouA' else 'a'} {noun}"
 
 
 def counted(count: int, noun: str) -> str:

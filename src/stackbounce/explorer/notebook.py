@@ -4,7 +4,7 @@ import html
 from dataclasses import dataclass
 
 from stackbounce.cross2007.cases import explorer_address
-from stackbounce.errors import InvalidType, InvalidValue, counted, shown, whole
+from stackbounce.errors import InvalidValue, counted, instance, whole
 from stackbounce.explorer.limits import LIMITS
 from stackbounce.explorer.made import one_file
 from stackbounce.model import Drop
@@ -80,8 +80,7 @@ def explore(drop: Drop | None = None, *, height: int = 640) -> ExplorerFrame:
 
 def _check(drop: object) -> None:
     """Refuse what the page cannot show."""
-    if not isinstance(drop, Drop):
-        raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
+    drop = instance("drop", drop, Drop)
     if len(drop.balls) > LIMITS.balls:
         raise InvalidValue(
             f"balls must be at most {LIMITS.balls} in the explorer, got {len(drop.balls)}"

@@ -1,7 +1,6 @@
 """How well the data determine the parameters: directions and the covariance matrix."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.fitting.objective import Objective
 from stackbounce.run.quantities import Array
@@ -33,9 +32,7 @@ def find_directions(objective: Objective, slopes: Array) -> tuple[Array, Array]:
     return np.pad(sizes, (0, len(directions) - len(sizes))), directions
 
 
-def estimate_covariance(
-    objective: Objective, x: Array, sizes: Array, directions: Array
-) -> NDArray[np.float64]:
+def estimate_covariance(objective: Objective, x: Array, sizes: Array, directions: Array) -> Array:
     """Return the covariance matrix (parameters, parameters) of the values at a trial.
 
     In an undetermined direction the standard deviation is that of a uniform distribution between
@@ -47,9 +44,7 @@ def estimate_covariance(
     return np.asarray(inner * np.outer(scale, scale))
 
 
-def find_leverages(
-    objective: Objective, slopes: Array, sizes: Array, directions: Array
-) -> NDArray[np.float64]:
+def find_leverages(objective: Objective, slopes: Array, sizes: Array, directions: Array) -> Array:
     """Return how far a linearised fit follows each number, from 0 to 1: (residuals,).
 
     Undetermined directions follow none.

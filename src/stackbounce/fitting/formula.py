@@ -8,11 +8,11 @@ from collections.abc import Callable, Collection, Mapping
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
+from stackbounce.run.quantities import Array
 
-Values: TypeAlias = Mapping[str, NDArray[np.float64]]
+Values: TypeAlias = Mapping[str, Array]
 Formula: TypeAlias = Callable[[Values], Any]
 
 _LONGEST = 500  # characters

@@ -12,7 +12,7 @@ from stackbounce.engine.work import WORK_LIMIT
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fitting.course import Course
 from stackbounce.fitting.measurements import Measured
-from stackbounce.fitting.parameters import Parameter, find_numbers
+from stackbounce.fitting.parameters import Drops, Parameter, find_numbers
 from stackbounce.fitting.ties import Tie, evaluate_ties
 from stackbounce.fitting.waveforms import Waveform
 from stackbounce.model import Drop
@@ -66,7 +66,7 @@ class Objective:
     array([[1.416]])
     """
 
-    drops: Mapping[str, Drop]
+    drops: Drops
     measured: Mapping[str, Measured]
     parameters: tuple[Parameter, ...]
     ties: tuple[Tie, ...]

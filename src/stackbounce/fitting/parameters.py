@@ -4,7 +4,7 @@ import keyword
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -16,6 +16,12 @@ from stackbounce.model import Drop
 from stackbounce.run.paths import Number, drop_at, numbers_of, value_in
 from stackbounce.run.quantities import Array
 from stackbounce.units import quantity
+
+Drops: TypeAlias = Mapping[str, Drop]
+"""Drops by name; a single one has the empty name."""
+
+Places: TypeAlias = Sequence[tuple[str, Number]]
+"""The drops that have a number, by name, and where it is in each."""
 
 _WIDE = 100.0  # default bounds: the drop's own number divided and multiplied by this
 _MOST_GAP = 0.02  # m: default upper bound of a gap, or ten times the drop's own if larger
@@ -104,7 +110,7 @@ class Parameter:
         return math.log(value) if self.logarithmic else value
 
 
-def read_parameters(drops: Mapping[str, Drop], vary: object) -> tuple[Parameter, ...]:
+def read_parameters(drops: Drops, vary: object) -> tuple[Parameter, ...]:
     """Check what a fit varies and return it as parameters.
 
     Parameters
@@ -154,7 +160,7 @@ def read_parameters(drops: Mapping[str, Drop], vary: object) -> tuple[Parameter,
     return found
 
 
-def find_numbers(drops: Mapping[str, Drop], name: str) -> list[tuple[str, Number]]:
+def find_numbers(drops: Drops, name: str) -> list[tuple[str, Number]]:
     """Return the drops that have a number of this name, each with its place in the drop."""
     found = []
     for key, drop in drops.items():
@@ -165,12 +171,12 @@ def find_numbers(drops: Mapping[str, Drop], name: str) -> list[tuple[str, Number
     return found
 
 
-def list_paths(drops: Mapping[str, Drop]) -> list[str]:
+def list_paths(drops: Drops) -> list[str]:
     """Return the paths of all numbers of some drops, each once."""
     return list(dict.fromkeys(path for drop in drops.values() for path in numbers_of(drop)))
 
 
-def _parameter(drops: Mapping[str, Drop], name: object, given: object) -> Parameter:
+def _parameter(drops: Drops, name: object, given: object) -> Parameter:
     if not isinstance(name, str):
         raise InvalidType(f"vary must have names for keys, got {shown(name)}")
     at = find_numbers(drops, name)
@@ -199,7 +205,7 @@ def _parameter(drops: Mapping[str, Drop], name: object, given: object) -> Parame
     return found
 
 
-def _refusal(drops: Mapping[str, Drop], at: Sequence[tuple[str, Number]], value: float) -> str:
+def _refusal(drops: Drops, at: Places, value: float) -> str:
     """Return why the drops cannot have a value of a number; empty if they can."""
     try:
         for key, number in at:
@@ -210,7 +216,7 @@ def _refusal(drops: Mapping[str, Drop], at: Sequence[tuple[str, Number]], value:
 
 
 def _bounds(
-    drops: Mapping[str, Drop], at: Sequence[tuple[str, Number]], name: str, given: Any, unit: str
+    drops: Drops, at: Places, name: str, given: Any, unit: str
 ) -> tuple[float, float, tuple[float, float] | None]:
     if isinstance(given, str) and given.count(":") == 1:
         given = given.split(":")
@@ -227,9 +233,7 @@ def _bounds(
     return low, high, (mean, error)
 
 
-def _default(
-    drops: Mapping[str, Drop], at: Sequence[tuple[str, Number]], name: str
-) -> tuple[float, float]:
+def _default(drops: Drops, at: Places, name: str) -> tuple[float, float]:
     """Return the default bounds, around the drop's own number."""
     if not at:
         raise InvalidValue(f"{name} needs bounds, such as {name}=0.1:10")
@@ -246,9 +250,7 @@ def _default(
     return _legal(drops, at, own, *ends)
 
 
-def _legal(
-    drops: Mapping[str, Drop], at: Sequence[tuple[str, Number]], own: float, low: float, high: float
-) -> tuple[float, float]:
+def _legal(drops: Drops, at: Places, own: float, low: float, high: float) -> tuple[float, float]:
     """Return bounds moved towards the drop's own number until drops can be made at both."""
 
     def moved(end: float) -> float:

@@ -11,7 +11,7 @@ from stackbounce.errors import InvalidType, InvalidValue, between, counted, near
 from stackbounce.fitting.least_squares import Minimum, expected_trials, find_minima
 from stackbounce.fitting.measurements import Measured, read_measured
 from stackbounce.fitting.objective import Objective, touch_name
-from stackbounce.fitting.parameters import Parameter, find_numbers, read_parameters
+from stackbounce.fitting.parameters import Drops, Parameter, find_numbers, read_parameters
 from stackbounce.fitting.result import Fit
 from stackbounce.fitting.ties import read_ties
 from stackbounce.model import Drop
@@ -195,7 +195,7 @@ class FitProblem:
 
 
 def Model(  # noqa: N802  the public name of a problem without data
-    drop: Drop | Mapping[str, Drop], vary: Any, tie: Any = None
+    drop: Drop | Drops, vary: Any, tie: Any = None
 ) -> FitProblem:
     """Return a model for `compare`: a `FitProblem` without data.
 
@@ -221,7 +221,7 @@ def Model(  # noqa: N802  the public name of a problem without data
 
 
 def fit(
-    drop: Drop | Mapping[str, Drop],
+    drop: Drop | Drops,
     data: Any,
     vary: Any,
     *,

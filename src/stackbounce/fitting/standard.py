@@ -6,6 +6,7 @@ from statistics import geometric_mean
 from typing import Any
 
 from stackbounce.errors import InvalidValue
+from stackbounce.fitting.parameters import Drops
 from stackbounce.fitting.problem import FitProblem, Model
 from stackbounce.model import LAWS, ContactLaw, Drop
 from stackbounce.run.calibration import calibrate
@@ -18,9 +19,7 @@ _WEAK, _STRONG = 0.05, 0.999  # bounds of a restitution
 _EXPONENTS = 0.0, 1.0  # bounds of the power of the speed: known ones are 1/5 to 1
 
 
-def standard_models(
-    drop: Drop | Mapping[str, Drop], *, times: bool = False
-) -> dict[str, FitProblem]:
+def standard_models(drop: Drop | Drops, *, times: bool = False) -> dict[str, FitProblem]:
     """Return the usual models of a stack, to be compared.
 
     A model has one set of contacts for all drops, whatever their speeds. The search begins with
@@ -89,7 +88,7 @@ def usual_model(problem: FitProblem) -> FitProblem:
     return replace(standard_models(problem.drops)["Hysteretic"], data=problem.data)
 
 
-def calibration_speed(drops: Mapping[str, Drop]) -> float:
+def calibration_speed(drops: Drops) -> float:
     """Return the geometric mean of the drops' impact speeds in m/s.
 
     Examples
@@ -102,7 +101,7 @@ def calibration_speed(drops: Mapping[str, Drop]) -> float:
     return geometric_mean(drop.reference_speed for drop in drops.values())
 
 
-def _whole_stack(drops: Mapping[str, Drop]) -> Drop:
+def _whole_stack(drops: Drops) -> Drop:
     """Return the drop with the most balls, after a check that the others are parts of its stack."""
     whole = max(drops.values(), key=lambda drop: len(drop.balls))
     if whole.rigid or whole.contacts[0] is None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fitting.formula import Formula, read_formula
-from stackbounce.fitting.parameters import Parameter, find_numbers, list_paths
+from stackbounce.fitting.parameters import Drops, Parameter, find_numbers, list_paths
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, numbers_of, value_in
 from stackbounce.run.quantities import Array
@@ -45,9 +45,7 @@ class Tie:
     uses: frozenset[str] | None
 
 
-def read_ties(
-    drops: Mapping[str, Drop], parameters: Sequence[Parameter], given: object
-) -> tuple[Tie, ...]:
+def read_ties(drops: Drops, parameters: Sequence[Parameter], given: object) -> tuple[Tie, ...]:
     """Check what follows from other numbers and return it as ties.
 
     Parameters
@@ -177,9 +175,7 @@ def _in_order(ties: Sequence[Tie]) -> list[Tie]:
     return found
 
 
-def _check_used(
-    drops: Mapping[str, Drop], parameters: Sequence[Parameter], ties: Sequence[Tie]
-) -> None:
+def _check_used(drops: Drops, parameters: Sequence[Parameter], ties: Sequence[Tie]) -> None:
     """Refuse a parameter with a user's name that no tie uses."""
     for parameter in parameters:
         used = any(tie.uses is None or parameter.name in tie.uses for tie in ties)

@@ -4,12 +4,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, placed, positive, shown, unmasked
 from stackbounce.fitting.quantities import read_index
 from stackbounce.measure.kinds.waveform.analysis import waveform as analysed
 from stackbounce.model import Drop
+from stackbounce.run.quantities import Array
 
 if TYPE_CHECKING:
     from stackbounce.measure.kinds.waveform.result import Waveform as Analysed
@@ -50,13 +50,13 @@ class Waveform:
 
     name: str
     index: int
-    times: NDArray[np.float64]
-    force: NDArray[np.float64]
+    times: Array
+    force: Array
     error: float
     scaled: bool
     begins: tuple[float, float]
 
-    def linear(self, predicted: NDArray[np.float64]) -> NDArray[np.float64]:
+    def linear(self, predicted: Array) -> Array:
         """Return the residuals (n,) in errors, with the best baseline and, if free, scale.
 
         Both are linear parameters and found exactly. The residuals are nan if a predicted force is
@@ -71,7 +71,7 @@ class Waveform:
         best, *_ = np.linalg.lstsq(basis, self.force, rcond=None)
         return np.asarray((basis @ best - self.force) / self.error)
 
-    def curve(self, predicted: NDArray[np.float64]) -> NDArray[np.float64]:
+    def curve(self, predicted: Array) -> Array:
         """Return the predicted force with the best baseline and scale, in the record's unit."""
         return np.asarray(self.force + self.error * self.linear(predicted))
 

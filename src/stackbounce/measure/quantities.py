@@ -21,6 +21,8 @@ LARGEST = 1e100
 """The largest error in SI units, so that its square is a number, too."""
 
 Array: TypeAlias = NDArray[np.float64]
+Mask: TypeAlias = NDArray[np.bool_]
+Samples: TypeAlias = NDArray[np.float32]
 
 Number: TypeAlias = Any
 """A number with an error: a ``UFloat`` of `uncertainties`, which ships no types."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, shown, unmasked
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, Mask
 
 # Set by hand on records of oscilloscopes and rulers (`tests/measure/test_samples.py`).
 _MOST_NUMBERS = 2**18  # of which the step is looked for
@@ -68,7 +68,7 @@ def columns(data: Any, names: Sequence[str]) -> list[Array]:
     return arrays
 
 
-def runs(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def runs(mask: Mask) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return the first and the last places of the runs of true values.
 
     Examples

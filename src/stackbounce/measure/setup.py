@@ -53,6 +53,10 @@ class Setup:
         """Return the setup that the named options make, as far as they are given."""
         return cls(**{name: options[name] for name in names if options.get(name) is not None})
 
+    def only(self, *names: str) -> dict[str, Any]:
+        """Return some of the options, and of what follows from them, as arguments by name."""
+        return {name: getattr(self, name) for name in names}
+
     @property
     def drop_height(self) -> Number | float | None:
         """The height in m from which the ball's lowest point fell; None where it is not known."""

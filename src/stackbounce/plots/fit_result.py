@@ -1,10 +1,9 @@
 """Plots of a fit: pulls, force records, chi squared around its minimum, and its posterior."""
 
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
@@ -26,7 +25,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Array: TypeAlias = NDArray[np.float64]
 
 _REACH = 4.0  # standard errors drawn on both sides
 _WORTH = 9.0  # other minima are drawn if chi squared is less than this above the minimum

@@ -4,10 +4,10 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.model.drawing import meeting
 from stackbounce.plots.style import WIDTH, check_kind, color_of, into_axes, panels, written
+from stackbounce.run.quantities import Array
 from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
@@ -38,9 +38,7 @@ def choose_window(result: Result) -> tuple[float, float]:
     return -_BEFORE * span, last if stopped else last + _AFTER * span
 
 
-def sample_with_approach(
-    result: Result, times: NDArray[np.float64]
-) -> dict[str, NDArray[np.float64]]:
+def sample_with_approach(result: Result, times: Array) -> dict[str, Array]:
     """Return `Result.sampled` at given times, extended to times before the first touch.
 
     Examples
@@ -118,9 +116,7 @@ def bounce(result: "Result | Prediction", *, axes: Any = None) -> "Figure":
     return figure
 
 
-def _draw_positions(
-    axes: "Axes", result: Result, times: NDArray[np.float64], paths: NDArray[np.float64]
-) -> None:
+def _draw_positions(axes: "Axes", result: Result, times: Array, paths: Array) -> None:
     """Draw the position of each ball against time, extended to times before the first touch."""
     drop = result.drop
     for b, (ball, path) in enumerate(zip(drop.balls, paths, strict=True)):
@@ -133,7 +129,7 @@ def _draw_positions(
 
 
 def _draw_bands(
-    axes: "Axes", prediction: "Prediction", times: NDArray[np.float64], name: str, factor: float
+    axes: "Axes", prediction: "Prediction", times: Array, name: str, factor: float
 ) -> None:
     """Draw one standard deviation on both sides of each curve, from the first touch on."""
     after = times[times >= 0.0]
@@ -144,9 +140,7 @@ def _draw_bands(
             )
 
 
-def _draw_contacts(
-    axes: "Axes", result: Result, times: NDArray[np.float64], forces: NDArray[np.float64]
-) -> None:
+def _draw_contacts(axes: "Axes", result: Result, times: Array, forces: Array) -> None:
     """Draw the force at each contact, or each impulse of a rigid stack as a stem."""
     for i, law in enumerate(result.drop.contacts):
         if law is None:

@@ -30,12 +30,12 @@ _UNDATED = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
 
 
 @functools.cache
-def read_style() -> dict[str, Any]:
+def read_style() -> Any:
     """Return matplotlib's settings from ``plots.mplstyle``."""
     import matplotlib as mpl
 
     path = Path(__file__).with_name("plots.mplstyle")
-    return dict(mpl.rc_params_from_file(path, use_default_template=False))
+    return mpl.rc_params_from_file(path, use_default_template=False)
 
 
 @contextmanager
@@ -55,7 +55,7 @@ def styled_figure(width: float, height: float, style: Any = None) -> "Iterator[F
 
     from stackbounce.plots.figure import Figure
 
-    with mpl.rc_context(read_style() | (style or {})):
+    with mpl.rc_context({**read_style(), **(style or {})}):
         yield Figure(figsize=(width, height))
 
 

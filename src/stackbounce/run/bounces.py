@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, shown, whole
+from stackbounce.errors import InvalidValue, instance, whole
 from stackbounce.model import Air, ContactLaw, Drop
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.run.driver import simulate
@@ -92,10 +92,7 @@ def bounces_in_air(drop: Drop, count: int, air: Air | None = None) -> NDArray[An
 
 def _start(drop: object, air: object) -> tuple[ContactLaw, float]:
     """Return the floor's law and the first impact speed of a drop that is checked here."""
-    if not isinstance(drop, Drop):
-        raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
-    if not isinstance(air, Air):
-        raise InvalidType(f"air must be an Air, got {shown(air)}")
+    drop, air = instance("drop", drop, Drop), instance("air", air, Air)
     if len(drop.balls) != 1:
         raise InvalidValue(f"drop must be of one ball, got {len(drop.balls)}")
     law = drop.contacts[0]

@@ -5,7 +5,7 @@ import sys
 from collections.abc import Mapping, Sequence, Set
 from typing import Any, TypeAlias
 
-from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.errors import InvalidType, InvalidValue, instance, positive, shown
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw, Rigid
 from stackbounce.units import checked, in_unit
@@ -208,8 +208,7 @@ def separate(drop: Drop) -> Drop:
     >>> separate(drop).contacts
     (Rigid(restitution=1.0), Rigid(restitution=1.0))
     """
-    if not isinstance(drop, Drop):
-        raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
+    instance("drop", drop, Drop)
     rigid = drop.replace(contacts=_collisions(drop))
     if drop.gravity == 0.0 or drop.height is None:
         return rigid.replace(gravity=0.0)

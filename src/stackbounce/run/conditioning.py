@@ -7,14 +7,12 @@ stay so: balls that touch go on touching.
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from stackbounce.engine.records import Drops
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from stackbounce.run.paths import Array
 
 _RUNS = 20  # the standard deviation of so many is known to a sixth
 _ERRORS = (1e-10, 1e-13)  # the second one where the first one grows too far
@@ -58,9 +56,7 @@ def disturbed(numbers: Drops, error: float, seed: int) -> Drops:
     )
 
 
-def amplification(
-    rerun: Callable[..., Any], final: Sequence[float], speed: float
-) -> "NDArray[np.float64]":
+def amplification(rerun: Callable[..., Any], final: Sequence[float], speed: float) -> Array:
     """Return the standard deviation of the final speeds over that of the errors; see `Result`.
 
     Parameters
@@ -88,7 +84,7 @@ def known_until(
     rerun: Callable[..., Any],
     end: float,
     speed: float,
-    conditioning: "NDArray[np.float64]",
+    conditioning: Array,
     precision: float,
 ) -> float:
     """Return the time in s up to which the speeds of all balls have a digit; see `Result`.

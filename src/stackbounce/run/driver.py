@@ -19,12 +19,11 @@ from stackbounce.model import LAWS, Ball, Drop
 from stackbounce.run.conditioning import disturbed
 from stackbounce.run.engines import choose_compiled, choose_engine
 from stackbounce.run.options import Options, run_options
-from stackbounce.run.paths import drop_numbers, drop_pieces
+from stackbounce.run.paths import Array, drop_numbers, drop_pieces
 from stackbounce.run.result import ROUND_OFF, Cause, Result, Status
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    pass
 
 _KINDS: list[Any] = [Drop, Ball, *LAWS.values()]
 _ARGUMENTS = ("drop", "until", "rtol", "event_limit", "compiled")
@@ -118,9 +117,7 @@ def solve_one(drop: Drop, options: Options, compiled: bool | None = None) -> Res
     )
 
 
-def forces_at(
-    drop: Drop, times: "NDArray[np.float64]", rtol: float
-) -> tuple[Status, int, "NDArray[np.float64]"]:
+def forces_at(drop: Drop, times: Array, rtol: float) -> tuple[Status, int, Array]:
     """Return a run's status, its work, and its forces in N, (contacts, times), at ascending times.
 
     Times are in s.

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from stackbounce.engine.work import EVENT_LIMIT, WORK_LIMIT
-from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown, whole
+from stackbounce.errors import InvalidType, InvalidValue, between, instance, positive, shown, whole
 from stackbounce.model import Drop
 from stackbounce.units import checked
 
@@ -29,8 +29,7 @@ class Options(NamedTuple):
 
 def run_options(drop: object, until: object, rtol: object, event_limit: object) -> Options:
     """Validate the options of a run and return them; see `simulate`."""
-    if not isinstance(drop, Drop):
-        raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
+    drop = instance("drop", drop, Drop)
     if len(drop.balls) > _MOST_BALLS:
         raise InvalidValue(f"balls must be at most {_MOST_BALLS} for a run, got {len(drop.balls)}")
     events = whole("event_limit", event_limit, 1, _MOST_EVENTS)

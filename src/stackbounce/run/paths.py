@@ -68,7 +68,8 @@ class Number:
         return {"units": self.unit, "long_name": self.words, "path": self.path}
 
 
-Rows: TypeAlias = Mapping[Number, NDArray[np.float64]]
+Array: TypeAlias = NDArray[np.float64]
+Rows: TypeAlias = Mapping[Number, Array]
 """The numbers that vary, in SI units: arrays that broadcast with each other."""
 
 
@@ -240,9 +241,7 @@ def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
         drops.velocity[...] = -np.sqrt(2.0 * pull * height)[..., None]
 
 
-def incidence(
-    drop: Drop, rows: Rows, count: int
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def incidence(drop: Drop, rows: Rows, count: int) -> tuple[Array, Array]:
     """Return the impact speeds in m/s and gravity in m/s**2 of some drops, (count,) each."""
     drops = base_rows(drop, count)
     fill(drops, drop, rows)

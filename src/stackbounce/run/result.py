@@ -17,6 +17,7 @@ from stackbounce.files import shipped_table
 from stackbounce.model import STANDARD_GRAVITY, Drop
 from stackbounce.model.drawing import label, meeting
 from stackbounce.run.conditioning import amplification, known_until
+from stackbounce.run.paths import Array
 from stackbounce.run.sideways import leave_sideways
 from stackbounce.shown import Shown, Table
 from stackbounce.units import in_unit
@@ -204,7 +205,7 @@ class Result(Shown):
         return (kept,) if well else (kept, f"{self.status.name}: {self.advice}")
 
     @functools.cached_property
-    def rebound_speeds(self) -> NDArray[np.float64]:
+    def rebound_speeds(self) -> Array:
         """(N,) velocity of each ball after the impact, m/s, up-positive; nan if INVALID.
 
         That of a ball with a `Bond` is the velocity of the centre of its body.
@@ -212,13 +213,13 @@ class Result(Shown):
         return _frozen(np.array(self.final_velocities, dtype=float))
 
     @functools.cached_property
-    def rebound_ratios(self) -> NDArray[np.float64]:
+    def rebound_ratios(self) -> Array:
         """(N,) rebound speed of each ball over the impact speed v0."""
         speed = self.drop.reference_speed
         return _frozen(np.array([after / speed for after in self.final_velocities], dtype=float))
 
     @functools.cached_property
-    def rebound_heights(self) -> NDArray[np.float64]:
+    def rebound_heights(self) -> Array:
         """(N,) how far each ball rises in m, without air; with a minus sign if it moves down.
 
         It is v²/(2 g) at the gravity of the drop, or 9.80665 m/s**2 if that is 0.
@@ -273,12 +274,12 @@ class Result(Shown):
         return _frozen(out)
 
     @functools.cached_property
-    def first_touch(self) -> NDArray[np.float64]:
+    def first_touch(self) -> Array:
         """(N,) time in s of each contact's first touch; nan where it never touched."""
         return self._per_contact("start", np.fmin)
 
     @functools.cached_property
-    def last_release(self) -> NDArray[np.float64]:
+    def last_release(self) -> Array:
         """(N,) time in s at which each contact opened last; nan where it never touched."""
         return self._per_contact("end", np.fmax)
 
@@ -289,7 +290,7 @@ class Result(Shown):
         return energy_kept(mass, list(self.drop.start_velocities), list(self.final_velocities))
 
     @functools.cached_property
-    def conditioning(self) -> NDArray[np.float64]:
+    def conditioning(self) -> Array:
         """(N,) how many times an error of the drop's numbers is as large in each final speed.
 
         The standard deviation of the speed over the reference speed, divided by that of independent
@@ -500,7 +501,7 @@ class Result(Shown):
             attrs={"stackbounce": __version__, "drop": self.drop.to_toml()},
         )
 
-    def sampled(self, times: ArrayLike) -> dict[str, NDArray[np.float64]]:
+    def sampled(self, times: ArrayLike) -> dict[str, Array]:
         """Return what `sample` returns, in plain arrays, with the energy `stored` in each contact.
 
         Parameters
@@ -538,17 +539,17 @@ class Result(Shown):
         return tables | {"energy": self._energy(tables)}
 
     @functools.cached_property
-    def _rows(self) -> NDArray[np.float64]:
+    def _rows(self) -> Array:
         rows = np.reshape(np.array(self.log, dtype=float), (-1, codes.LOG_COLUMNS))
         # the end of a clipped contact's interval is logged late, once its compression is gone
         return rows[np.argsort(rows[:, codes.TIME], kind="stable")]
 
-    def _per_contact(self, field: str, choose: np.ufunc) -> NDArray[np.float64]:
+    def _per_contact(self, field: str, choose: np.ufunc) -> Array:
         out = np.full(len(self.drop.balls), math.nan)
         choose.at(out, self.intervals["contact"], self.intervals[field])
         return _frozen(out)
 
-    def _times(self, times: ArrayLike) -> NDArray[np.float64]:
+    def _times(self, times: ArrayLike) -> Array:
         wanted = _numbers(times)
         stopped = self.status not in (Status.FINISHED, Status.SETTLED, Status.COLLAPSED)
         last = self.end_time if stopped else math.inf
@@ -558,7 +559,7 @@ class Result(Shown):
             raise InvalidValue(f"times must be seconds from 0{end}, got {bad[0]:g}")
         return wanted
 
-    def _energy(self, tables: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
+    def _energy(self, tables: dict[str, Array]) -> Array:
         mass = np.array([ball.mass for ball in self.drop.balls])[:, None]
         kinetic = 0.5 * mass * tables["velocity"] ** 2
         potential = mass * self.drop.gravity * tables["position"]
@@ -593,7 +594,7 @@ class Result(Shown):
                 yield (ball, *under_way[ball], math.inf)
 
 
-def heights_of(velocities: Any, gravity: Any) -> NDArray[np.float64]:
+def heights_of(velocities: Any, gravity: Any) -> Array:
     """Return how far in m balls rise at velocities in m/s; with a minus sign if they move down.
 
     Where gravity in m/s**2 is 0, it is 9.80665 m/s**2.
@@ -608,7 +609,7 @@ def heights_of(velocities: Any, gravity: Any) -> NDArray[np.float64]:
         return np.asarray(velocities * np.abs(velocities) / (2.0 * pull))
 
 
-def _numbers(times: object) -> NDArray[np.float64]:
+def _numbers(times: object) -> Array:
     """Return times as an array of floats; raise if one is not a real number."""
     unmasked("times", times)
     times = in_unit(times, "s", "times")

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.explorer.limits import LIMITS, RTOL
 from stackbounce.json_values import as_json
@@ -12,6 +11,7 @@ from stackbounce.plots.impact import choose_window
 from stackbounce.prediction import predict
 from stackbounce.prediction.inputs import add_value
 from stackbounce.run.driver import simulate
+from stackbounce.run.quantities import Array
 from stackbounce.run.result import Result
 from stackbounce.version import __version__
 
@@ -59,7 +59,7 @@ def predict_drop(drop: Drop, errors: Mapping[str, float | str], until: float | N
     return as_json({"stackbounce": __version__, **answer, "band": {"time": times, **bands}})
 
 
-def _choose_times(result: Result, until: float | None) -> NDArray[np.float64]:
+def _choose_times(result: Result, until: float | None) -> Array:
     """Return times in s from the first touch on: even ones, and the starts and ends of contacts."""
     _, end = choose_window(result)
     spans, even, each = result.intervals[:_INTERVALS], _TIMES, 2
@@ -70,7 +70,7 @@ def _choose_times(result: Result, until: float | None) -> NDArray[np.float64]:
         each = max(8, even // max(1, len(spans)))
     times = [np.linspace(0.0, end, even)]
     times += [np.linspace(span["start"], min(span["end"], end), each) for span in spans]
-    every: NDArray[np.float64] = np.unique(np.concatenate(times))
+    every: Array = np.unique(np.concatenate(times))
     return every[(every >= 0.0) & (every <= end)]
 
 

@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, StackbounceError, a_or_an, nearest, shown
 from stackbounce.explorer.answers.predictions import run_drop
@@ -19,6 +18,7 @@ from stackbounce.measure.messages import OptionHint
 from stackbounce.measure.option_values import read_options
 from stackbounce.measure.options import OPTIONS, Option
 from stackbounce.model import Drop
+from stackbounce.run.quantities import Array
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
     from stackbounce.fitting.residuals import Record
 
-_Array = NDArray[np.float64]
 _Series = dict[str, Any]
 
 _POINTS = 500  # about so many points of a branch that a page draws
@@ -178,7 +177,7 @@ def _wording(hint: OptionHint) -> str:
     return " and ".join(entered)
 
 
-def _thin(label: str, what: str, times: _Array, values: _Array) -> _Series:
+def _thin(label: str, what: str, times: Array, values: Array) -> _Series:
     """Thin a curve to what a page draws; keep the extremes of each stretch."""
     known = np.isfinite(times) & np.isfinite(values)
     times, values = times[known], values[known]

@@ -21,9 +21,7 @@ from stackbounce.measure.reading.roles import Column
 _UNITS = {"s": (1.0, "seconds"), "ms": (1e-3, "milliseconds"), "µs": (1e-6, "microseconds"),
           "ns": (1e-9, "nanoseconds")}  # fmt: skip
 _EPOCH = (631152000.0, 4102444800.0)  # s since 1970, from 1990 to 2100
-_RUNS = 50
-"""Runs below each other, at most: with more, the column does not hold times."""
-
+_RUNS = 50  # runs below each other, at most: with more, the column does not hold times
 _COUNTED = 2000  # numbers whose digits are counted: nearly none of them may end in zeros
 _SINGLE_DIGITS = 8  # that a float of 32 bits does not have, but that programs write of it
 _NINTH_DIGIT = 5.1e-9  # relative: how far nine digits may be off the float they were written of

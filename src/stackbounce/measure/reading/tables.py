@@ -33,17 +33,11 @@ _RATIO = 400  # of bytes to packed bytes; numbers as text come to about 10
 _BROKEN = (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, RuntimeError)
 _NO_ARRAY = (ValueError, TypeError, LookupError, SyntaxError, EOFError, RecursionError, TokenError)
 _ENDINGS = (".csv", ".tsv", ".txt", ".dat", ".lvm", ".npy", ".trk")
-_BOOK_CELLS = 2**19
-"""Cells of a spreadsheet, at most: some seconds."""
-
-_BOOK_BYTES = 2**26
-"""Bytes of its parts, unpacked, at most."""
-
+_BOOK_CELLS = 2**19  # cells of a spreadsheet, at most: some seconds
+_BOOK_BYTES = 2**26  # bytes of its parts, unpacked, at most
 _COMMA = re.compile(r"\s*[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{1,4})?\s*")
 _Rows = Iterable[Sequence[object]]
-_XML = 2**25
-"""Bytes of XML, at most: its tree takes some ten times as much memory."""
-
+_XML = 2**25  # bytes of XML, at most: its tree takes some ten times as much memory
 _TRACKER, _MASS = b"org.opensourcephysics.cabrillo.tracker", "tracker.PointMass"
 _LOGGER_PRO = b"<DataSet"
 

@@ -15,9 +15,7 @@ from stackbounce.measure.reading.roles import FRAME, PIXEL, POINT, Column, colum
 _Tracks: TypeAlias = tuple[list[Column], Array, list[str]]
 """Columns with their numbers, and what is unsure."""
 
-_TRACKS = 12
-"""Tracks below each other that are read, at most: the longest ones."""
-
+_TRACKS = 12  # tracks below each other that are read, at most: the longest ones
 _RATE, _SCALE = OptionHint({"frame_rate": None}), OptionHint({"scale": None})
 _ROLES = {"", "x", "y", "track_id"}  # of columns beside which rows are frames
 _LEAST = 5  # points of a track that is put together

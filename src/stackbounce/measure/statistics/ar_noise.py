@@ -5,9 +5,8 @@ a law that does not quite fit. Assuming independent errors makes error bars far 
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, Samples
 
 _CHUNK = 1024  # samples in a row from which a linear prediction is learned
 _ORDER = 24  # samples that a prediction is made from
@@ -16,7 +15,7 @@ _LEAST_SAMPLES = 48  # of a series whose autocorrelation is estimated
 _NORMAL_MEDIAN = 0.6745  # median absolute value of a standard normal variable
 
 
-def whitened(values: NDArray[np.float32], rounding: float) -> NDArray[np.float32]:
+def whitened(values: Samples, rounding: float) -> Samples:
     """Return the linear-prediction residual of a signal, learned from its quiet half.
 
     The prediction removes hum and stationary noise of any spectrum; sudden changes remain.

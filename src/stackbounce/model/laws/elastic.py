@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from stackbounce.engine import codes
-from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.errors import InvalidValue, instance
 from stackbounce.model.ball import Ball
 from stackbounce.model.laws.law import EXPONENT, ContactLaw, Flank, Flanks, stiffness_in
 from stackbounce.model.laws.registry import register
@@ -162,8 +162,7 @@ class Hertz(ElasticLaw):
 
 def _shares(name: str, ball: object) -> tuple[float, float]:
     """Return a ball's shares in 1/E* and 1/R*."""
-    if not isinstance(ball, Ball):
-        raise InvalidType(f"{name} must be a Ball, got {shown(ball)}")
+    ball = instance(name, ball, Ball)
     missing = [
         field
         for field in ("diameter", "young_modulus", "poisson_ratio")

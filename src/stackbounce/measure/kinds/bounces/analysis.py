@@ -26,7 +26,7 @@ _INSTANT = 1e-6  # s: no ball bounces twice in so short a time
 
 def analyse(data: Any, setup: Setup) -> Bounces:
     """Return the restitutions that times of bounces tell."""
-    return bounces(data, drop_height=setup.drop_height, gravity=setup.gravity, drag=setup.drag)
+    return bounces(data, **setup.only("drop_height", "gravity", "drag"))
 
 
 def bounces(

@@ -41,15 +41,8 @@ def analyse(data: Any, setup: Setup) -> Heights:
 def of_numbers(setup: Setup) -> Heights:
     """Return the restitutions that heights tell."""
     drop_height, *bounce_heights = setup.heights
-    return heights(
-        drop_height,
-        bounce_heights,
-        diameter=setup.diameter,
-        measured_to=setup.measured_to,
-        height_error=setup.height_error,
-        repeated=setup.repeated,
-        drag=setup.drag,
-    )
+    known = setup.only("diameter", "measured_to", "height_error", "repeated", "drag")
+    return heights(drop_height, bounce_heights, **known)
 
 
 def _check_fall(heights: list[float]) -> None:

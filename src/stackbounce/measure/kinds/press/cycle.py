@@ -3,13 +3,12 @@
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.finding import Branch
 from stackbounce.measure.kinds.press.record import Cycle, Record
 from stackbounce.measure.kinds.press.result import Press
-from stackbounce.measure.quantities import Array, known_to
+from stackbounce.measure.quantities import Array, Mask, known_to
 from stackbounce.measure.samples import quantisation_error, trapezoid
 from stackbounce.measure.statistics.ar_noise import correlation_factor
 
@@ -163,7 +162,7 @@ def _fitted(record: Record, branch: _Points, peak: float, first: Array, free: in
     return _Law(values, float(np.exp(values[2])), branch.y - force, slopes, scale)
 
 
-def _refuse_strange(law: _Law, touched: NDArray[np.bool_], record: Record) -> None:
+def _refuse_strange(law: _Law, touched: Mask, record: Record) -> None:
     """Refuse a loading of no point in contact, or whose ``C**p`` no float holds."""
     _, log_p, log_c = np.abs(law.values)
     held = max(log_p, log_c) < _LARGEST_LOG and log_c * np.exp(law.values[1]) < _LARGEST_POWER

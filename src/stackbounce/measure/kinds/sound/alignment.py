@@ -4,9 +4,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, Mask, Samples
 
 # Set by hand on the synthetic recordings of `benchmarks/coverage/sound.py`, so that the error bars
 # hold the truth as often as they claim; `tests/measure/test_coverage_measure.py` guards it.
@@ -46,7 +45,7 @@ class Bands(NamedTuple):
 
 
 def band_powers(
-    values: NDArray[np.float32],
+    values: Samples,
     rate: float,
     about: Array,
     start: float,
@@ -123,7 +122,7 @@ def _edges(rate: float) -> Array:
 
 
 def _windows(
-    values: NDArray[np.float32], rate: float, about: Array, before: int, after: int
+    values: Samples, rate: float, about: Array, before: int, after: int
 ) -> tuple[Array, Array]:
     """Return samples around each time without their mean, and by how much a time is later."""
     nearest = np.round(about * rate).astype(np.int64)
@@ -134,9 +133,7 @@ def _windows(
     return np.where(inside, around - mean[:, None], 0.0), about - nearest / rate
 
 
-def _amplitudes(
-    values: NDArray[np.float32], rate: float, about: Array, start: float, stop: float
-) -> Bands:
+def _amplitudes(values: Samples, rate: float, about: Array, start: float, stop: float) -> Bands:
     """Return a record of amplitudes as one band, interpolated."""
     from scipy.ndimage import map_coordinates
 
@@ -154,8 +151,8 @@ class _Window(NamedTuple):
 
     first: int
     steps: int
-    quiet: NDArray[np.bool_]
-    loud: NDArray[np.bool_]
+    quiet: Mask
+    loud: Mask
 
 
 class _Comparison(NamedTuple):
@@ -176,7 +173,7 @@ class _Comparison(NamedTuple):
 
 
 def aligned(
-    values: NDArray[np.float32], rate: float, about: Array, least: float = 0.0, faint: float = 0.0
+    values: Samples, rate: float, about: Array, least: float = 0.0, faint: float = 0.0
 ) -> tuple[Array, Array]:
     """Return the times of the knocks of one ball, consistent with each other, and their errors.
 

@@ -3,7 +3,6 @@
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, positive
 from stackbounce.measure.kinds.bounces.knocks import Dropped, Knocks
@@ -14,7 +13,7 @@ from stackbounce.measure.kinds.sound.onset import onsets
 from stackbounce.measure.kinds.sound.plausibility import reason_against, tails
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
 from stackbounce.measure.messages import Message, OptionHint
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, Samples
 from stackbounce.measure.samples import columns, resolution, runs
 from stackbounce.measure.statistics.ar_noise import whitened
 
@@ -143,8 +142,8 @@ def _all_sounds(rises: Rises) -> tuple[Chain, list[Dropped]]:
 class _Recording(NamedTuple):
     """Samples, (N,), whitened ones, the rate, and the variance of the samples' rounding."""
 
-    samples: NDArray[np.float32]
-    white: NDArray[np.float32]
+    samples: Samples
+    white: Samples
     rate: float
     rounded: float
 
@@ -210,7 +209,7 @@ def _recording(data: Any, rate: float | None) -> tuple[_Recording, float]:
     return _Recording(samples, white, rate, rounded), origin
 
 
-def _notes_on(samples: NDArray[np.float32]) -> list[str]:
+def _notes_on(samples: Samples) -> list[str]:
     """Return a note on a recording that is clipped."""
     top = np.abs(samples) >= 0.999 * np.abs(samples).max()
     first, last = runs(top)

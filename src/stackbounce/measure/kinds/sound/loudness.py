@@ -3,9 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, Samples
 
 # Set by hand on the recordings of `benchmarks/coverage/sound.py` and `docs/lab`.
 _HOP_SECONDS = 0.5e-3  # s, step of the search
@@ -30,7 +29,7 @@ class Rises(NamedTuple):
     ratios: Array
 
 
-def find_rises(white: NDArray[np.float32], rate: float, rounded: float) -> Rises:
+def find_rises(white: Samples, rate: float, rounded: float) -> Rises:
     """Return where a whitened recording becomes suddenly louder, to 0.5 ms or so.
 
     The amplitude must rise within 2 ms by a factor of 1.7 at least, and by more than stationary

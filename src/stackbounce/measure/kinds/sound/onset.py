@@ -4,9 +4,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, Samples
 
 # Set by hand on the synthetic recordings of `benchmarks/coverage/sound.py`, as in `alignment.py`.
 _RISE_TIMES = (0.0, 0.05e-3, 0.1e-3, 0.2e-3, 0.5e-3, 1e-3)  # s in which a knock may rise
@@ -32,7 +31,7 @@ class _Knock(NamedTuple):
 
 
 def onsets(
-    white: NDArray[np.float32], rate: float, about: Array, rounded: float, faint: float = 0.0
+    white: Samples, rate: float, about: Array, rounded: float, faint: float = 0.0
 ) -> tuple[Array, Array]:
     """Return the onsets of the knocks of one ball, and their errors.
 
@@ -89,7 +88,7 @@ def onsets(
 
 
 def _knock(
-    values: NDArray[np.float32],
+    values: Samples,
     time: float,
     rate: float,
     reach: float,
@@ -126,7 +125,7 @@ def _rounding(noise: float, variance: float) -> float:
     return variance * (1.0 + 2.0 * math.exp(-(math.pi**2) / 3.0 * noise / variance))
 
 
-def _part(values: NDArray[np.float32], start: int, stop: int, thin: int) -> Array:
+def _part(values: Samples, start: int, stop: int, thin: int) -> Array:
     """Return means of `thin` samples each, and zeros outside of the recording."""
     inside = values[max(start * thin, 0) : max(stop * thin, 0)].astype(np.float64)
     before = max(-start * thin, 0)

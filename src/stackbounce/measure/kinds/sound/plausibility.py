@@ -1,11 +1,10 @@
 """Whether sounds are the bounces of one ball, or why they cannot be."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.measure.kinds.sound.loudness import Rises
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, Mask
 
 # Set by hand on some 250 public recordings of other things, on the made ones of
 # `tests/measure/test_no_ball.py`, and on recordings of bounces.
@@ -25,9 +24,7 @@ _LEAST_DEVIATION = 0.3  # of the scores of random orders
 _TAIL_SECONDS, _TAIL = 0.25, 10.0  # after a sound so many times clearer, a rise belongs to it
 
 
-def reason_against(
-    chain: Chain, rises: Rises, echoes: NDArray[np.bool_], origin: float, longest: float
-) -> str:
+def reason_against(chain: Chain, rises: Rises, echoes: Mask, origin: float, longest: float) -> str:
     """Return why a series of sounds is no bouncing ball; nothing if it may be one.
 
     A series that leaves nothing out is judged by itself. Out of many other sounds a shrinking
@@ -126,7 +123,7 @@ def _against_chance(chain: Chain, heard: Rises, others: Array) -> str:
     return f"{len(heard.times)} sounds, which in random order give as good a series of bounces"
 
 
-def tails(rises: Rises) -> NDArray[np.bool_]:
+def tails(rises: Rises) -> Mask:
     """Return whether each rise lies within the tail of a clearer sound, (N,)."""
     times, _, _, ratios = rises
     since = times[:, None] - times

@@ -6,7 +6,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds.waveform.baseline import first_guess, quiet_parts
@@ -25,7 +25,7 @@ from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.ringing import ringing_of
 from stackbounce.measure.kinds.waveform.shapes import UNTOLD, Ends, ends_of
 from stackbounce.measure.messages import Message, OptionHint
-from stackbounce.measure.quantities import Array, known_to, measured_if_given, nominal
+from stackbounce.measure.quantities import Array, Mask, known_to, measured_if_given, nominal
 from stackbounce.measure.samples import runs
 from stackbounce.model.laws import ContactLaw
 
@@ -223,7 +223,7 @@ def _are_square(contacts: tuple[Contact, ...]) -> bool:
     return equal and float(np.median(areas / peaks)) > _FULL
 
 
-def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
+def _outside(count: int, stretches: list[Stretch]) -> Mask:
     """Return which samples are outside all contacts, with a margin."""
     quiet = np.ones(count, dtype=bool)
     ends = [-1, *(stretch.last for stretch in stretches)]

@@ -4,11 +4,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.measure.kinds.waveform.hum import Base, find_hum, fit_quiet
 from stackbounce.measure.kinds.waveform.record import Record
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, Mask
 from stackbounce.measure.samples import quantisation_error
 from stackbounce.measure.statistics.ar_noise import correlation_factor, difference_noise
 
@@ -71,7 +70,7 @@ def _densest(values: Array) -> float:
     return float(np.median(ordered[at : at + count]))
 
 
-def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet:
+def quiet_parts(record: Record, quiet: Mask, *, hum: bool) -> Quiet:
     """Return baseline and noise from the samples that are marked as quiet.
 
     Parameters

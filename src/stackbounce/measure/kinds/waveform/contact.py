@@ -4,7 +4,6 @@ from math import hypot
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.measure.kinds.waveform.baseline import Quiet, scatter
 from stackbounce.measure.kinds.waveform.flanks import Part, fit_flank
@@ -14,7 +13,7 @@ from stackbounce.measure.kinds.waveform.peaks import find_peaks, flat_top, impul
 from stackbounce.measure.kinds.waveform.result import Contact
 from stackbounce.measure.kinds.waveform.ringing import OWN_NOISE, Ringing
 from stackbounce.measure.kinds.waveform.shapes import Ends
-from stackbounce.measure.quantities import Array, known_to
+from stackbounce.measure.quantities import Array, Mask, known_to
 from stackbounce.measure.samples import quantisation_error
 
 _BESIDE = 2  # times the contact's length: baseline that is looked at on each side
@@ -54,7 +53,7 @@ class Seen(NamedTuple):
     raw: Array
     quantum: float
     zero: Quiet
-    quiet: NDArray[np.bool_]
+    quiet: Mask
     stretches: list[Stretch]
     short: int
     sign: int

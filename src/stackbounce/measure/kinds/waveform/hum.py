@@ -4,10 +4,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.measure.kinds.waveform.record import Record
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, Mask
 from stackbounce.measure.statistics.ar_noise import correlation_factor
 
 _MAINS = (50.0, 60.0)  # Hz
@@ -34,7 +33,7 @@ class Base(NamedTuple):
     frequency: float = 0.0
 
 
-def find_hum(line: Array, times: Array, record: Record, quiet: NDArray[np.bool_]) -> Base | None:
+def find_hum(line: Array, times: Array, record: Record, quiet: Mask) -> Base | None:
     """Return the baseline with its hum; None if the quiet samples show no significant one.
 
     Parameters
@@ -66,7 +65,7 @@ def find_hum(line: Array, times: Array, record: Record, quiet: NDArray[np.bool_]
 
 
 def _fitted(
-    line: Array, times: Array, tone: float, values: Array, quiet: NDArray[np.bool_]
+    line: Array, times: Array, tone: float, values: Array, quiet: Mask
 ) -> tuple[Array, Array, Array]:
     """Return columns of line and hum at all samples, the rows of a fit of them, and their weights.
 
@@ -84,7 +83,7 @@ def _fitted(
     return columns, rows, regression(rows, told)[0]
 
 
-def fit_quiet(columns: Array, values: Array, quiet: NDArray[np.bool_]) -> Array:
+def fit_quiet(columns: Array, values: Array, quiet: Mask) -> Array:
     """Return the linear regression on columns at all samples, fitted to the quiet ones."""
     return np.asarray(columns @ regression(columns[quiet], values[quiet])[0])
 
@@ -109,7 +108,7 @@ def leverage(columns: Array, fitted: Array) -> Array:
     return np.asarray(np.sqrt(np.sum(columns * (columns @ inverse), axis=1)))
 
 
-def _tone(times: Array, record: Record, quiet: NDArray[np.bool_]) -> float:
+def _tone(times: Array, record: Record, quiet: Mask) -> float:
     """Return the frequency in Hz of a significant hum that no droop explains better, or 0."""
     span = float(times[-1])
     tones = _tones(span, record.step)
@@ -140,7 +139,7 @@ def _tones(span: float, step: float) -> list[float]:
     return [float(main + off) for main in _MAINS for off in fine]
 
 
-def _left_by_droop(line: Array, values: Array, calm: NDArray[np.bool_]) -> float:
+def _left_by_droop(line: Array, values: Array, calm: Mask) -> float:
     """Return the least sum of squares that the droop of a piezo sensor leaves on a line."""
     from scipy.signal import lfilter
 

@@ -12,15 +12,8 @@ from stackbounce.measure.setup import Setup
 
 def analyse(data: Any, setup: Setup) -> tuple[Finding, ...]:
     """Analyse a force, and the gap between two balls where there is a second channel."""
-    force = waveform(
-        data,
-        mass=setup.mass,
-        impact_speed=setup.speed,
-        time_constant=setup.time_constant,
-        law=setup.law,
-        exponent=setup.exponent,
-    )
+    known = setup.only("mass", "time_constant", "law", "exponent")
+    force = waveform(data, impact_speed=setup.speed, **known)
     with suppress(InvalidValue):  # there is one channel, or the second is no sensor of balls
-        speed, time = setup.impact_speed, setup.contact_time
-        return sensor_gap(data, impact_speed=speed, contact_time=time), force
+        return sensor_gap(data, **setup.only("impact_speed", "contact_time")), force
     return (force,)

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from stackbounce.errors import InvalidValue, positive
 from stackbounce.measure.finding import force_channels
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, Mask
 from stackbounce.measure.samples import columns, resolution
 
 if TYPE_CHECKING:
@@ -115,7 +115,7 @@ def _channel(data: Any) -> tuple[Array, Array, str, list[str]]:
     return times, values, str(data[names[0]].attrs.get("units", "")), names
 
 
-def _spikes(values: Array) -> NDArray[np.bool_]:
+def _spikes(values: Array) -> Mask:
     """Return which samples are spikes: far from both neighbours, which agree with theirs.
 
     A spike makes second differences of 1, -2 and 1 times its height, and nothing else does.
