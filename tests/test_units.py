@@ -45,11 +45,6 @@ def test_decimal_prefixes_lose_no_digit(text):
     assert quantity(text, "kg") == float(f"{text.removesuffix(' g')}e-3")
 
 
-def test_unknown_unit_is_said_to_be_one():
-    with pytest.raises(errors.UnitError, match=r"got '3 furlongz', of unknown unit$"):
-        quantity("3 furlongz", "m")
-
-
 @pytest.mark.parametrize(
     ("text", "unit", "kind"),
     [
@@ -143,6 +138,8 @@ def test_values_of_a_sweep_may_have_units(values):
 
 
 def test_a_wrong_unit_says_what_would_be_right():
+    got = refusal(errors.UnitError, quantity, "3 furlongz", "m")
+    assert got.endswith(", got '3 furlongz', of unknown unit")
     right = 'mass must be a mass (a number of kg or a string such as "150 g"), got '
     assert refusal(errors.UnitError, sb.Ball, "16 cm") == right + "'16 cm'"
     assert refusal(errors.UnitError, sb.Ball, 16 * U.cm) == right + "'16 centimeter'"

@@ -1,7 +1,9 @@
 """The audit: every number of the paper is computed, compared, and explained where it differs."""
 
 import re
+import tomllib
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -24,33 +26,9 @@ from stackbounce.cross2007.style import use_style
 from stackbounce.cross2007.tables import make_table_one, make_table_two
 from stackbounce.units import quantity
 
-# Inputs that a row reads without depending on them: they drop out of its formula, or concern what
-# comes later than the moment that the row is about.
-DROPS_OUT = {
-    "I.relative": "textbook.mass_ratio",
-    "II.equal_first": "models.equal",
-    "II.ten_apart": "models.stiffness_ratio",
-    "III.static_ratio": "static.tennis",
-    "III.static_duration": "stack.impact_speed",
-    "IV.record_delay": "V.exponent fig13.ball_stiffness B2.mass",
-    "III.duration": "stack.impact_speed",
-    "III.quiet": "fig9.ball_stiffness tennis.mass",
-    "III.other_duration": "stack.impact_speed",
-    "III.other_release": "stack.impact_speed",
-    "III.fig9_delay": "stack.impact_speed",
-    "IV.record_gap": "V.exponent fig13.ball_stiffness fig13.gap B2.mass",
-    "IV.record_reversed_gap": "fig13.ball_stiffness B1.mass",
-    "IV.record_B3_delay": "B3_fit.ball_stiffness B3.mass",
-    "IV.record_twin_duration": "superballs.drop_height",
-    "IV.record_twin_late_duration": "superballs.drop_height",
-    "V.exponent": "fig13.floor_stiffness",
-    "V.restitution": "fig13.floor_stiffness",
-    "VI.smallest": "fig13.floor_stiffness fig13.ball_stiffness "
-    "B3_fit.floor_stiffness B3_fit.ball_stiffness",
-    "VI.largest": "fig9.floor_stiffness fig9.ball_stiffness "
-    "fig13.floor_stiffness fig13.ball_stiffness",
-    "VI.superballs": "fig9.floor_stiffness fig9.ball_stiffness",
-}
+DROPS_OUT = tomllib.loads(Path(__file__).with_name("drops_out.toml").read_text("utf-8"))
+"""By row, inputs that it reads without depending on them."""
+
 # Inputs that no row rests on: figures, tables and other readings show them.
 ONLY_SHOWN = re.compile(
     r"((ball|tennis)\.diameter|static_stiffness|duration|late_delay|upper_height)$|^B3_on_B1.mass"
@@ -312,7 +290,7 @@ def test_a_call_makes_the_same_drop(law):
     assert eval(write_call(drop), {"sb": sb}).drop == drop
 
 
-def test_source_leaves_the_docstring_out():
+def test_source_has_no_docstring_and_the_values_that_a_lambda_takes_from_outside():
     def doubled(b):
         """What it is."""
         one = b("x")
@@ -320,8 +298,6 @@ def test_source_leaves_the_docstring_out():
 
     assert source_of(doubled) == "one = b('x')\nreturn 2.0 * one"
 
-
-def test_source_of_a_lambda_shows_the_values_that_it_takes_from_outside():
     def ratio(fit, ball):
         return lambda b: b.simulate(fit(b, b(f"{ball}.mass"))).rebound_ratios[0]
 

@@ -17,18 +17,9 @@ SITE = "https://moodle.school.example"
 @pytest.mark.parametrize(
     "text",
     [
-        "",
-        "moodle.school.example",
-        f"{SITE}/",
-        f"{SITE}:655360",
-        f"{SITE}; script-src *",
-        f"{SITE}\n",
-        "https://*.school.example",
-        "https://user@school.example",
-        "https://-school.example",
-        "https://schüle.example",
-        "file://school",
-        "**",
+        *("", "moodle.school.example", f"{SITE}/", f"{SITE}:655360", f"{SITE}; script-src *"),
+        *(f"{SITE}\n", "https://*.school.example", "https://user@school.example", "**"),
+        *("https://-school.example", "https://schüle.example", "file://school"),
     ],
 )
 def test_what_is_no_origin_is_refused(capsys, text):

@@ -11,14 +11,8 @@ from stackbounce.explorer import LIMITS, addresses, guard
 from stackbounce.explorer.addresses import Place
 
 HOSTS = [
-    "evil.example",
-    "127.0.0.1.evil.example",
-    "evil.example:8050",
-    "",
-    "[::1",
-    "evil.example@localhost",
-    "localhost/evil.example",
-    "localhost:8050, evil.example",
+    *("evil.example", "127.0.0.1.evil.example", "evil.example:8050", "", "[::1"),
+    *("evil.example@localhost", "localhost/evil.example", "localhost:8050, evil.example"),
 ]
 ORIGINS = ["http://[", "https://127.0.0.1", "http://evil.example", "null", "http://127.0.0.1:1"]
 

@@ -9,11 +9,7 @@ from schemathesis.specs.openapi.checks import content_type_conformance, status_c
 
 pytestmark = pytest.mark.slow
 
-CHECKS = [
-    not_a_server_error,
-    status_code_conformance,
-    content_type_conformance,
-]
+CHECKS = [not_a_server_error, status_code_conformance, content_type_conformance]
 OPERATIONS = [
     ("GET", "/api/places"),
     ("POST", "/api/predict"),

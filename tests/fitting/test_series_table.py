@@ -149,10 +149,7 @@ def test_a_reading_far_from_the_others_is_named_and_kept(table):
         ("100,64\n50,33\n", "it has no heading above its numbers"),
         ("drop height (cm)\nhigh\n", "it has no row with two numbers"),
         ("drop height (cm),mass (g)\n100,57\n", "no column is what was measured after a bounce"),
-        (
-            "drop height (cm),rebound (cm)\n64,100\n",
-            "row 2: the rebound height is 1 m after 0.64",
-        ),
+        ("drop height (cm),rebound (cm)\n64,100\n", "row 2: the rebound height is 1 m after 0.64"),
         ("v (m/s),e\n1,1.2\n", "row 2: the restitution is 1.2 after 1"),
         ("drop height (cm),rebound (cm)\n-5,3\n", "row 2: numbers must be above 0, got -0.05"),
         ("drop height (cm),rebound (cm)\n50,33\n100,64 kg\n", "row 3, rebound (cm) must be"),

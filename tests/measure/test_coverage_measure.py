@@ -4,15 +4,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 import pytest
-from benchmarks.coverage import (
-    accelerometer,
-    heights,
-    press,
-    sound,
-    stiffness,
-    track,
-    waveform,
-)
+from benchmarks.coverage import accelerometer, heights, press, sound, stiffness, track, waveform
 from benchmarks.coverage.shares import Trial, covered, shares
 
 from coverage_cases import chosen

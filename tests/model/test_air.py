@@ -65,31 +65,24 @@ def test_rises_and_flights_obey_the_equation_of_motion(speed):
     assert AIR.launch_speed(BALL, top) == pytest.approx(speed, rel=1e-10)
 
 
-@given(height=heights, density=densities)
-def test_a_small_drag_loses_no_digits(height, density):
+@given(height=heights, density=densities, up=speeds)
+def test_a_small_drag_loses_no_digits(height, density, up):
     air = sb.Air(density=density)
     with mp.workdps(1000):
-        k, h, g = rate(density), mpf(height), mpf(STANDARD_GRAVITY)
+        k, h, v, g = rate(density), mpf(height), mpf(up), mpf(STANDARD_GRAVITY)
         speed = mp.sqrt(g / k * (1 - mp.exp(-2 * k * h)))
         time = mp.acosh(mp.exp(k * h)) / mp.sqrt(g * k)
         launch = mp.sqrt(g / k * (mp.exp(2 * k * h) - 1)) if k * h < 300 else None
+        top = mp.log(1 + k * v * v / g) / (2 * k)
+        rise = mp.atan(v * mp.sqrt(k / g)) / mp.sqrt(g * k)
+        landing = v / mp.sqrt(1 + k * v * v / g)
     assert air.impact_speed(BALL, height) == pytest.approx(float(speed), rel=1e-14)
     assert air.fall_time(BALL, height) == pytest.approx(float(time), rel=1e-14)
     if launch is not None:
         assert air.launch_speed(BALL, height) == pytest.approx(float(launch), rel=1e-13)
-
-
-@given(speed=speeds, density=densities)
-def test_a_small_drag_loses_no_digits_of_a_rise(speed, density):
-    air = sb.Air(density=density)
-    with mp.workdps(1000):
-        k, v, g = rate(density), mpf(speed), mpf(STANDARD_GRAVITY)
-        height = mp.log(1 + k * v * v / g) / (2 * k)
-        time = mp.atan(v * mp.sqrt(k / g)) / mp.sqrt(g * k)
-        landing = v / mp.sqrt(1 + k * v * v / g)
-    flight = air.flight(BALL, speed)
-    assert flight.height == pytest.approx(float(height), rel=1e-14)
-    assert flight.rise_time == pytest.approx(float(time), rel=1e-14)
+    flight = air.flight(BALL, up)
+    assert flight.height == pytest.approx(float(top), rel=1e-14)
+    assert flight.rise_time == pytest.approx(float(rise), rel=1e-14)
     assert flight.landing_speed == pytest.approx(float(landing), rel=1e-14)
 
 

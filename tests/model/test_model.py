@@ -209,9 +209,6 @@ def test_separate_collisions_keep_everything_else():
     assert rigid == dataclasses.replace(drop, contacts=[Rigid(0.78), Rigid(1.0)])
     assert separate(rigid) == rigid
     assert separate(two(contacts=[None, SPRING])).contacts == (None, Rigid(1.0))
-
-
-def test_only_a_drop_has_separate_collisions():
     assert refusal(errors.InvalidType, separate, 3) == "drop must be a Drop, got 3"
 
 
@@ -263,13 +260,10 @@ def test_a_fitted_pair_has_its_own_floor_gap_and_spring():
         assert chosen.contact_sources == (pair.source, pair.source)
 
 
-def test_a_pair_the_other_way_round_has_its_spring_only():
+def test_a_pair_the_other_way_round_has_its_spring_and_others_have_theirs_in_series():
     chosen = stacked(["B2", "B1"])
     assert chosen.contacts == (Spring(3.6e4), Spring(1.6e4))
     assert chosen.gaps == (0.0,)
-
-
-def test_other_neighbours_have_their_springs_in_series():
     chosen = stacked(["B1", "B1", "tennis"])
     assert chosen.contacts[:2] == (Spring(5.4e4), Spring(2.7e4))
     assert chosen.contacts[2].stiffness == pytest.approx(1 / (1 / 5.4e4 + 1 / 2.25e4))

@@ -11,13 +11,7 @@ from pathlib import Path
 
 import pytest
 from lesson import lesson_markdown
-from page_build.lessons.lesson import (
-    LANGUAGES,
-    NAMES,
-    explorer_fragment,
-    read_lesson,
-    split_links,
-)
+from page_build.lessons.lesson import LANGUAGES, NAMES, explorer_fragment, read_lesson, split_links
 
 import stackbounce as sb
 from stackbounce.model.catalogue import catalogue_ball, stacked

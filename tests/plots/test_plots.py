@@ -183,10 +183,7 @@ def test_small_maps_fill_their_axes(shape, show):
         (plots.bounce, "must be a Result or a Prediction, got a Dataset: plots.lines, heatmap or"),
         (lambda _: plots.lines(DROP), r"got a Drop: plots.bounce\(simulate\(drop\)\) draws it"),
         (lambda _: plots.fit(sb.simulate(DROP)), "got a Result: plots.bounce draws it"),
-        (
-            lambda ds: plots.heatmap(ds, axes="left"),
-            "axes must be 1 Axes of matplotlib, got 0",
-        ),
+        (lambda ds: plots.heatmap(ds, axes="left"), "axes must be 1 Axes of matplotlib, got 0"),
     ],
 )
 def test_errors(draw, message):

@@ -234,13 +234,10 @@ def test_bad_input_is_one_clear_error(errors, message):
     assert "\n" not in str(caught.value)
 
 
-def test_a_curve_that_there_is_not_is_refused():
-    with pytest.raises(InvalidValue, match="'speed' is not a curve; known: position, velocity"):
-        sb.predict(ONE, {"height": (0.6, 0.01)}).band([0.0], "speed")
-
-
-def test_names_that_are_not_predicted_are_refused():
+def test_curves_and_names_that_are_not_predicted_are_refused():
     found = sb.predict(RIGID, {"impact_speed": (3.0, 0.03)})
+    with pytest.raises(InvalidValue, match="'speed' is not a curve; known: position, velocity"):
+        found.band([0.0], "speed")
     for ask in (found.__getitem__, found.quantiles, found.advice):
         with pytest.raises(InvalidValue, match=r"is not predicted; did you mean rebound_speeds\.0"):
             ask("rebound_speed.0")

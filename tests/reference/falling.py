@@ -14,6 +14,7 @@ from reference.common import DIGITS, TINY
 from reference.rigid import Collision, collide, restitution_of
 
 
+@mp.workdps(DIGITS)
 def fall(
     masses: Sequence[Any],
     restitutions: Sequence[Any],
@@ -23,26 +24,9 @@ def fall(
     until: Any,
 ) -> tuple[list[Collision], list[mpf], list[mpf]]:
     """Return the collisions up to a time, and heights and velocities then; no floor: e[0] None."""
-    with mp.workdps(DIGITS):
-        return _fall(
-            [mpf(m) for m in masses],
-            [e if e is None or callable(e) else mpf(e) for e in restitutions],
-            [mpf(gap) for gap in gaps],
-            [mpf(v) for v in velocities],
-            mpf(gravity),
-            mpf(until),
-        )
-
-
-def _fall(
-    masses: list[mpf],
-    restitutions: list[Any],
-    gaps: list[mpf],
-    velocities: list[mpf],
-    gravity: mpf,
-    until: mpf,
-) -> tuple[list[Collision], list[mpf], list[mpf]]:
-    v, q, now = list(velocities), [mpf(0)], mpf(0)
+    masses, gaps, v = ([mpf(x) for x in row] for row in (masses, gaps, velocities))
+    restitutions = [e if e is None or callable(e) else mpf(e) for e in restitutions]
+    gravity, until, q, now = mpf(gravity), mpf(until), [mpf(0)], mpf(0)
     for gap in gaps:
         q.append(q[-1] + gap)
     first = 1 if restitutions[0] is None else 0

@@ -41,6 +41,7 @@ class RigidOutcome:
         return [sum(c.contact == k for c in self.collisions) for k in range(len(self.velocities))]
 
 
+@mp.workdps(DIGITS)
 def run(
     masses: Sequence[Any],
     restitutions: Sequence[Any],
@@ -49,17 +50,6 @@ def run(
     limit: int = 100_000,
 ) -> RigidOutcome:
     """Collide until nothing approaches, at most `limit` times; no floor: first restitution None."""
-    with mp.workdps(DIGITS):
-        return _run(masses, restitutions, gaps, velocities, limit)
-
-
-def _run(
-    masses: Sequence[Any],
-    restitutions: Sequence[Any],
-    gaps: Sequence[Any],
-    velocities: Sequence[Any],
-    limit: int,
-) -> RigidOutcome:
     exact = isinstance(masses[0], Fraction)
     tiny = Fraction(0) if exact else TINY
     zero = masses[0] * 0

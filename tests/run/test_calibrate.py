@@ -150,7 +150,7 @@ def test_a_law_that_is_found_by_runs_keeps_its_other_numbers():
         sb.calibrate(sb.StandardLinearSolid, **given_, relaxation_time=1.0)
 
 
-def test_what_is_not_needed_is_passed_over():
+def test_what_is_not_needed_is_passed_over_and_exponents_have_defaults():
     assert sb.calibrate(sb.Rigid, **MEASURED) == sb.Rigid(0.75)
     assert sb.calibrate(sb.Rigid, restitution=0) == sb.Rigid(0.0)
     given_ = MEASURED | {"restitution": 1}
@@ -161,9 +161,6 @@ def test_what_is_not_needed_is_passed_over():
     assert sb.calibrate(sb.PowerLaw, **given_, exponent=1).stiffness == pytest.approx(
         0.0567 * (math.pi / 5e-3) ** 2, rel=1e-15
     )
-
-
-def test_exponents_by_default():
     assert sb.calibrate(sb.HuntCrossley, **MEASURED).exponent == 1.5
     assert sb.calibrate(sb.Hysteretic, **MEASURED).exponent == 1.0
     given_ = {"mass": 1.0, "contact_time": 1.0, "exponent": 1}

@@ -55,14 +55,8 @@ def test_a_stack_too_tall_to_run():
 @pytest.mark.parametrize(
     "times",
     [
-        0.5,
-        1,
-        np.float32(0.5),
-        (0.5, Fraction(1, 2)),
-        range(3),
-        [],
-        np.array([0, 1], dtype="u1"),
-        np.array([0.5, 1], dtype=object),
+        *(0.5, 1, np.float32(0.5), (0.5, Fraction(1, 2)), range(3), []),
+        *(np.array([0, 1], dtype="u1"), np.array([0.5, 1], dtype=object)),
         xr.DataArray([0.5, 1.0]),
     ],
 )
@@ -83,11 +77,7 @@ class Unreadable:
 @pytest.mark.parametrize(
     "times",
     [
-        [0.5, True],
-        np.array([True]),
-        b"1",
-        [1j],
-        [[1], [2, 3]],
+        *([0.5, True], np.array([True]), b"1", [1j], [[1], [2, 3]]),
         np.array([1, 2], dtype="m8[ns]"),
         np.ma.array([1.0, 2.0], mask=[False, True]),
         [np.ma.masked, 1.0],

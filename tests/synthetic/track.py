@@ -61,10 +61,7 @@ def track(
             values += sway * np.sin(2.0 * math.pi * (_SWAY_RATE * times + random.uniform()))
     high = along - 0.5 * np.ptp(along)
     shrunk = 1.0 - lens * (across**2 + high**2)
-    columns = {
-        "x": across * shrunk,
-        "y": (along + high * (shrunk - 1.0)) * (-1.0 if down else 1.0),
-    }
+    columns = {"x": across * shrunk, "y": (along + high * (shrunk - 1.0)) * (-1.0 if down else 1.0)}
     blank = random.uniform(size=heights.shape) < missing
     for name, values in columns.items():
         seen = values + noise * ar_noise(random, values.shape, correlation)

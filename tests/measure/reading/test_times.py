@@ -156,11 +156,7 @@ def test_steps_tell_the_unit_of_times(read, head, step, unit, factor):
 
 @pytest.mark.parametrize(
     ("head", "options"),
-    [
-        ("time (s),F (N)", {}),
-        ("Time(S),Force(N)", {}),
-        ("time,F (N)", {"units": {"time": "s"}}),
-    ],
+    [("time (s),F (N)", {}), ("Time(S),Force(N)", {}), ("time,F (N)", {"units": {"time": "s"}})],
 )
 def test_a_unit_that_is_told_is_not_doubted(read, head, options):
     data = read(head, range(0, 6000, 100), noise(60), **options)
