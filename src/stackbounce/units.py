@@ -64,10 +64,8 @@ _NAMED = {
 _NAMED |= {"%": (-2, (0, 0, 0, 0)), "1": (0, (0, 0, 0, 0))}
 _PIXEL = re.compile(r"px|pix|pixels?|dots?", re.IGNORECASE)  # pint takes these for lengths on paper
 _PREFIXES = {"k": 1e3, "": 1.0, "c": 1e-2, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
-_COMMON = {f"{p}{unit}": (size, unit) for p, size in _PREFIXES.items() for unit in "smNV"} | {
-    "m/s": (1.0, "m/s"),
-    "m/s^2": (1.0, "m/s^2"),
-}
+_COMMON = {f"{p}{unit}": (size, unit) for p, size in _PREFIXES.items() for unit in "smNV"}
+_COMMON |= {unit: (1.0, unit) for unit in ("m/s", "m/s^2")}
 
 
 @dataclass(frozen=True)

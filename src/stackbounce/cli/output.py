@@ -73,9 +73,7 @@ def check_file(
     check_own(path, overwrite, read)
 
 
-def draw_picture(
-    path: Path | None, overwrite: bool, kind: str, *given: Any, **options: Any
-) -> None:
+def draw_picture(path: Path | None, overwrite: bool, kind: str, *what: Any, **options: Any) -> None:
     """Write a picture of `stackbounce.plots` into a file, if one is asked for.
 
     The suffix of the file names its format.
@@ -84,7 +82,7 @@ def draw_picture(
         from stackbounce import plots
         from stackbounce.plots.style import render
 
-        draw = functools.partial(getattr(plots, kind), *given, **options)
+        draw = functools.partial(getattr(plots, kind), *what, **options)
         write_file(path, render(draw, path.suffix.lower().removeprefix(".")), overwrite)
 
 

@@ -39,16 +39,11 @@ def read_drop(value: object) -> Drop:
     return Drop.from_mapping(value)  # type: ignore[arg-type]
 
 
+_SPRING = {"law": "Spring", "stiffness": "22.5 kN/m"}
 _DROP = {
     "type": "object",
     "description": "A drop, with the keys and units of a scenario file; see `stackbounce.Drop`.",
-    "examples": [
-        {
-            "balls": [{"mass": "57 g"}],
-            "contacts": [{"law": "Spring", "stiffness": "22.5 kN/m"}],
-            "height": "1 m",
-        }
-    ],
+    "examples": [{"balls": [{"mass": "57 g"}], "contacts": [_SPRING], "height": "1 m"}],
 }
 
 Scenario = Annotated[Drop, PlainValidator(read_drop), WithJsonSchema(_DROP)]

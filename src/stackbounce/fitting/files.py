@@ -4,7 +4,7 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from stackbounce.errors import (
     InvalidValue,
@@ -30,6 +30,8 @@ _INCIDENCE = ("impact_speed", "height", "velocities")
 _RANGE = ("low", "high", "prior")
 _RECORD = ("file", "start", "end", "error")
 _READING = ("holds", "table", "run", "names", "units", "decimal")
+Asked: TypeAlias = tuple[dict[str, Drop], dict[str, dict[str, Any]]]
+"""Drops by their names, and what was measured of each."""
 
 
 class Parts(NamedTuple):
@@ -166,9 +168,7 @@ def _parts(mapping: Mapping[str, Any], folder: Path) -> Parts:
     return Parts(drops, data, _vary(mapping.get("vary", {})), tie)
 
 
-def _several(
-    given: object, rest: Mapping[str, Any], folder: Path
-) -> tuple[dict[str, Drop], dict[str, dict[str, Any]]]:
+def _several(given: object, rest: Mapping[str, Any], folder: Path) -> Asked:
     if not isinstance(given, list) or not given:
         raise InvalidValue(f"drops must be tables, each under [[drops]], got {shown(given)}")
     drops: dict[str, Drop] = {}

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from stackbounce.errors import InvalidValue, nearest, placed, shown
-from stackbounce.fitting.files import check_name, read_force_record
+from stackbounce.fitting.files import Asked, check_name, read_force_record
 from stackbounce.fitting.quantities import find_quantity, read_with_error
 from stackbounce.fitting.rows import Row, decimal_comma, rows_of
 from stackbounce.measure.quantities import without_error
@@ -44,9 +44,7 @@ class _Cell(NamedTuple):
     where: str
 
 
-def read_drops(
-    drop: Drop, path: str | os.PathLike[str]
-) -> tuple[dict[str, Drop], dict[str, dict[str, Any]]]:
+def read_drops(drop: Drop, path: str | os.PathLike[str]) -> Asked:
     """Return the drops of a table, and what was measured of each, for `stackbounce.fit`.
 
     Parameters
@@ -91,9 +89,7 @@ def read_drops(
         return _drops(drop, rows, Path(name).parent)
 
 
-def _drops(
-    drop: Drop, rows: Sequence[Row], folder: Path
-) -> tuple[dict[str, Drop], dict[str, dict[str, Any]]]:
+def _drops(drop: Drop, rows: Sequence[Row], folder: Path) -> Asked:
     if not rows:
         raise InvalidValue("it has no heading")
     (_, first), *rows = rows

@@ -21,6 +21,7 @@ LARGEST = 1e100
 """The largest error in SI units, so that its square is a number, too."""
 
 Array: TypeAlias = NDArray[np.float64]
+Pair: TypeAlias = tuple[Array, Array]
 Mask: TypeAlias = NDArray[np.bool_]
 Samples: TypeAlias = NDArray[np.float32]
 

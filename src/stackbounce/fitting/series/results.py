@@ -201,11 +201,8 @@ def write(done: SeriesFit, out: Path) -> None:
         found.series.name: render(partial(restitutions, replace(done, comparisons=(found,))), "svg")
         for found in done.comparisons
     }
-    pictures = {
-        f"figures/{_NO_WORD.sub('_', name)}.svg": picture for name, picture in figures.items()
-    }
-    prepare_folder(out, [*_NAMES, *pictures])
-    files = dict(pictures)
+    files = {f"figures/{_NO_WORD.sub('_', name)}.svg": svg for name, svg in figures.items()}
+    prepare_folder(out, [*_NAMES, *files])
     files["laws.csv"] = _csv(done).encode()
     files["laws.json"] = (json.dumps(done.as_dict(), indent=1) + "\n").encode()
     files["index.html"] = _page(done, figures).encode()

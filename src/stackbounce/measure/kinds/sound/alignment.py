@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stackbounce.measure.quantities import Array, Mask, Samples
+from stackbounce.measure.quantities import Array, Mask, Pair, Samples
 
 # Set by hand on the synthetic recordings of `benchmarks/coverage/sound.py`, so that the error bars
 # hold the truth as often as they claim; `tests/measure/test_coverage_measure.py` guards it.
@@ -121,9 +121,7 @@ def _edges(rate: float) -> Array:
     return np.geomspace(low, top, max(2, round(math.log2(top / low))) + 1)
 
 
-def _windows(
-    values: Samples, rate: float, about: Array, before: int, after: int
-) -> tuple[Array, Array]:
+def _windows(values: Samples, rate: float, about: Array, before: int, after: int) -> Pair:
     """Return samples around each time without their mean, and by how much a time is later."""
     nearest = np.round(about * rate).astype(np.int64)
     wanted = nearest[:, None] + np.arange(-before, after)
@@ -174,7 +172,7 @@ class _Comparison(NamedTuple):
 
 def aligned(
     values: Samples, rate: float, about: Array, least: float = 0.0, faint: float = 0.0
-) -> tuple[Array, Array]:
+) -> Pair:
     """Return the times of the knocks of one ball, consistent with each other, and their errors.
 
     Each knock is shifted until the logarithms of its power in bands of an octave agree best with
@@ -324,7 +322,7 @@ def _best(
     return np.asarray((now + at - most + np.clip(between, -1.0, 1.0)) * bands.step)
 
 
-def _by_band(compared: _Comparison) -> tuple[Array, Array]:
+def _by_band(compared: _Comparison) -> Pair:
     """Return by how much each band would shift each knock, and the variance of that, (K, B)."""
     weights, slopes = compared.weights, compared.slopes
     information = (weights * slopes**2).sum(axis=2)
@@ -336,7 +334,7 @@ def _by_band(compared: _Comparison) -> tuple[Array, Array]:
     return shifts, np.maximum(spread / information**2, 1e-14)
 
 
-def _averaged(shifts: Array, variances: Array) -> tuple[Array, Array]:
+def _averaged(shifts: Array, variances: Array) -> Pair:
     """Return the mean over the bands, and its error from how well the bands agree.
 
     The variance of each band is scaled to the scatter of the bands about the mean, over all knocks,
@@ -357,7 +355,7 @@ def _averaged(shifts: Array, variances: Array) -> tuple[Array, Array]:
     return mean, np.sqrt(factor / (1.0 / (variances * scale)).sum(axis=1))
 
 
-def _shares(shifts: Array, variances: Array) -> tuple[Array, Array]:
+def _shares(shifts: Array, variances: Array) -> Pair:
     """Return the weight of each band, of 1 together, and the weighted mean."""
     weights = 1.0 / variances
     share = weights / weights.sum(axis=1, keepdims=True)

@@ -13,7 +13,7 @@ from stackbounce.measure.kinds.sound.onset import onsets
 from stackbounce.measure.kinds.sound.plausibility import reason_against, tails
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
 from stackbounce.measure.messages import Message, OptionHint
-from stackbounce.measure.quantities import Array, Samples
+from stackbounce.measure.quantities import Array, Pair, Samples
 from stackbounce.measure.samples import columns, resolution, runs
 from stackbounce.measure.statistics.ar_noise import whitened
 
@@ -147,22 +147,20 @@ class _Recording(NamedTuple):
     rate: float
     rounded: float
 
-    def onsets(self, about: Array, faint: float = 0.0) -> tuple[Array, Array]:
+    def onsets(self, about: Array, faint: float = 0.0) -> Pair:
         """Return the onset of each knock; of a record of amplitudes where it is known about."""
         if self.samples.min() >= 0.0:
             return about, np.full(len(about), 1.0 / self.rate)
         return onsets(self.white, self.rate, about, self.rounded, faint)
 
-    def aligned(self, about: Array, faint: float = 0.0) -> tuple[Array, Array]:
+    def aligned(self, about: Array, faint: float = 0.0) -> Pair:
         """Return times that are consistent with each other, as late on average as the onsets."""
         first, _ = self.onsets(about, faint)
         times, errors = aligned(self.samples, self.rate, first, self.rounded, faint)
         return times + np.median(first - times), errors
 
 
-def _consistent(
-    heard: _Recording, about: Array, missed: tuple[int, ...], notes: list[str]
-) -> tuple[Array, Array]:
+def _consistent(heard: _Recording, about: Array, missed: tuple[int, ...], notes: list[str]) -> Pair:
     """Return the times of a series of bounces and their errors.
 
     A codec (MP3, AAC, Opus) puts a faint echo before a knock. Times that do not look at what is so

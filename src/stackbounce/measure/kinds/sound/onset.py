@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stackbounce.measure.quantities import Array, Samples
+from stackbounce.measure.quantities import Array, Pair, Samples
 
 # Set by hand on the synthetic recordings of `benchmarks/coverage/sound.py`, as in `alignment.py`.
 _RISE_TIMES = (0.0, 0.05e-3, 0.1e-3, 0.2e-3, 0.5e-3, 1e-3)  # s in which a knock may rise
@@ -30,9 +30,7 @@ class _Knock(NamedTuple):
     color: Array
 
 
-def onsets(
-    white: Samples, rate: float, about: Array, rounded: float, faint: float = 0.0
-) -> tuple[Array, Array]:
+def onsets(white: Samples, rate: float, about: Array, rounded: float, faint: float = 0.0) -> Pair:
     """Return the onsets of the knocks of one ball, and their errors.
 
     A knock is modelled as autocorrelated Gaussian noise that rises like ``1 - exp(-t/a)`` out of
@@ -133,7 +131,7 @@ def _part(values: Samples, start: int, stop: int, thin: int) -> Array:
     return np.asarray(np.pad(inside, (before, after)).reshape(-1, thin).mean(axis=1))
 
 
-def _improved(knocks: list[_Knock], rate: float) -> tuple[Array, Array]:
+def _improved(knocks: list[_Knock], rate: float) -> Pair:
     """Return the posterior mean of each onset and its error, in s, with one common rise time."""
     common = np.mean([knock.color for knock in knocks], axis=0)
     logs = np.array([_logs(knock, 0.5 * (knock.color + common), rate) for knock in knocks])

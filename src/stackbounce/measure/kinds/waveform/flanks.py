@@ -14,7 +14,7 @@ import numpy as np
 from stackbounce.measure.kinds.waveform.intervals import smoothed
 from stackbounce.measure.kinds.waveform.peaks import Peak
 from stackbounce.measure.kinds.waveform.shapes import Shape
-from stackbounce.measure.quantities import Array, Number, known_to
+from stackbounce.measure.quantities import Array, Number, Pair, known_to
 
 _STARTS = 21  # of the force, on the grid
 _ZOOMS = 7  # of the grid
@@ -199,9 +199,7 @@ def _fit(points: _Points, shape: Shape) -> Flank:
     return Flank(start, exponent, *_curve(points, shape, *best), misfit)
 
 
-def _closer(
-    starts: Array, logs: Array, score: Array, end: float, *, finer: bool
-) -> tuple[Array, Array]:
+def _closer(starts: Array, logs: Array, score: Array, end: float, *, finer: bool) -> Pair:
     """Return a finer grid around the posterior on a coarse one.
 
     Start and exponent are correlated: the larger the exponent, the earlier the start. At low noise
@@ -273,9 +271,7 @@ def _scan(
     return score, chi, (float(starts[i, j]), float(unknown[i]), scaled)
 
 
-def _curve(
-    points: _Points, shape: Shape, start: float, unknown: float, scaled: Array
-) -> tuple[Array, Array]:
+def _curve(points: _Points, shape: Shape, start: float, unknown: float, scaled: Array) -> Pair:
     """Return the best curve, from the touch on."""
     times = np.linspace(start, points.times[-1], 60)
     u = (times - start) / points.unit
