@@ -1,4 +1,7 @@
-"""Limits on what is read: no file too large, no table too wide, no file of another kind."""
+"""Limits on what is read: no file too large, no table too wide, none broken or of another kind."""
+
+import contextlib
+from collections.abc import Iterator
 
 from stackbounce.errors import FileError
 from stackbounce.files import shipped_table
@@ -14,6 +17,26 @@ COLUMNS = 1000
 
 LINE = 2**20
 """Characters in a line, at most."""
+
+
+@contextlib.contextmanager
+def refusing(kinds: tuple[type[Exception], ...], words: str) -> Iterator[None]:
+    """Raise `FileError` with some words for errors of a reader; ``{}`` is what the error says.
+
+    Examples
+    --------
+    >>> with refusing((ValueError,), "it is broken ({})"):
+    ...     float("one")
+    Traceback (most recent call last):
+        ...
+    stackbounce.errors.FileError: it is broken (could not convert string to float: 'one')
+    """
+    try:
+        yield
+    except FileError:
+        raise
+    except kinds as error:
+        raise FileError(words.format(" ".join(str(error).split())[:200])) from error
 
 
 def refuse_others(content: bytearray) -> None:

@@ -22,7 +22,7 @@ import numpy as np
 from stackbounce.errors import FileError, nearest, shown
 from stackbounce.extras import need
 from stackbounce.measure.messages import about_option
-from stackbounce.measure.reading.limits import BYTES, CELLS, COLUMNS
+from stackbounce.measure.reading.limits import BYTES, CELLS, COLUMNS, refusing
 from stackbounce.measure.reading.text import decode
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ _MEMBERS = 1000  # of an archive, at most
 _RATIO = 400  # of bytes to packed bytes; numbers as text come to about 10
 _BROKEN = (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, RuntimeError)
 _NO_ARRAY = (ValueError, TypeError, LookupError, SyntaxError, EOFError, RecursionError, TokenError)
+_NO_XML = (ParseError, ValueError, RecursionError)
 _ENDINGS = (".csv", ".tsv", ".txt", ".dat", ".lvm", ".npy", ".trk")
 _BOOK_CELLS = 2**19  # cells of a spreadsheet, at most: some seconds
 _BOOK_BYTES = 2**26  # bytes of its parts, unpacked, at most
@@ -120,14 +121,9 @@ def from_zip(content: bytearray) -> Tables:
     """
     if content.count(b"PK\x01\x02") > _MEMBERS:
         raise FileError(f"it is a zip archive of more than {_MEMBERS} files")
-    try:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            return _tables(archive)
-    except FileError:
-        raise
-    except _BROKEN as error:
-        why = " ".join(str(error).split())
-        raise FileError(f"it is a zip archive that cannot be unpacked: {why}") from error
+    words = "it is a zip archive that cannot be unpacked: {}"
+    with refusing(_BROKEN, words), zipfile.ZipFile(io.BytesIO(content)) as archive:
+        return _tables(archive)
 
 
 def _tables(archive: zipfile.ZipFile) -> Tables:
@@ -191,13 +187,10 @@ def _array(content: bytes | bytearray) -> "pd.DataFrame":
     """Return the numbers of an array: its columns, or the fields of its records."""
     import pandas as pd
 
-    try:
+    with refusing((*_NO_ARRAY, MemoryError), "it is a NumPy array that cannot be read ({})"):
         array = np.load(io.BytesIO(content), allow_pickle=False)
         lying = array.ndim == 2 and array.shape[1] > COLUMNS >= array.shape[0]
         frame = pd.DataFrame(array.T if lying else array)
-    except (*_NO_ARRAY, MemoryError) as error:
-        why = " ".join(str(error).split())[:200]
-        raise FileError(f"it is a NumPy array that cannot be read ({why})") from error
     if not 0 < frame.size <= CELLS or any(kind.kind not in "biuf" for kind in frame.dtypes):
         what = f"{array.dtype} and shape {array.shape}"
         raise FileError(f"it is a NumPy array of {what}: save one with rows of plain numbers")
@@ -308,20 +301,14 @@ def from_project(content: bytearray) -> Tables | None:
 
 
 def _tree(content: bytearray, program: str) -> Element:
+    its, instead = f"it is a file of {program}", "export its table as text"
     if len(content) > _XML:
-        raise FileError(
-            f"it is a file of {program} larger than {_XML >> 20} MiB: export its table as text"
-        )
+        raise FileError(f"{its} larger than {_XML >> 20} MiB: {instead}")
     text = decode(content)
     if "<!DOCTYPE" in text:
-        raise FileError(f"it is a file of {program} with a document type, which none has")
-    try:
+        raise FileError(f"{its} with a document type, which none has")
+    with refusing(_NO_XML, f"{its} that cannot be read ({{}}): {instead}"):
         return fromstring(text)
-    except (ParseError, ValueError, RecursionError) as error:
-        why = " ".join(str(error).split())[:200]
-        raise FileError(
-            f"it is a file of {program} that cannot be read ({why}): export its table as text"
-        ) from error
 
 
 def _tracker(tree: Element) -> Tables:

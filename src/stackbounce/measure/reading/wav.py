@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 from stackbounce.errors import FileError
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.dataset import dataset_of
-from stackbounce.measure.reading.limits import CELLS
+from stackbounce.measure.reading.limits import CELLS, refusing
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _CHUNKS = 10_000  # that are looked at
+_UNDECODED = (ValueError, TypeError, ArithmeticError, struct.error)
 _STREAMED = (0, 0xFFFFFFFF)  # sizes that recorders write before they know the end
 
 
@@ -94,15 +95,12 @@ def _decoded(form: bytearray, samples: memoryview, frames: int) -> NDArray[Any]:
     from scipy.io import wavfile
 
     rate, _, frame = struct.unpack_from("<IIH", form, 4)
-    try:
+    with refusing(_UNDECODED, "it is a WAV sound that cannot be read, save it as PCM: {}"):
         struct.pack_into("<I", form, 8, rate * frame)  # which some recorders get wrong
         head = b"RIFF" + struct.pack("<I", 20 + len(form) + len(samples)) + b"WAVEfmt "
         head += struct.pack("<I", len(form)) + form + b"data" + struct.pack("<I", len(samples))
         _, decoded = wavfile.read(io.BytesIO(b"".join([head, samples])))
         return np.asarray(decoded).reshape(frames, -1)
-    except (ValueError, TypeError, ArithmeticError, struct.error) as error:
-        why = " ".join(str(error).split())
-        raise FileError(f"it is a WAV sound that cannot be read, save it as PCM: {why}") from error
 
 
 def _folded(samples: NDArray[Any]) -> Array:
