@@ -13,7 +13,7 @@ from rich.console import Console
 
 from benchmarks.random_drops import random
 from stackbounce.engine import codes, native
-from stackbounce.engine.memory import spring_workspace
+from stackbounce.engine.memory import lane_workspace
 from stackbounce.engine.records import Drops
 from stackbounce.engine.tables import Table
 from stackbounce.run.batch import new_outcomes
@@ -37,7 +37,7 @@ def job(count: int, seed: int = 1) -> tuple[Callable[[], None], Any]:
     )
     out = new_outcomes(count, 2)
     solve = native.compiled("run_two_springs")
-    given = Table(drops), _LIMIT, Table(out), Table(spring_workspace(compiled=True))
+    given = Table(drops), _LIMIT, Table(out), Table(lane_workspace(compiled=True))
 
     def call() -> None:
         solve(*given)

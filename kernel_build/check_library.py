@@ -24,7 +24,7 @@ import numpy as np
 from fuzz import draw
 from kernel_build.targets import TARGETS
 from stackbounce.engine import codes, native
-from stackbounce.engine.memory import FINITE, RIGID, memory, spring_workspace
+from stackbounce.engine.memory import FINITE, RIGID, lane_workspace, memory
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.work import WORK_LIMIT
 from stackbounce.run.batch import new_outcomes
@@ -111,7 +111,7 @@ def springs_image(count: int) -> Image:
     numbers = Drops(mass, kind, stiffness, one, 0.0 * one, 0.0 * one, gap, -one, np.zeros(count))
     image = Image()
     drops, out = image.record(numbers), image.record(_outcomes(count, 2))
-    space = image.record(spring_workspace(compiled=True))
+    space = image.record(lane_workspace(compiled=True))
     image.call("run_two_springs", drops, _LIMIT, out, space)
     return image
 

@@ -10,7 +10,7 @@ The rows and columns of an array are sums of products of sizes: ``{"": 3, "balls
 - ``balls``: the height of a stack,
 - ``drops``: the rows of `Drops` and `Outcomes`,
 - ``times``: the times of samples, or pushes,
-- ``scratch``: the numbers that `run_two_springs` needs in ``Workspace.floats``. For other entries
+- ``scratch``: the numbers that an engine in lanes needs in ``Workspace.floats``. For other entries
   ``floats`` and ``integers`` of the workspace are all floats and all integers of the stack, which
   lie one array after the other in the order of the record.
 """
@@ -18,7 +18,7 @@ The rows and columns of an array are sums of products of sizes: ``{"": 3, "balls
 from collections.abc import Callable, Sequence
 from typing import Any, get_type_hints
 
-from stackbounce.engine import codes, records, sideways, slots, two_springs
+from stackbounce.engine import codes, records, sideways, slots
 from stackbounce.engine.codes import LOG_COLUMNS
 from stackbounce.engine.entries import ENTRIES, arguments
 from stackbounce.engine.kernels import FloatTable, IntegerColumn, Integers, IntegerTable
@@ -60,7 +60,7 @@ def layout() -> dict[str, Any]:
             "Drops": _rows_of_drops(Drops),
             "Outcomes": _rows_of_drops(Outcomes),
         },
-        "sizes": {"scratch": two_springs.SCRATCH, "log_columns": LOG_COLUMNS},
+        "sizes": {"scratch": records.SCRATCH, "log_columns": LOG_COLUMNS},
         "pushes": {
             name: getattr(sideways, name) for name in ("LEVELS", "FEW", "MANY", "ENOUGH", "WRONG")
         },

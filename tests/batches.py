@@ -3,7 +3,7 @@
 import numpy as np
 
 from stackbounce.engine import native
-from stackbounce.engine.memory import memory, spring_workspace
+from stackbounce.engine.memory import lane_workspace, memory
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
 from stackbounce.run.batch import new_outcomes
@@ -29,10 +29,10 @@ def swept(engine, drops, options):
     return out
 
 
-def on_two_springs(drops, event_limit):
-    """Return the outcomes of two balls on springs by their own kernel."""
-    out, space = _room(drops), Table(spring_workspace(compiled=True))
-    native.compiled("run_two_springs")(Table(drops), event_limit, Table(out), space)
+def in_lanes(entry, drops, limit):
+    """Return the outcomes of two balls by an engine in lanes."""
+    out, space = _room(drops), Table(lane_workspace(compiled=True))
+    native.compiled(entry)(Table(drops), limit, Table(out), space)
     return out
 
 

@@ -9,12 +9,12 @@ import pytest
 from benchmarks import random_drops
 
 import stackbounce as sb
-from batches import bits, numbers_of, on_two_springs, swept
+from batches import bits, in_lanes, numbers_of, swept
 from fuzz.draw import balls_of, drops_of, is_rigid
 from fuzz.replay import drop_of, options_of
 from reference import precise
 from stackbounce.engine import codes, native
-from stackbounce.engine.memory import FINITE, RIGID, spring_workspace
+from stackbounce.engine.memory import FINITE, RIGID, lane_workspace
 from stackbounce.engine.records import Drops
 from stackbounce.engine.two_springs import run_two_springs
 from stackbounce.run.batch import new_outcomes
@@ -42,9 +42,9 @@ def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
     if plain:
         out = new_outcomes(n, 2)
         with np.errstate(all="ignore"):
-            run_two_springs(drops, event_limit, out, spring_workspace(compiled=False))
+            run_two_springs(drops, event_limit, out, lane_workspace(compiled=False))
     else:
-        out = on_two_springs(drops, event_limit)
+        out = in_lanes("run_two_springs", drops, event_limit)
     found = {name: getattr(out, name) for name in NAMES}
     ratio = out.velocity / np.asarray(speed)[:, None]
     found["energy"] = (mass * ratio**2).sum(axis=1) / np.sum(mass, axis=1)
@@ -297,7 +297,7 @@ def springs():
     """Return the bits of the outcomes of ten thousand drops of two balls on springs."""
     drops = numbers_of(drops_of(SEED, 0, 10_000))
     drops = drops._replace(velocity=np.repeat(-np.abs(drops.velocity[:, :1]), 2, axis=1))
-    out = on_two_springs(drops, 10_000)
+    out = in_lanes("run_two_springs", drops, 10_000)
     done = out.status == sb.Status.FINISHED
     assert done.any()
     return [bits(array[done]) for array in out] + [bits(out.status)]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
-from batches import bits, numbers_of, on_two_springs, swept
+from batches import bits, in_lanes, numbers_of, swept
 from fuzz import draw
 from fuzz.replay import drop_of, options_of
 from stackbounce.engine import codes, native
@@ -46,7 +46,7 @@ def simulated(drop, options, times=()):
 
 def swept_springs(drops, options):
     """Return the outcomes of two balls on springs, some of them by the general engine."""
-    out = on_two_springs(drops, options.event_limit)
+    out = in_lanes("run_two_springs", drops, options.event_limit)
     asked = np.flatnonzero(out.status == codes.ASK)
     answers = swept(FINITE, Drops._make(array[asked] for array in drops), options)
     for array, answer in zip(out, answers, strict=True):
@@ -111,7 +111,7 @@ def test_two_springs(tmp_path, count):
     compare([job(SPRINGS, drops, False, options)], list(map(np.ravel, out)), tmp_path)
     assert (out.status == codes.FINISHED).any()
     if count > 1:
-        asked = on_two_springs(drops, options.event_limit).status == codes.ASK
+        asked = in_lanes("run_two_springs", drops, options.event_limit).status == codes.ASK
         assert 0 < asked.sum() < count // 2
 
 

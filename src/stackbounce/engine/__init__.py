@@ -33,6 +33,8 @@ log           the rows of the log of events
 work          what a run costs, by which it is limited
 batch         one drop, or many one after the other, in the arrays of one stack
 two_springs   two balls on springs without gravity: many drops, fast
+pairs         two balls on other contacts without gravity: many drops, fast
+pair_step     one step of many such drops at the same time
 sideways      how offsets of balls grow that do not stand exactly above each other
 lockstep      one step of many drops of two balls on springs at the same time
 elementary    exponential, logarithm, power, sine and cosine, the same bits on every system

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from stackbounce.engine import codes, native
-from stackbounce.engine.records import AFTER, CONTINUE, END, UNIT, Drops, Outcomes, Workspace
+from stackbounce.engine.records import AFTER, CONTINUE, END, SCRATCH, UNIT, Drops, Outcomes, Workspace
 from stackbounce.engine.slots import LAST_EVENT, LOG_ROWS
 from stackbounce.engine.stack import (
     MOST_PIECES,
@@ -37,6 +37,7 @@ kernel is a programming error and is not caught.
 """
 
 _ROWS = 512  # of the log, besides one for each ball
+_LINE = 8  # numbers in a cache line
 _MOST = 16  # stacks of different height that a thread keeps
 _local = threading.local()
 
@@ -159,12 +160,17 @@ def memory(engine: Engine, balls: int, compiled: bool) -> Memory:
     return known
 
 
-def spring_workspace(compiled: bool) -> Workspace:
-    """Return scratch space for the engine for two springs."""
-    from stackbounce.engine.two_springs import SCRATCH, new_scratch
+def lane_workspace(compiled: bool) -> Workspace:
+    """Return scratch space for the engines in lanes.
 
-    space = Workspace([0.0] * SCRATCH, [], [], [])
-    return _arrays(space)._replace(floats=new_scratch()) if compiled else space
+    It begins at a cache line: loading a vector that spans two lines takes longer. Plain Python
+    needs an array, too: dividing numbers of numpy by 0 raises nothing.
+    """
+    room: Any = np.zeros(SCRATCH + _LINE)
+    start = -(room.ctypes.data // room.itemsize) % _LINE
+    floats = room[start : start + SCRATCH]
+    space = Workspace([], [], [], [])
+    return (_arrays(space) if compiled else space)._replace(floats=floats)
 
 
 def _new_memory(engine: Engine, balls: int, compiled: bool) -> Memory:

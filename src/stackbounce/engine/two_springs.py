@@ -5,7 +5,6 @@ drop near the limits of accuracy is left to the general engine, with the status 
 """
 
 import math
-from typing import Any
 
 from stackbounce.engine import lockstep as lane
 from stackbounce.engine.codes import ASK, EVENT_LIMIT, FINISHED, INVALID
@@ -18,24 +17,11 @@ from stackbounce.engine.records import Drops, Outcomes, Workspace
 NEXT = lane.SLOTS * LANES
 GIVEN = NEXT + lane.OWN * LANES
 MASS1, MASS2, STIFFNESS1, STIFFNESS2, GAP, SPEED = (GIVEN + k * LANES for k in range(6))
-SCRATCH = GIVEN + 6 * LANES
+SLOTS = GIVEN + 6 * LANES
 
-_LINE = 8  # numbers in a cache line
 _RATIO = 256.0  # largest ratio of masses and of stiffnesses; its inverse is the smallest
 _GAP = 1e3  # largest gap in v0/omega
 _OMEGA = 1e100  # largest frequency in 1/s; its inverse is the smallest
-
-
-def new_scratch() -> Any:
-    """Return scratch space for `run_two_springs`, an array.
-
-    It begins at a cache line: loading a vector that spans two lines takes longer.
-    """
-    import numpy as np
-
-    room = np.zeros(SCRATCH + _LINE)
-    start = -(room.ctypes.data // room.itemsize) % _LINE
-    return room[start : start + SCRATCH]
 
 
 @kernel
@@ -53,7 +39,7 @@ def run_two_springs(drops: Drops, event_limit: int, out: Outcomes, space: Worksp
         EVENT_LIMIT; INVALID for input that is out of range; or ASK where the general engine must
         solve the drop. The other results of such a drop are meaningless.
     space : Workspace
-        Its ``floats`` are scratch space of the size SCRATCH, from `new_scratch`.
+        Its ``floats`` are scratch space, of the size `records.SCRATCH`.
     """
     x = space.floats
     rows = len(out.status)

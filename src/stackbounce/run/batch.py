@@ -25,17 +25,17 @@ from stackbounce.engine.memory import (
     OUT_OF_RANGE,
     Engine,
     kernel_named,
+    lane_workspace,
     memory,
-    spring_workspace,
 )
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
 from stackbounce.model import Drop
 from stackbounce.run.engines import (
-    TWO_SPRINGS_EVENTS,
+    LANE_EVENTS,
     choose_compiled,
     choose_engine,
-    suits_two_springs,
+    choose_lanes,
 )
 from stackbounce.run.options import Options, check_room
 from stackbounce.run.paths import Rows, base_rows, drop_pieces, fill
@@ -126,8 +126,9 @@ def solve(
     count, balls = math.prod(shape), len(drop.balls)
     chosen = choose_compiled(compiled)
     run: _Runner = functools.partial(_run_rows, choose_engine(drop), drop_pieces(drop))
-    if suits_two_springs(drop, rows, options):
-        run = _run_two_springs
+    lanes = choose_lanes(drop, rows, options)
+    if lanes:
+        run = functools.partial(_run_lanes, lanes)
     wide = {number: np.broadcast_to(values, shape) for number, values in rows.items()}
     threads = os.cpu_count() or 1
     most = min(max(count // (_EACH * threads), _BLOCKS.start), _BLOCKS.stop)
@@ -182,16 +183,17 @@ def new_outcomes(count: int, balls: int) -> Outcomes:
     )
 
 
-def _run_two_springs(
-    drops: Drops, out: Outcomes, options: Options, compiled: bool, pause: _Pause
+def _run_lanes(
+    lanes: str, drops: Drops, out: Outcomes, options: Options, compiled: bool, pause: _Pause
 ) -> None:
-    """Run drops by the engine for two springs, and those with the status ASK by the general one."""
-    space, run = spring_workspace(compiled), kernel_named("run_two_springs", compiled)
+    """Run drops by an engine in lanes, and those with the status ASK by the general one."""
+    space, run = lane_workspace(compiled), kernel_named(lanes, compiled)
+    limit = options.rtol if lanes == "run_pairs" else LANE_EVENTS
     if compiled:
-        run(Table(drops), TWO_SPRINGS_EVENTS, Table(out), Table(space))
+        run(Table(drops), limit, Table(out), Table(space))
     else:
         with np.errstate(all="ignore"):
-            run(drops, TWO_SPRINGS_EVENTS, out, space)
+            run(drops, limit, out, space)
     asked = np.flatnonzero(out.status == codes.ASK)
     if len(asked):
         some = Drops._make(array[asked] for array in drops)

@@ -5,9 +5,11 @@ engine        solves
 ============= ==========================================================================
 `RIGID`       sequences of instantaneous collisions (eqs 1 to 4)
 `FINITE`      simultaneous contacts of finite duration (eqs 5, 6 and section V)
-two springs   batches of two balls on springs, many at a time (`engine.two_springs`); drops
-              near the limits of its accuracy are passed on to `FINITE`
+two springs   batches of two balls on springs, many at a time (`engine.two_springs`)
+pairs         batches of two balls under other laws, many at a time (`engine.pairs`)
 ============= ==========================================================================
+
+The last two pass drops on to `FINITE` that are near the limits of their accuracy.
 
 Compiled code is used wherever there is some for this machine (`engine.native`). Plain Python gives
 the same bits, about a hundred times slower.
@@ -18,7 +20,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from stackbounce.engine import native
-from stackbounce.engine.codes import POWER
+from stackbounce.engine.codes import DASHPOT, HUNT_CROSSLEY, POWER, VISCOELASTIC
 from stackbounce.engine.memory import FINITE, RIGID, Engine
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.model import Drop
@@ -28,8 +30,10 @@ from stackbounce.run.options import Options
 if TYPE_CHECKING:
     from stackbounce.run.paths import Number
 
-TWO_SPRINGS_EVENTS = 10_000
-"""An event limit that two springs never reach where their own engine gives an answer."""
+LANE_EVENTS = 10_000
+"""An event limit that no drop reaches to which an engine in lanes gives an answer."""
+_PAIRS = {POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY}  # forms of force
+_PAIRS_RTOL = 1e-13  # the least tolerance: round-off accumulates over some 100 steps
 
 
 def choose_compiled(compiled: bool | None) -> bool:
@@ -61,15 +65,19 @@ def choose_engine(drop: Drop) -> Engine:
     return RIGID if drop.rigid else FINITE
 
 
-def suits_two_springs(drop: Drop, numbers: "Iterable[Number]", options: Options) -> bool:
-    """Return whether the engine for two springs can solve a batch of drops.
+def choose_lanes(drop: Drop, numbers: "Iterable[Number]", options: Options) -> str | None:
+    """Return the kernel of the engine in lanes that can solve a batch of drops, if there is one.
 
     ``numbers`` are the parameters that differ between the drops. Their values are not considered,
     because the result of a drop must not depend on the other drops of the batch.
     """
-    linear = all(contact_numbers(law)[0:3:2] == (POWER, 1.0) for law in drop.contacts)
+    contacts = [contact_numbers(law)[0:3:2] for law in drop.contacts]
     together = len(set(drop.start_velocities)) == 1 and drop.start_velocities[0] < 0.0
-    free = any(n.part == "velocities" or n.field in ("exponent", "gravity") for n in numbers)
-    whole = options.until == math.inf and options.event_limit >= TWO_SPRINGS_EVENTS
-    two = len(drop.balls) == 2 and drop.gravity == 0.0
-    return two and linear and together and whole and not free
+    free = any(n.part == "velocities" or n.field == "gravity" for n in numbers)
+    whole = options.until == math.inf and options.event_limit >= LANE_EVENTS
+    if len(contacts) != 2 or drop.gravity != 0.0 or free or not (together and whole):
+        return None
+    if set(contacts) == {(POWER, 1.0)} and all(n.field != "exponent" for n in numbers):
+        return "run_two_springs"
+    known = all(form in _PAIRS for form, _ in contacts) and options.rtol >= _PAIRS_RTOL
+    return "run_pairs" if known else None

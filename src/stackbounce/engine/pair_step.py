@@ -1,0 +1,348 @@
+"""One step of many drops of two balls on nonlinear contacts at the same time, in lock step.
+
+Every drop has a lane in one flat array, as in `lockstep`: slot ``N`` of lane i is ``x[N + i]``. All
+lanes take a step of the Runge-Kutta method of order 8 of Dormand and Prince (E. Hairer, S. P.
+Norsett and G. Wanner, Solving Ordinary Differential Equations I, 2nd ed., Springer, 1993, section
+II.10), each of its own length. The loops have no branches, so that a compiler vectorises them.
+
+The state of a lane is the compression c and the closing rate r = c' of both contacts, and the time.
+The force of a pressing contact is
+
+    F = max(0, k c^(p - 1) g (b + a c)),    g = a + b c + d r,
+
+where a is 1 and b is 0, or the other way round (see `forces`): a Hertz contact has p = 1.5, a = 1
+and d = 0; that of Hunt and Crossley a = 1; a dashpot p = 1 and b = 1; a viscoelastic one p = 1.5
+and b = 1.
+
+The independent variable s of a step is chosen so that the motion is smooth in it and the step ends
+exactly at an event (M. Henon, Physica D 5, 412, 1982): ds/dt is a sum of r and r', with weights,
+
+    dt/ds = (m + 2 n s) / (q + by_r r + by_a r').
+
+=================================== ====== =========================================================
+the step goes by                    s      weights
+=================================== ====== =========================================================
+time                                t      m = q = 1
+the compression of an open contact  c      m = 1, by_r = 1: ends where the contact touches, at c = 0
+its root, of a pressing contact     c^0.5  n = 1, by_r = 1: begins where it touches, or ends where it
+                                           opens; there the force is smooth in this root, not in time
+the gain of a damped contact        g      m = 1, by_r = b, by_a = d: ends where it stops pressing
+=================================== ====== =========================================================
+"""
+
+import math
+from collections.abc import Sequence
+
+from stackbounce.engine.elementary import swift_power
+from stackbounce.engine.kernels import Floats, kernel
+
+LANES = 32  # a power of two
+BOTH = 2 * LANES  # a slot for each contact: the floor's, then the balls'
+
+# A state: compressions, closing rates, and time.
+C, R, T = 0, BOTH, 2 * BOTH
+STATE = T + LANES
+# The present state and that at the end of the step; without time, the state of a stage, its rates,
+# and those of earlier stages.
+Y, NEW = 0, STATE
+NOW, OUT, K1, K3, K4, K5, K6, K7, K8, K9, K10, K11 = (2 * STATE + k * T for k in range(12))
+# Slots for each contact: the base c^(p - 1) and then the force; the acceleration r' at both ends of
+# the step; stiffness, 0 where it does not press; stiffness, p - 1, and a, b, d of its gain; the sign
+# that its compression has while no event comes, and that of its gain; 1 if the step goes by it, and
+# the weights by_r and by_a.
+_EACH = 2 * STATE + 12 * T
+F, ACC, ACC_NEW, PRESSING, STIFFNESS, POWER = (_EACH + k * BOTH for k in range(6))
+A, B, D, SIGN, GAIN_SIGN, OWN, BY_R, BY_A = (_EACH + k * BOTH for k in range(6, 14))
+# The root of a typical compression; intervals so far, first touch, last release; and what `judge`
+# finds: 1 if an event comes, or may come, in the step, and 1 if one is expected in the next.
+SCALE, COUNT, FIRST, LAST, DOUBT, SOON = (_EACH + k * BOTH for k in range(14, 20))
+DT, MARGIN, NEXT, TAKEN = (_EACH + k * BOTH for k in range(20, 24))  # the same for both contacts
+# Slots for each lane: 1/m1, 1/m2; the step in s, s where it begins, and the weights m, n, q; how the
+# step goes; impact speed, row, status; 1 if `pairs` must decide how the lane goes on; steps so far;
+# the allowed error over that of the step, and the factor for the next step; the last step by time.
+_LANE = _EACH + 24 * BOTH
+OVER_1, OVER_2, H, START, M, N, Q, MODE = (_LANE + k * LANES for k in range(8))
+V0, ROW, STATUS, ASKS, STEPS, OVER_ERROR, GROW, BY_TIME = (_LANE + k * LANES for k in range(8, 16))
+# The event that a step is to end at: its contact, its kind, and the time to it.
+CONTACT, KIND, WAIT = (_LANE + k * LANES for k in range(16, 19))
+TOLERANCE = _LANE + 19 * LANES  # the error allowed in a step, over the impact speed
+COARSE = TOLERANCE + 1  # the largest estimate of order 3 with which the others can be trusted
+GENERAL = TOLERANCE + 2  # 1 if some exponent is neither 1 nor 1.5
+SLOTS = TOLERANCE + 3
+
+TIME, ROOT, EVENT = 0.0, 1.0, 2.0  # modes: by time, by a root from a touch on, up to an event
+
+MOST_STEPS = 1000.0
+_SURE = 4.0  # errors of a step: an event that comes, or is missed, by less is not sure
+_AHEAD = 1.2  # steps: an event within this is aimed at
+_TINY = 1e-300
+ONWARD = 1.7  # the first step by time, over the time of the last one by a root
+
+# fmt: off
+_TO_2 = (0.05260015195876773,)
+_TO_3 = (0.0197250569845379, 0.0591751709536137)
+_TO_4 = (0.02958758547680685, 0.08876275643042054)
+_TO_5 = (0.2413651341592667, -0.8845494793282861, 0.924834003261792)
+_TO_6 = (0.037037037037037035, 0.17082860872947386, 0.12546768756682242)
+_TO_7 = (0.037109375, 0.17025221101954405, 0.06021653898045596, -0.017578125)
+_TO_8 = (0.03709200011850479, 0.17038392571223998, 0.10726203044637328, -0.015319437748624402,
+         0.008273789163814023)
+_TO_9 = (0.6241109587160757, -3.3608926294469414, -0.868219346841726, 27.59209969944671,
+         20.154067550477894, -43.48988418106996)
+_TO_10 = (0.47766253643826434, -2.4881146199716677, -0.590290826836843, 21.230051448181193,
+          15.279233632882423, -33.28821096898486, -0.020331201708508627)
+_TO_11 = (-0.9371424300859873, 5.186372428844064, 1.0914373489967295, -8.149787010746927,
+          -18.52006565999696, 22.739487099350505, 2.4936055526796523, -3.0467644718982196)
+_TO_12 = (2.273310147516538, -10.53449546673725, -2.0008720582248625, -17.9589318631188,
+          27.94888452941996, -2.8589982771350235, -8.87285693353063, 12.360567175794303,
+          0.6433927460157636)
+_END = (0.054293734116568765, 4.450312892752409, 1.8915178993145003, -5.801203960010585,
+        0.3111643669578199, -0.1521609496625161, 0.20136540080403034, 0.04471061572777259)
+_THIRD = (-0.18980075407240762, 4.450312892752409, 1.8915178993145003, -5.801203960010585,
+          -0.4226823213237919, -0.1521609496625161, 0.20136540080403034, 0.02265179219836082)
+_FIFTH = (0.01312004499419488, -1.2251564463762044, -0.4957589496572502, 1.6643771824549864,
+          -0.35032884874997366, 0.3341791187130175, 0.08192320648511571, -0.022355307863886294)
+# fmt: on
+
+
+@kernel
+def _find_rates(x: Floats, node: float, weight: float) -> None:
+    """Compute dt/ds and the rates of the state in NOW, a part ``node`` of the step after its start.
+
+    The rates are those of a whole step. The time at its end gets a part, ``weight``, of dt/ds.
+    """
+    if x[GENERAL] == 0.0:
+        for i in range(LANES):
+            floor, balls = _force(x, i, 0.0), _force(x, LANES + i, 0.0)
+            _find_rate(x, i, floor, balls, node, weight)
+    else:
+        for i in range(LANES):
+            floor = _force(x, i, swift_power(x[NOW + C + i], x[POWER + i]))
+            balls = _force(x, LANES + i, swift_power(x[NOW + C + LANES + i], x[POWER + LANES + i]))
+            _find_rate(x, i, floor, balls, node, weight)
+
+
+@kernel
+def _force(x: Floats, k: int, base: float) -> float:
+    """Return the force of contact k, given c^(p - 1) where p is neither 1 nor 1.5."""
+    c, r, p = max(x[NOW + C + k], 0.0), x[NOW + R + k], x[POWER + k]
+    root = math.sqrt(c)
+    base = root if p == 0.5 else base
+    base = base if p > 0.0 else 1.0
+    a, b = x[A + k], x[B + k]
+    return max(x[PRESSING + k] * base * (a + b * c + x[D + k] * r) * (b + a * c), 0.0)
+
+
+@kernel
+def _find_rate(
+    x: Floats, i: int, floor: float, balls: float, node: float, weight: float
+) -> None:
+    """Compute the rates of lane i, given the forces of its contacts; see `_find_rates`."""
+    r0, r1 = x[NOW + R + i], x[NOW + R + LANES + i]
+    a0 = (balls - floor) * x[OVER_1 + i]
+    a1 = -a0 - balls * x[OVER_2 + i]
+    speed = x[Q + i] + x[BY_R + i] * r0 + x[BY_R + LANES + i] * r1
+    speed += x[BY_A + i] * a0 + x[BY_A + LANES + i] * a1
+    h = x[H + i]
+    dt = h * (x[M + i] + 2.0 * x[N + i] * (x[START + i] + node * h)) / speed
+    x[OUT + C + i], x[OUT + C + LANES + i] = dt * r0, dt * r1
+    x[OUT + R + i], x[OUT + R + LANES + i] = dt * a0, dt * a1
+    x[NEW + T + i] += weight * dt
+    x[ACC_NEW + i], x[ACC_NEW + LANES + i] = a0, a1
+
+
+@kernel
+def take_step(x: Floats) -> None:
+    """Compute the state of each lane at the end of its step, and two estimates of the error.
+
+    Those of orders 3 and 5, without signs, are left in K3 and K4.
+    """
+    for i in range(LANES):
+        x[NEW + T + i] = x[Y + T + i]
+    for i in range(T):
+        x[NOW + i] = x[Y + i]
+    _find_rates(x, 0.0, _END[0])
+    for i in range(BOTH):
+        x[ACC + i] = x[ACC_NEW + i]
+    a = _TO_2
+    for i in range(T):
+        x[K1 + i] = k = x[OUT + i]
+        x[NOW + i] = x[Y + i] + a[0] * k
+    _find_rates(x, 0.05260015195876773, 0.0)
+    a = _TO_3
+    for i in range(T):
+        x[NOW + i] = x[Y + i] + (a[0] * x[K1 + i] + a[1] * x[OUT + i])
+    _find_rates(x, 0.0789002279381516, 0.0)
+    a = _TO_4
+    for i in range(T):
+        x[K3 + i] = k = x[OUT + i]
+        x[NOW + i] = x[Y + i] + (a[0] * x[K1 + i] + a[1] * k)
+    _find_rates(x, 0.1183503419072274, 0.0)
+    a = _TO_5
+    for i in range(T):
+        x[K4 + i] = k = x[OUT + i]
+        x[NOW + i] = x[Y + i] + (a[0] * x[K1 + i] + a[1] * x[K3 + i] + a[2] * k)
+    _find_rates(x, 0.2816496580927726, 0.0)
+    a = _TO_6
+    for i in range(T):
+        x[K5 + i] = k = x[OUT + i]
+        x[NOW + i] = x[Y + i] + (a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * k)
+    _find_rates(x, 0.3333333333333333, _END[1])
+    a = _TO_7
+    for i in range(T):
+        x[K6 + i] = k = x[OUT + i]
+        way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * k
+        x[NOW + i] = x[Y + i] + way
+    _find_rates(x, 0.25, _END[2])
+    a = _TO_8
+    for i in range(T):
+        x[K7 + i] = k = x[OUT + i]
+        way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
+        x[NOW + i] = x[Y + i] + (way + a[4] * k)
+    _find_rates(x, 0.3076923076923077, _END[3])
+    a = _TO_9
+    for i in range(T):
+        x[K8 + i] = k = x[OUT + i]
+        way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
+        x[NOW + i] = x[Y + i] + (way + a[4] * x[K7 + i] + a[5] * k)
+    _find_rates(x, 0.6512820512820513, _END[4])
+    a = _TO_10
+    for i in range(T):
+        x[K9 + i] = k = x[OUT + i]
+        way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
+        x[NOW + i] = x[Y + i] + (way + a[4] * x[K7 + i] + a[5] * x[K8 + i] + a[6] * k)
+    _find_rates(x, 0.6, _END[5])
+    a = _TO_11
+    for i in range(T):
+        x[K10 + i] = k = x[OUT + i]
+        way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
+        way += a[4] * x[K7 + i] + a[5] * x[K8 + i] + a[6] * x[K9 + i] + a[7] * k
+        x[NOW + i] = x[Y + i] + way
+    _find_rates(x, 0.8571428571428571, _END[6])
+    a = _TO_12
+    for i in range(T):
+        x[K11 + i] = k = x[OUT + i]
+        way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
+        way += a[4] * x[K7 + i] + a[5] * x[K8 + i] + a[6] * x[K9 + i] + a[7] * x[K10 + i]
+        x[NOW + i] = x[Y + i] + (way + a[8] * k)
+    _find_rates(x, 1.0, _END[7])
+    for i in range(T):
+        x[NEW + i] = x[Y + i] + _weighted(x, i, _END)
+        third, fifth = _weighted(x, i, _THIRD), _weighted(x, i, _FIFTH)
+        x[K3 + i], x[K4 + i] = abs(third), abs(fifth)
+
+
+@kernel
+def _weighted(x: Floats, i: int, a: Sequence[float]) -> float:
+    """Return a weighted sum of the rates of those stages that the end of the step depends on."""
+    way = a[0] * x[K1 + i] + a[1] * x[K6 + i] + a[2] * x[K7 + i] + a[3] * x[K8 + i]
+    return way + (a[4] * x[K9 + i] + a[5] * x[K10 + i] + a[6] * x[K11 + i] + a[7] * x[OUT + i])
+
+
+@kernel
+def judge_step(x: Floats) -> None:
+    """Judge the step of each lane: take it, or try a shorter one, or let `pairs` decide.
+
+    Each lane also gets the length of its next step.
+    """
+    _find_errors(x)
+    _look_for_events(x)
+    _go_on(x)
+
+
+@kernel
+def _find_errors(x: Floats) -> None:
+    """Compare the error of each step with the allowed one (Hairer, Norsett and Wanner, eq. 10.17).
+
+    The error is that of the rates, and of the mean rates in the step; the square root in that equation is left out, and the estimate
+    so at most 1.4 times as large. A large estimate of order 3 shows that none can be trusted.
+    """
+    tolerance, coarse = x[TOLERANCE], x[COARSE]
+    for i in range(LANES):
+        dt, speed = x[NEW + T + i] - x[Y + T + i], x[V0 + i]
+        per_time = 1.0 / dt
+        third = (x[K3 + C + i] + x[K3 + C + LANES + i]) * per_time
+        third += x[K3 + R + i] + x[K3 + R + LANES + i]
+        fifth = (x[K4 + C + i] + x[K4 + C + LANES + i]) * per_time
+        fifth += x[K4 + R + i] + x[K4 + R + LANES + i]
+        over = (fifth + 0.1 * third) * (speed * tolerance) / (fifth * fifth + _TINY)
+        over = over if third < coarse * speed and dt > 0.0 else 0.0
+        over = min(max(over, 1e-6), 1e6)
+        root = math.sqrt(math.sqrt(math.sqrt(over)))
+        grow = min(max(0.9 * root, 0.2), 3.0)
+        x[OVER_ERROR + i], x[GROW + i] = over, grow
+        x[DT + i] = x[DT + LANES + i] = dt
+        x[MARGIN + i] = x[MARGIN + LANES + i] = _SURE * tolerance * speed * dt
+        x[NEXT + i] = x[NEXT + LANES + i] = _AHEAD * dt * grow
+
+
+@kernel
+def _look_for_events(x: Floats) -> None:
+    """Find where an event comes, or may come, in the step, and where one is near after it.
+
+    The compression is taken as the polynomial of degree 5, and the gain as that of degree 3, with
+    the values and derivatives at both ends. Where its Bernstein coefficients have one sign, so has
+    the polynomial. The first coefficient of the compression is left out: it is 0 after an event.
+    """
+    for i in range(BOTH):
+        dt, sign, gain_sign = x[DT + i], x[SIGN + i], x[GAIN_SIGN + i]
+        c, r, acc = x[Y + C + i], x[Y + R + i], x[ACC + i]
+        c_new, r_new, acc_new = x[NEW + C + i], x[NEW + R + i], x[ACC_NEW + i]
+        fifth, bend = 0.2 * dt, 0.05 * dt * dt
+        low = min(sign * (c + fifth * r), sign * (c + 2.0 * fifth * r + bend * acc))
+        low = min(low, sign * (c_new - 2.0 * fifth * r_new + bend * acc_new))
+        low = min(min(low, sign * (c_new - fifth * r_new)), sign * c_new)
+        a, b, d, third = x[A + i], x[B + i], x[D + i], 0.3333333333333333 * dt
+        gain, gain_new = a + b * c + d * r, a + b * c_new + d * r_new
+        slope, slope_new = b * r + d * acc, b * r_new + d * acc_new
+        least = min(gain_sign * (gain + third * slope), gain_sign * (gain_new - third * slope_new))
+        least = min(least, gain_sign * gain_new)
+        doubt = (1.0 if low < x[MARGIN + i] else 0.0) + (1.0 if least < 0.0 else 0.0)
+        x[DOUBT + i] = doubt * (1.0 - x[OWN + i])
+        ahead = x[NEXT + i]
+        low = sign * (c_new + ahead * (r_new + 0.5 * ahead * acc_new))
+        least = gain_sign * (gain_new + ahead * slope_new)
+        x[SOON + i] = 1.0 if min(low, least) < 0.0 else 0.0
+
+
+@kernel
+def _go_on(x: Floats) -> None:
+    """Take the steps that are exact enough and meet no event, and choose the next step.
+
+    After a step by a root from a touch on, the next is one by time.
+    """
+    for i in range(LANES):
+        exact = 1.0 if x[OVER_ERROR + i] >= 1.0 else 0.0
+        mode, grow = x[MODE + i], x[GROW + i]
+        asks = x[DOUBT + i] + x[DOUBT + LANES + i] + x[SOON + i] + x[SOON + LANES + i]
+        asks = exact * asks + (1.0 if mode == EVENT else 0.0)
+        asks += 1.0 if x[STEPS + i] > MOST_STEPS else 0.0
+        alone = 1.0 if asks == 0.0 else 0.0
+        taken = alone * exact
+        turns = taken * mode  # 1 where a step by a root is taken: one up to an event is not
+        stays = 1.0 - turns
+        h = x[H + i] * (1.0 + alone * (grow - 1.0))
+        first = ONWARD * x[DT + i] * min(grow, 1.0)
+        h = first if turns > 0.0 else h
+        by_time = x[BY_TIME + i]
+        x[H + i] = h
+        x[BY_TIME + i] = h if taken > 0.0 else by_time
+        x[MODE + i] = mode * stays
+        x[START + i] *= stays
+        x[N + i] *= stays
+        x[M + i] = x[M + i] * stays + turns
+        x[Q + i] = x[Q + i] * stays + turns
+        x[OWN + i] *= stays
+        x[OWN + LANES + i] *= stays
+        x[BY_R + i] *= stays
+        x[BY_R + LANES + i] *= stays
+        x[STEPS + i] += 1.0
+        x[ASKS + i] = asks
+        x[TAKEN + i] = x[TAKEN + LANES + i] = taken
+    for i in range(BOTH):
+        c, c_new, r, r_new = x[Y + C + i], x[NEW + C + i], x[Y + R + i], x[NEW + R + i]
+        x[Y + C + i] = c_new if x[TAKEN + i] > 0.0 else c
+        x[Y + R + i] = r_new if x[TAKEN + i] > 0.0 else r
+    for i in range(LANES):
+        t, t_new = x[Y + T + i], x[NEW + T + i]
+        x[Y + T + i] = t_new if x[TAKEN + i] > 0.0 else t
