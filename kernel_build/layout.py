@@ -74,7 +74,7 @@ def layout() -> dict[str, Any]:
         "statuses": _numbered(_STATUSES),
         "causes": _numbered("ENDLESS STIFF EXTREME"),
         "events": _numbered(_EVENTS),
-        "forms": _numbered("ABSENT POWER"),
+        "forms": _numbered("ABSENT POWER DASHPOT VISCOELASTIC HUNT_CROSSLEY"),
     }
 
 

@@ -2,11 +2,13 @@
 
 import numpy as np
 
-from stackbounce.engine import native
+from stackbounce.engine import codes, native
 from stackbounce.engine.memory import lane_workspace, memory
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
 from stackbounce.run.batch import new_outcomes
+
+_FORMS = (codes.POWER, codes.DASHPOT, codes.VISCOELASTIC, codes.HUNT_CROSSLEY)
 
 
 def bits(values):
@@ -34,6 +36,34 @@ def in_lanes(entry, drops, limit):
     out, space = _room(drops), Table(lane_workspace(compiled=True))
     native.compiled(entry)(Table(drops), limit, Table(out), space)
     return out
+
+
+def pairs(count, seed, reach=3.0):
+    """Return drops of two balls under laws of every form that `engine.pairs` knows.
+
+    Masses and stiffnesses differ by up to ten to the power ``reach``; losses are weak to strong; a
+    third of the balls touch, gaps of the others are 1e-6 to 10 compressions.
+    """
+    random = np.random.default_rng(seed)
+    form = random.choice(_FORMS, (count, 2))
+    mass = 10.0 ** random.uniform(-0.5 * reach, 0.5 * reach, (count, 2))
+    stiffness = 10.0 ** (6.0 + random.uniform(-0.5 * reach, 0.5 * reach, (count, 2)))
+    speed = np.repeat(10.0 ** random.uniform(-1.0, 1.0, (count, 1)), 2, axis=1)
+    exponent = random.choice([1.5, 1.5, 1.0, 2.2], (count, 2))
+    exponent[form == codes.VISCOELASTIC] = 1.5
+    exponent[form == codes.DASHPOT] = 1.0
+    depth = (mass * speed**2 / stiffness) ** (1.0 / (exponent + 1.0))
+    # a loss in the unit of its form
+    unit = np.select(
+        [form == codes.DASHPOT, form == codes.VISCOELASTIC, form == codes.HUNT_CROSSLEY],
+        [np.sqrt(stiffness * mass), depth / speed, 1.0 / speed],
+    )
+    loss = unit * 10.0 ** random.uniform(-3.0, 0.0, (count, 2))
+    gap = depth * 10.0 ** random.uniform(-6.0, 1.0, (count, 2))
+    gap[random.random(count) < 1.0 / 3.0] = 0.0
+    gap[:, 0] = 0.0
+    nothing = np.zeros((count, 2))
+    return Drops(mass, form, stiffness, exponent, loss, nothing, gap, -speed, np.zeros(count))
 
 
 def _room(drops):

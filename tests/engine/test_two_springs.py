@@ -9,7 +9,7 @@ import pytest
 from benchmarks import random_drops
 
 import stackbounce as sb
-from batches import bits, in_lanes, numbers_of, swept
+from batches import bits, in_lanes, numbers_of, pairs, swept
 from fuzz.draw import balls_of, drops_of, is_rigid
 from fuzz.replay import drop_of, options_of
 from reference import precise
@@ -293,14 +293,20 @@ def outcomes():
     return found
 
 
-def springs():
-    """Return the bits of the outcomes of ten thousand drops of two balls on springs."""
+def two_balls():
+    """Return the bits of the outcomes of two balls by both engines in lanes."""
     drops = numbers_of(drops_of(SEED, 0, 10_000))
     drops = drops._replace(velocity=np.repeat(-np.abs(drops.velocity[:, :1]), 2, axis=1))
-    out = in_lanes("run_two_springs", drops, 10_000)
-    done = out.status == sb.Status.FINISHED
-    assert done.any()
-    return [bits(array[done]) for array in out] + [bits(out.status)]
+    found = []
+    for entry, some, limit in (
+        ("run_two_springs", drops, 10_000),
+        ("run_pairs", pairs(2000, SEED), 1e-6),
+    ):
+        out = in_lanes(entry, some, limit)
+        done = out.status == sb.Status.FINISHED
+        assert done.any()
+        found += [bits(array[done]) for array in out] + [bits(out.status)]
+    return found
 
 
 def test_processor_levels(at_level):
@@ -310,5 +316,5 @@ def test_processor_levels(at_level):
     by_level = []
     for level in known:
         at_level(library, level)
-        by_level.append((outcomes(), springs()))
+        by_level.append((outcomes(), two_balls()))
     assert all(found == by_level[0] for found in by_level)

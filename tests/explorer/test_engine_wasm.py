@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
-from batches import bits, in_lanes, numbers_of, swept
+from batches import bits, in_lanes, numbers_of, pairs, swept
 from fuzz import draw
 from fuzz.replay import drop_of, options_of
 from stackbounce.engine import codes, native
@@ -22,7 +22,7 @@ SEED = 3
 BATCHES = 12  # all heights that have rigid and finite batches, and a third rigid
 SAMPLED = 4  # one drop in so many is looked at on its way
 LIMIT = 300
-SIMULATE, SWEEP, SPRINGS = 0, 1, 2
+SIMULATE, SWEEP, SPRINGS, PAIRS = range(4)
 RUN = Path(__file__).with_name("run_engine.mjs")
 ENGINE = files("stackbounce.explorer").joinpath("static/js/engine/engine.js")
 
@@ -44,14 +44,14 @@ def simulated(drop, options, times=()):
     return np.concatenate(parts), result.end_time
 
 
-def swept_springs(drops, options):
-    """Return the outcomes of two balls on springs, some of them by the general engine."""
-    out = in_lanes("run_two_springs", drops, options.event_limit)
+def swept_in_lanes(entry, drops, options, limit):
+    """Return the outcomes of two balls, and how many of them the general engine had to find."""
+    out = in_lanes(entry, drops, limit)
     asked = np.flatnonzero(out.status == codes.ASK)
     answers = swept(FINITE, Drops._make(array[asked] for array in drops), options)
     for array, answer in zip(out, answers, strict=True):
         array[asked] = answer
-    return out
+    return out, len(asked)
 
 
 def compare(jobs, expected, folder):
@@ -107,12 +107,19 @@ def two_springs(count):
 @pytest.mark.parametrize("count", [1, 300, pytest.param(10_800, marks=pytest.mark.slow)])
 def test_two_springs(tmp_path, count):
     drops, options = two_springs(count), Options(math.inf, 1e-12, 1_000_000)
-    out = swept_springs(drops, options)
+    out, asked = swept_in_lanes("run_two_springs", drops, options, options.event_limit)
     compare([job(SPRINGS, drops, False, options)], list(map(np.ravel, out)), tmp_path)
     assert (out.status == codes.FINISHED).any()
-    if count > 1:
-        asked = in_lanes("run_two_springs", drops, options.event_limit).status == codes.ASK
-        assert 0 < asked.sum() < count // 2
+    assert asked <= count // 2
+    assert (asked > 0) == (count > 1)
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-9])
+def test_pairs(tmp_path, rtol):
+    drops, options = pairs(300, SEED), Options(math.inf, rtol, 1_000_000)
+    out, asked = swept_in_lanes("run_pairs", drops, options, rtol)
+    compare([job(PAIRS, drops, False, options)], list(map(np.ravel, out)), tmp_path)
+    assert 0 < asked < 100
 
 
 def test_memory_grows_while_stacks_are_kept(tmp_path):

@@ -31,14 +31,14 @@ def test_a_programming_error_is_not_taken_for_numbers_out_of_range(monkeypatch, 
     with pytest.raises(bug, match="a bug"):
         sb.simulate(HERTZ)
     with pytest.raises(bug, match="a bug"):
-        sb.sweep(HERTZ, {"balls.0.mass": [1.0, 2.0]})
+        sb.sweep(HERTZ, {"balls.0.mass": [1.0, 2.0]}, until=1.0)
 
 
 @pytest.mark.parametrize("error", OUT_OF_RANGE)
 def test_numbers_out_of_range_make_a_run_invalid(monkeypatch, error):
     broken(monkeypatch, error("math"))
     assert sb.simulate(HERTZ).status is sb.Status.INVALID
-    swept = sb.sweep(HERTZ, {"balls.0.mass": [1.0, 2.0]})
+    swept = sb.sweep(HERTZ, {"balls.0.mass": [1.0, 2.0]}, until=1.0)
     assert swept.status.values.tolist() == [sb.Status.INVALID] * 2
 
 

@@ -13,7 +13,16 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from stackbounce.engine import codes, native
-from stackbounce.engine.records import AFTER, CONTINUE, END, SCRATCH, UNIT, Drops, Outcomes, Workspace
+from stackbounce.engine.records import (
+    AFTER,
+    CONTINUE,
+    END,
+    SCRATCH,
+    UNIT,
+    Drops,
+    Outcomes,
+    Workspace,
+)
 from stackbounce.engine.slots import LAST_EVENT, LOG_ROWS
 from stackbounce.engine.stack import (
     MOST_PIECES,

@@ -15,7 +15,7 @@ and d = 0; that of Hunt and Crossley a = 1; a dashpot p = 1 and b = 1; a viscoel
 and b = 1.
 
 The independent variable s of a step is chosen so that the motion is smooth in it and the step ends
-exactly at an event (M. Henon, Physica D 5, 412, 1982): ds/dt is a sum of r and r', with weights,
+exactly at an event (M. Henon, Physica D 5, 412, 1982). With weights,
 
     dt/ds = (m + 2 n s) / (q + by_r r + by_a r').
 
@@ -24,8 +24,8 @@ the step goes by                    s      weights
 =================================== ====== =========================================================
 time                                t      m = q = 1
 the compression of an open contact  c      m = 1, by_r = 1: ends where the contact touches, at c = 0
-its root, of a pressing contact     c^0.5  n = 1, by_r = 1: begins where it touches, or ends where it
-                                           opens; there the force is smooth in this root, not in time
+its root, of a pressing contact     c^0.5  n = 1, by_r = 1: begins where it touches, or ends where
+                                           it opens; there the force is smooth in this root only
 the gain of a damped contact        g      m = 1, by_r = b, by_a = d: ends where it stops pressing
 =================================== ====== =========================================================
 """
@@ -47,19 +47,21 @@ STATE = T + LANES
 Y, NEW = 0, STATE
 NOW, OUT, K1, K3, K4, K5, K6, K7, K8, K9, K10, K11 = (2 * STATE + k * T for k in range(12))
 # Slots for each contact: the base c^(p - 1) and then the force; the acceleration r' at both ends of
-# the step; stiffness, 0 where it does not press; stiffness, p - 1, and a, b, d of its gain; the sign
-# that its compression has while no event comes, and that of its gain; 1 if the step goes by it, and
-# the weights by_r and by_a.
+# the step; stiffness, 0 where it does not press; stiffness, p - 1, and a, b, d of its gain; the
+# sign that its compression has while no event comes, and that of its gain; 1 if the step goes by
+# it, and the weights by_r and by_a.
 _EACH = 2 * STATE + 12 * T
 F, ACC, ACC_NEW, PRESSING, STIFFNESS, POWER = (_EACH + k * BOTH for k in range(6))
 A, B, D, SIGN, GAIN_SIGN, OWN, BY_R, BY_A = (_EACH + k * BOTH for k in range(6, 14))
-# The root of a typical compression; intervals so far, first touch, last release; and what `judge`
-# finds: 1 if an event comes, or may come, in the step, and 1 if one is expected in the next.
+# The root of a typical compression; intervals so far, first touch, last release; and what
+# `judge_step` finds: 1 if an event comes, or may come, in the step, and 1 if one is expected in the
+# next.
 SCALE, COUNT, FIRST, LAST, DOUBT, SOON = (_EACH + k * BOTH for k in range(14, 20))
 DT, MARGIN, NEXT, TAKEN = (_EACH + k * BOTH for k in range(20, 24))  # the same for both contacts
-# Slots for each lane: 1/m1, 1/m2; the step in s, s where it begins, and the weights m, n, q; how the
-# step goes; impact speed, row, status; 1 if `pairs` must decide how the lane goes on; steps so far;
-# the allowed error over that of the step, and the factor for the next step; the last step by time.
+# Slots for each lane: 1/m1, 1/m2; the step in s, s where it begins, and the weights m, n, q; how
+# the step goes; impact speed, row, status; 1 if `pairs` must decide how the lane goes on; steps so
+# far; the allowed error over that of the step, and the factor for the next step; the last step by
+# time.
 _LANE = _EACH + 24 * BOTH
 OVER_1, OVER_2, H, START, M, N, Q, MODE = (_LANE + k * LANES for k in range(8))
 V0, ROW, STATUS, ASKS, STEPS, OVER_ERROR, GROW, BY_TIME = (_LANE + k * LANES for k in range(8, 16))
@@ -72,10 +74,12 @@ SLOTS = TOLERANCE + 3
 
 TIME, ROOT, EVENT = 0.0, 1.0, 2.0  # modes: by time, by a root from a touch on, up to an event
 
-MOST_STEPS = 1000.0
-_SURE = 4.0  # errors of a step: an event that comes, or is missed, by less is not sure
+MOST_STEPS = 2000.0  # of a drop: the general engine solves one that needs more
+# Errors of a step, and of each step so far, because they add up: an event that comes, or is missed,
+# by less is not sure.
+UNSURE, UNSURE_LATER = 4.0, 0.5
 _AHEAD = 1.2  # steps: an event within this is aimed at
-_TINY = 1e-300
+_TINY = 1e-300  # avoids 0/0
 ONWARD = 1.7  # the first step by time, over the time of the last one by a root
 
 # fmt: off
@@ -112,43 +116,32 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
     The rates are those of a whole step. The time at its end gets a part, ``weight``, of dt/ds.
     """
     if x[GENERAL] == 0.0:
-        for i in range(LANES):
-            floor, balls = _force(x, i, 0.0), _force(x, LANES + i, 0.0)
-            _find_rate(x, i, floor, balls, node, weight)
+        for i in range(BOTH):
+            root = math.sqrt(max(x[NOW + C + i], 0.0))
+            x[F + i] = root if x[POWER + i] > 0.0 else 1.0
     else:
-        for i in range(LANES):
-            floor = _force(x, i, swift_power(x[NOW + C + i], x[POWER + i]))
-            balls = _force(x, LANES + i, swift_power(x[NOW + C + LANES + i], x[POWER + LANES + i]))
-            _find_rate(x, i, floor, balls, node, weight)
-
-
-@kernel
-def _force(x: Floats, k: int, base: float) -> float:
-    """Return the force of contact k, given c^(p - 1) where p is neither 1 nor 1.5."""
-    c, r, p = max(x[NOW + C + k], 0.0), x[NOW + R + k], x[POWER + k]
-    root = math.sqrt(c)
-    base = root if p == 0.5 else base
-    base = base if p > 0.0 else 1.0
-    a, b = x[A + k], x[B + k]
-    return max(x[PRESSING + k] * base * (a + b * c + x[D + k] * r) * (b + a * c), 0.0)
-
-
-@kernel
-def _find_rate(
-    x: Floats, i: int, floor: float, balls: float, node: float, weight: float
-) -> None:
-    """Compute the rates of lane i, given the forces of its contacts; see `_find_rates`."""
-    r0, r1 = x[NOW + R + i], x[NOW + R + LANES + i]
-    a0 = (balls - floor) * x[OVER_1 + i]
-    a1 = -a0 - balls * x[OVER_2 + i]
-    speed = x[Q + i] + x[BY_R + i] * r0 + x[BY_R + LANES + i] * r1
-    speed += x[BY_A + i] * a0 + x[BY_A + LANES + i] * a1
-    h = x[H + i]
-    dt = h * (x[M + i] + 2.0 * x[N + i] * (x[START + i] + node * h)) / speed
-    x[OUT + C + i], x[OUT + C + LANES + i] = dt * r0, dt * r1
-    x[OUT + R + i], x[OUT + R + LANES + i] = dt * a0, dt * a1
-    x[NEW + T + i] += weight * dt
-    x[ACC_NEW + i], x[ACC_NEW + LANES + i] = a0, a1
+        for i in range(BOTH):
+            c, p = x[NOW + C + i], x[POWER + i]
+            root, base = math.sqrt(max(c, 0.0)), swift_power(c, p)
+            base = root if p == 0.5 else base
+            x[F + i] = base if p > 0.0 else 1.0
+    for i in range(BOTH):
+        c, a, b = max(x[NOW + C + i], 0.0), x[A + i], x[B + i]
+        gain = a + b * c + x[D + i] * x[NOW + R + i]
+        x[F + i] = max(x[PRESSING + i] * x[F + i] * gain * (b + a * c), 0.0)
+    for i in range(LANES):
+        r0, r1 = x[NOW + R + i], x[NOW + R + LANES + i]
+        floor, balls = x[F + i], x[F + LANES + i]
+        a0 = (balls - floor) * x[OVER_1 + i]
+        a1 = -a0 - balls * x[OVER_2 + i]
+        speed = x[Q + i] + x[BY_R + i] * r0 + x[BY_R + LANES + i] * r1
+        speed += x[BY_A + i] * a0 + x[BY_A + LANES + i] * a1
+        h = x[H + i]
+        dt = h * (x[M + i] + 2.0 * x[N + i] * (x[START + i] + node * h)) / speed
+        x[OUT + C + i], x[OUT + C + LANES + i] = dt * r0, dt * r1
+        x[OUT + R + i], x[OUT + R + LANES + i] = dt * a0, dt * a1
+        x[NEW + T + i] += weight * dt
+        x[ACC_NEW + i], x[ACC_NEW + LANES + i] = a0, a1
 
 
 @kernel
@@ -254,12 +247,13 @@ def judge_step(x: Floats) -> None:
 def _find_errors(x: Floats) -> None:
     """Compare the error of each step with the allowed one (Hairer, Norsett and Wanner, eq. 10.17).
 
-    The error is that of the rates, and of the mean rates in the step; the square root in that equation is left out, and the estimate
-    so at most 1.4 times as large. A large estimate of order 3 shows that none can be trusted.
+    The error is that of the rates and of the mean rates in the step. The square root in that
+    equation is left out. A large estimate of order 3 shows that none can be trusted.
     """
     tolerance, coarse = x[TOLERANCE], x[COARSE]
     for i in range(LANES):
         dt, speed = x[NEW + T + i] - x[Y + T + i], x[V0 + i]
+        unsure = max(UNSURE, UNSURE_LATER * x[STEPS + i])
         per_time = 1.0 / dt
         third = (x[K3 + C + i] + x[K3 + C + LANES + i]) * per_time
         third += x[K3 + R + i] + x[K3 + R + LANES + i]
@@ -272,7 +266,7 @@ def _find_errors(x: Floats) -> None:
         grow = min(max(0.9 * root, 0.2), 3.0)
         x[OVER_ERROR + i], x[GROW + i] = over, grow
         x[DT + i] = x[DT + LANES + i] = dt
-        x[MARGIN + i] = x[MARGIN + LANES + i] = _SURE * tolerance * speed * dt
+        x[MARGIN + i] = x[MARGIN + LANES + i] = unsure * tolerance * speed * dt
         x[NEXT + i] = x[NEXT + LANES + i] = _AHEAD * dt * grow
 
 
@@ -291,7 +285,8 @@ def _look_for_events(x: Floats) -> None:
         fifth, bend = 0.2 * dt, 0.05 * dt * dt
         low = min(sign * (c + fifth * r), sign * (c + 2.0 * fifth * r + bend * acc))
         low = min(low, sign * (c_new - 2.0 * fifth * r_new + bend * acc_new))
-        low = min(min(low, sign * (c_new - fifth * r_new)), sign * c_new)
+        low = min(low, sign * (c_new - fifth * r_new))
+        low = min(low, sign * c_new)
         a, b, d, third = x[A + i], x[B + i], x[D + i], 0.3333333333333333 * dt
         gain, gain_new = a + b * c + d * r, a + b * c_new + d * r_new
         slope, slope_new = b * r + d * acc, b * r_new + d * acc_new

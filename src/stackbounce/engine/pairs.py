@@ -10,7 +10,7 @@ another.
 import math
 
 from stackbounce.engine import pair_step as lane
-from stackbounce.engine.codes import ASK, DASHPOT, FINISHED, HUNT_CROSSLEY, POWER, VISCOELASTIC
+from stackbounce.engine.codes import ASK, DASHPOT, FINISHED, POWER, VISCOELASTIC
 from stackbounce.engine.elementary import near_root, power
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.pair_step import EVENT, LANES, ROOT, TIME, judge_step, take_step
@@ -19,8 +19,8 @@ from stackbounce.engine.records import Drops, Outcomes, Workspace
 
 TOUCH, RELEASE, CLIP, OPEN = 0.0, 1.0, 2.0, 3.0  # kinds of event; OPEN: of an unloaded contact
 
+_STEP = 0.4  # the error allowed in one step, over rtol
 _SLOW = 1e-5  # of the impact speed: slower contacts are left to the general engine
-_UNSURE = 4.0  # errors of a step, the same
 _TOGETHER = 1e-6  # of a time: contacts that touch so close to each other are left to it, too
 _NEAR = 0.4  # of the next step by time: an event within it is aimed at
 _PART = 0.65  # of the way to a later event, or to one that a step could not be aimed at
@@ -42,7 +42,7 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
         HUNT_CROSSLEY. Both balls come with the lower one's
         velocity.
     rtol : float
-        The error allowed in one step, over the impact speed.
+        The error of the velocities that is aimed at, over the impact speed.
     out : Outcomes
         Gets the velocities, ratios, numbers of collisions, and times. The status is FINISHED, or
         ASK where the general engine must solve the drop; its other results are then meaningless.
@@ -50,7 +50,7 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
         Its ``floats`` are scratch space, of the size `records.SCRATCH`.
     """
     x = space.floats
-    x[lane.TOLERANCE], x[lane.COARSE] = rtol, _COARSE * power(rtol, 1.0 / 3.0)
+    x[lane.TOLERANCE], x[lane.COARSE] = _STEP * rtol, _COARSE * power(rtol, 1.0 / 3.0)
     x[lane.GENERAL] = 0.0
     first = _FIRST * near_root(rtol, _FIRST_ROOT)
     rows = len(out.status)
@@ -118,7 +118,8 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
     if x[lane.Y + lane.C + LANES + i] == 0.0:
         _press(x, i, LANES + i)
     _touch(x, i, i)
-    x[lane.OWN + LANES + i] = 1.0  # if it touches, it is compressed from now on
+    if x[lane.PRESSING + LANES + i] > 0.0:  # from rest: it is compressed from now on
+        x[lane.OWN + LANES + i] = 1.0
 
 
 @kernel
@@ -161,7 +162,8 @@ def _go_by_root(x: Floats, i: int, k: int, mode: float, start: float, h: float) 
 @kernel
 def _least_rate(x: Floats, i: int) -> float:
     """Return the rate below which it is not sure whether a contact closes or opens."""
-    return max(_SLOW, _UNSURE * x[lane.TOLERANCE]) * x[lane.V0 + i]
+    unsure = max(lane.UNSURE, lane.UNSURE_LATER * x[lane.STEPS + i])
+    return max(_SLOW, unsure * x[lane.TOLERANCE]) * x[lane.V0 + i]
 
 
 @kernel

@@ -34,7 +34,7 @@ export class Points {
     this.varied = this.vary();
     this.check();
     this.base = numbersOf(drop);
-    this.springs = this.suitsTwoSprings();
+    this.lanes = this.chooseLanes();
     this.changes = this.listChanges();
   }
 
@@ -84,20 +84,22 @@ export class Points {
     for (const i of across) for (const j of up) this.at(i, j);
   }
 
-  /** Whether the engine for two balls on springs can run all drops. */
-  suitsTwoSprings() {
-    const { base, drop } = this;
-    const { POWER } = theEngine().forms;
-    const linear = base.form.every((form, i) => form === POWER && base.second[i] === 1);
+  /** Return the name of the engine in lanes that can run all drops, if there is one. */
+  chooseLanes() {
+    const { base, drop, varied } = this;
+    const { POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY } = theEngine().forms;
     const together = new Set(base.velocity).size === 1 && base.velocity[0] < 0;
-    const free = this.varied.some(({ number }) => number.part === "velocities" || ["exponent", "gravity"].includes(number.field));
-    return drop.balls.length === 2 && drop.gravity === 0 && linear && together && !free;
+    const free = varied.some(({ number }) => number.part === "velocities" || number.field === "gravity");
+    if (drop.balls.length !== 2 || drop.gravity !== 0 || !together || free) return null;
+    const linear = base.form.every((form, i) => form === POWER && base.second[i] === 1);
+    if (linear && varied.every(({ number }) => number.field !== "exponent")) return "run_two_springs";
+    return base.form.every((form) => [POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY].includes(form)) ? "run_pairs" : null;
   }
 
   /** Run so many drops, in the order of rows; return `Outcomes` of them. */
   solve(from, count) {
     const drops = this.list(from, count);
-    return new Outcomes(drops, run(drops, this.springs), this.drop.balls.length);
+    return new Outcomes(drops, run(drops, this.lanes), this.drop.balls.length);
   }
 
   /** Return the numbers of some drops as the engine takes them. */
@@ -165,8 +167,8 @@ function remembered(numbers) {
   return (i, j) => (found[i + j] ??= numbers(i, j)); // one of the two is 0
 }
 
-function run(drops, springs) {
-  return theEngine().sweep(drops, { rtol: known.map_rtol, eventLimit: known.limits.events, springs });
+function run(drops, lanes) {
+  return theEngine().sweep(drops, { rtol: known.map_rtol, eventLimit: known.limits.events, lanes });
 }
 
 /** Run drops of one height that are all rigid, or all not; return `Outcomes` of them. */
@@ -174,7 +176,7 @@ export function solveAll(drops) {
   const numbers = drops.map(numbersOf);
   const together = { rigid: drops[0].rigid, gravity: Float64Array.from(numbers, ({ gravity }) => gravity) };
   for (const name of FLAT) together[name] = Float64Array.from(numbers.flatMap((one) => one[name]));
-  return new Outcomes(together, run(together, false), drops[0].balls.length);
+  return new Outcomes(together, run(together, null), drops[0].balls.length);
 }
 
 /** What came out of some drops. */

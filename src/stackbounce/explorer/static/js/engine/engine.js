@@ -17,7 +17,7 @@ export async function loadEngine(bytes, layout) {
  */
 class Engine {
   constructor(exports, layout) {
-    const { forms, statuses, events, log } = layout; // codes of two forms of force, of how a run ended, of events; columns of a log
+    const { forms, statuses, events, log } = layout; // codes of some forms of force, of how a run ended, of events; columns of a log
     Object.assign(this, { exports, layout, forms, statuses, events, log });
     this.room = new Room(exports.memory, exports.__heap_base.value, layout.records);
     this.stacks = new Map();
@@ -62,22 +62,22 @@ class Engine {
   /**
    * Run many drops, with options as for one; return the arrays of their outcomes.
    *
-   * `springs` says that all are two balls on linear springs, without gravity, that come at one speed and are run to
-   * their end: these have an engine of their own, which is many times faster.
+   * `lanes` names the kernel of an engine that is many times faster, where there is one: for two balls without gravity
+   * that come at one speed and are run to their end.
    */
-  sweep(drops, { rtol = 1e-12, until = Infinity, eventLimit = 1e6, springs = false } = {}) {
+  sweep(drops, { rtol = 1e-12, until = Infinity, eventLimit = 1e6, lanes = null } = {}) {
     const count = drops.gravity.length;
     const balls = count ? drops.mass.length / count : 1;
-    const { stack, space, none } = springs ? {} : this.stack(drops.rigid, balls);
+    const { stack, space, none } = lanes ? {} : this.stack(drops.rigid, balls);
     const outcomes = this.room.lend((room) => {
       const given = room.make("Drops", { balls, drops: count });
       const out = room.make("Outcomes", { balls, drops: count });
       this.put(given, drops);
       room.write(out, "status", new Array(count).fill(this.layout.statuses.ASK)); // none is under way
-      room.write(out, "work", new Array(count).fill(0)); // that of two springs is not counted
-      if (springs) {
+      room.write(out, "work", new Array(count).fill(0)); // that of drops in lanes is not counted
+      if (lanes) {
         const scratch = room.make("Workspace", { balls, scratch: this.layout.sizes.scratch });
-        this.call("run_two_springs", given, eventLimit, out, scratch);
+        this.call(lanes, given, lanes === "run_pairs" ? rtol : eventLimit, out, scratch);
       } else {
         const entry = drops.rigid ? "run_rigid_batch" : "run_batch";
         const limits = this.limits(eventLimit);
@@ -85,7 +85,7 @@ class Engine {
       }
       return room.readAll(out);
     });
-    if (springs) this.answer(drops, outcomes, { rtol, until, eventLimit });
+    if (lanes) this.answer(drops, outcomes, { rtol, until, eventLimit });
     return outcomes;
   }
 

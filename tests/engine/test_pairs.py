@@ -1,0 +1,168 @@
+"""Two balls on nonlinear or damped contacts in lanes: closed forms, energy, the general engine."""
+
+import math
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from batches import bits, in_lanes, pairs, swept
+from stackbounce.engine import codes, pair_step, two_springs
+from stackbounce.engine.elementary import swift_power
+from stackbounce.engine.memory import FINITE, lane_workspace
+from stackbounce.engine.pairs import run_pairs
+from stackbounce.engine.records import SCRATCH, Drops
+from stackbounce.run.batch import new_outcomes
+from stackbounce.run.engines import choose_lanes
+from stackbounce.run.options import run_options
+from stackbounce.run.paths import number_at
+
+HERTZ = sb.Drop([sb.Ball(0.15), sb.Ball(0.057)], [sb.Hertz(1e6)] * 2, impact_speed=2.0)
+LIMIT = 1_000_000
+
+
+def run(drops, rtol):
+    return in_lanes("run_pairs", drops, rtol)
+
+
+def rows(drops, chosen):
+    return Drops._make(np.ascontiguousarray(array[chosen]) for array in drops)
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9, 1e-12])
+@pytest.mark.parametrize("count", [3000, pytest.param(100_000, marks=pytest.mark.slow)])
+def test_as_the_general_engine(rtol, count):
+    """Counts are right, and errors near the tolerance, but for drops that magnify any error."""
+    drops = pairs(count, seed=int(-math.log10(rtol)), reach=1.5)
+    out, exact = run(drops, rtol), swept(FINITE, drops, (math.inf, 1e-13, LIMIT, 10**12))
+    known = (out.status == codes.FINISHED) & (exact.status == codes.FINISHED)
+    assert known.mean() > (0.7 if rtol == 1e-3 else 0.95)
+    wrong = (out.collisions != exact.collisions)[known].any(axis=1).mean()
+    assert wrong <= (0.0 if rtol < 1e-3 else 2e-3)
+    error = np.abs(out.rebound_ratio - exact.rebound_ratio)[known].max(axis=1)
+    assert np.median(error) < rtol
+    assert np.quantile(error, 0.98) < 10.0 * rtol
+    for name in ("first_touch", "last_release"):
+        time, right = getattr(out, name)[known], getattr(exact, name)[known]
+        assert np.array_equal(np.isnan(time), np.isnan(right))
+        some = right > 0.0
+        late = np.abs(time[some] / right[some] - 1.0)
+        assert np.quantile(late, 0.9) < 20.0 * rtol
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-8, 1e-12])
+def test_energy_is_kept(rtol):
+    drops = pairs(2000, seed=4, reach=2.0)
+    drops = drops._replace(form=np.full_like(drops.form, codes.POWER))
+    out = run(drops, rtol)
+    known = out.status == codes.FINISHED
+    assert known.mean() > 0.8
+    error = np.abs(out.energy_retained - 1.0)[known]
+    assert np.median(error) < 2.0 * rtol
+    assert np.quantile(error, 0.98) < 20.0 * rtol
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-8, 1e-12])
+def test_separate_collisions_have_a_closed_form(rtol):
+    """The gap is so wide that the upper ball meets the lower one after its bounce."""
+    drops = pairs(500, seed=5, reach=1.0)
+    gap = np.column_stack([np.zeros(500), np.full(500, 1e3)])
+    one = np.ones((500, 2))
+    drops = drops._replace(form=np.full_like(drops.form, codes.POWER), gap=gap, second=1.5 * one)
+    out = run(drops, rtol)
+    lower, upper, speed = *drops.mass.T, -drops.velocity[:, 0]
+    known = (out.status == codes.FINISHED) & (3.0 * upper > lower) & (out.collisions[:, 1] == 1)
+    final = np.column_stack([lower - 3.0 * upper, 3.0 * lower - upper])
+    final *= (speed / (lower + upper))[:, None]
+    twice = out.collisions[:, 0] == 2
+    final[twice, 0] *= -1.0
+    assert known.sum() > 100
+    error = (np.abs(out.velocity - final) / speed[:, None])[known]
+    assert error.max() < 2.0 * rtol
+    # Hertz: R. Cross, Am. J. Phys. 67, 222 (1999); from m v'' = -k x^1.5
+    root = (lower**2 / (drops.first[:, 0] ** 2 * speed)) ** 0.2
+    contact_time = 2.0 * 1.25**0.4 * root * math.sqrt(math.pi)
+    contact_time *= math.gamma(1.4) / math.gamma(0.9)
+    once = known & ~twice
+    assert out.last_release[once, 0] == pytest.approx(contact_time[once], rel=10.0 * rtol)
+
+
+def test_a_drop_does_not_depend_on_the_others():
+    drops = pairs(700, seed=6)
+    whole = run(drops, 1e-6)
+    chosen = np.random.default_rng(1).permutation(700)
+    mixed = run(rows(drops, chosen), 1e-6)
+    alone = run(rows(drops, slice(13, 14)), 1e-6)
+    done = whole.status == codes.FINISHED
+    assert done[13]
+    for array, other, single in zip(whole, mixed, alone, strict=True):
+        kept = done[chosen]
+        assert bits(array[chosen][kept]) == bits(other[kept])
+        assert bits(array[13:14]) == bits(single)
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-9])
+def test_plain_python_and_compiled_code(rtol):
+    drops = pairs(40, seed=7, reach=1.0)
+    out, compiled = new_outcomes(40, 2), run(drops, rtol)
+    with np.errstate(all="ignore"):
+        run_pairs(drops, rtol, out, lane_workspace(compiled=False))
+    done = out.status == codes.FINISHED
+    assert done.sum() > 25
+    assert bits(out.status) == bits(compiled.status)
+    for array, other in zip(out, compiled, strict=True):
+        assert bits(array[done]) == bits(other[done])
+
+
+@pytest.mark.parametrize("scale", [1e-300, 1e-150, 1e150, 1e300])
+@pytest.mark.parametrize("name", ["mass", "first", "velocity"])
+def test_extremes_are_right_or_left_to_the_general_engine(name, scale):
+    drops = pairs(60, seed=8, reach=1.0)
+    drops = drops._replace(**{name: getattr(drops, name) * scale})
+    out = run(drops, 1e-6)
+    done = out.status == codes.FINISHED
+    assert np.isin(out.status, [codes.FINISHED, codes.ASK]).all()
+    assert np.isfinite(out.rebound_ratio[done]).all()
+    retained = out.energy_retained[done & (drops.form == codes.POWER).all(axis=1)]
+    assert retained == pytest.approx(1.0, abs=1e-4)
+
+
+def test_both_engines_in_lanes_have_room():
+    assert max(pair_step.SLOTS, two_springs.SLOTS) <= SCRATCH
+
+
+@pytest.mark.parametrize(
+    ("changes", "options", "varied", "lanes"),
+    [
+        ({}, {}, [], "run_pairs"),
+        ({"contacts": [sb.Spring(1e4)] * 2}, {}, [], "run_two_springs"),
+        ({"contacts": [sb.Spring(1e4), sb.Dashpot(1e4, 1.0)]}, {}, ["gaps.0"], "run_pairs"),
+        ({"contacts": [sb.PowerLaw(1e4, 1.0)] * 2}, {}, ["contacts.0.exponent"], "run_pairs"),
+        ({"contacts": [sb.Hertz(1e6), sb.Hysteretic(1e4, unloading_exponent=2.0)]}, {}, [], None),
+        ({"contacts": [None, sb.Hertz(1e6)], "velocities": [1.0, -1.0]}, {}, [], None),
+        ({"gravity": 9.8}, {}, [], None),
+        ({}, {"until": 1.0}, [], None),
+        ({}, {"rtol": 1e-14}, [], None),
+        ({}, {"event_limit": 100}, [], None),
+        ({"velocities": [-2.0, -2.0]}, {}, ["velocities.1"], None),
+    ],
+)
+def test_which_sweeps_run_in_lanes(changes, options, varied, lanes):
+    if "velocities" in changes:
+        changes = changes | {"impact_speed": None}
+    drop = HERTZ.replace(**changes)
+    numbers = [number_at(drop, path) for path in varied]
+    chosen = run_options(
+        drop, *({"until": None, "rtol": 1e-9, "event_limit": LIMIT} | options).values()
+    )
+    assert choose_lanes(drop, numbers, chosen) == lanes
+
+
+def test_a_swift_power():
+    random = np.random.default_rng(2)
+    for x, y in zip(
+        10.0 ** random.uniform(-12, 3, 500), random.uniform(0.01, 4.0, 500), strict=True
+    ):
+        bound = 3e-16 * (2.0 + abs(y * math.log(x)))
+        assert swift_power(x, y) == pytest.approx(x**y, rel=bound)
+    assert swift_power(0.0, 2.0) < 1e-300
