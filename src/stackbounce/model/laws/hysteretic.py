@@ -14,7 +14,6 @@ from stackbounce.model.laws.law import (
     ContactLaw,
     EngineNumbers,
     Flank,
-    Flanks,
     Given,
     Quantity,
     stiffness_in,
@@ -157,7 +156,7 @@ class Hysteretic(ContactLaw):
         return cls(k, exponent=p, restitution=e)
 
     @classmethod
-    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
+    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> tuple[Flank, Flank]:
         """Return the flanks: the exponent of the release is at least that of the touch."""
         touch = Flank(exponent or 1.0, exponent or 1.5, exact=True)
         if law is None:

@@ -6,17 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from numbers import Real
 from types import MappingProxyType
-from typing import (
-    TYPE_CHECKING,
-    Any,
-    ClassVar,
-    Literal,
-    NamedTuple,
-    Self,
-    TypeAlias,
-    TypeVar,
-    get_type_hints,
-)
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, TypeVar, get_type_hints
 
 from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, between, positive
@@ -28,10 +18,10 @@ from stackbounce.units import WORDS, Unit, in_unit, unit_of
 STEEPEST = 1e6
 """The largest exponent of a loading or unloading curve; above it the curve is almost a step."""
 
-Given: TypeAlias = Mapping[str, float]
+Given = Mapping[str, float]
 """The measured quantities of a collision, by the names of the arguments of `calibrate`."""
 
-EngineNumbers: TypeAlias = tuple[int, Any, Any, Any, Any]
+EngineNumbers = tuple[int, Any, Any, Any, Any]
 """A contact as the engine takes it, see `stackbounce.engine.forces`."""
 
 _MEASURED = ("mass", "impact_speed", "contact_time", "exponent")
@@ -117,10 +107,6 @@ class Flank(NamedTuple):
     exact: bool = False
 
 
-Flanks: TypeAlias = tuple[Flank, Flank]
-"""The flanks at the touch and at the release."""
-
-
 _Law = TypeVar("_Law", bound="ContactLaw")
 
 
@@ -168,6 +154,8 @@ class ContactLaw(Shown):
     Rigid laws are there in any case.
     """
 
+    usual_flanks: ClassVar[tuple[Flank, Flank] | None] = None
+    """The shapes of the flanks of a force record, at touch and release, if always these."""
     page_code: ClassVar[Mapping[str, str]] = {}
     """What the page cannot do by default, in JavaScript: ``numbers``, those of the engine after the
     form as `engine_numbers` gives them; ``others``, the fields that `calibrated` derives from what
@@ -406,7 +394,9 @@ class ContactLaw(Shown):
     # force records
 
     @classmethod
-    def flanks(cls, exponent: float | None, law: "ContactLaw | None" = None) -> Flanks | None:
+    def flanks(
+        cls, exponent: float | None, law: "ContactLaw | None" = None
+    ) -> tuple[Flank, Flank] | None:
         """Return the possible shapes of the flanks of a force record; None if nothing is known.
 
         Parameters
@@ -416,7 +406,7 @@ class ContactLaw(Shown):
         law : ContactLaw, optional
             The law with its parameters, if they are known.
         """
-        return None
+        return cls.usual_flanks
 
     # two contacts in series
 

@@ -3,12 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from stackbounce.errors import InvalidValue
+from stackbounce.library_types import Dataset
 from stackbounce.measure.kinds.waveform.baseline import first_guess, quiet_parts
 from stackbounce.measure.kinds.waveform.contact import Seen, measure_contact
 from stackbounce.measure.kinds.waveform.hum import regression
@@ -29,9 +30,6 @@ from stackbounce.measure.quantities import Array, Mask, known_to, measured_if_gi
 from stackbounce.measure.samples import runs
 from stackbounce.model.laws import ContactLaw
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
 _HIGH = 0.25  # of the largest value, below which only hum and noise are sought at first
 _SMOOTHED = 1e-4  # s of averages, so that noise does not break high parts into short ones
@@ -48,7 +46,7 @@ _CLEARLY_STEEP = 3.0  # standard errors by which it is below 1
 
 
 def waveform(
-    data: "xr.Dataset | Sequence[ArrayLike]",
+    data: Dataset | Sequence[ArrayLike],
     *,
     mass: Any = None,
     impact_speed: Any = None,
