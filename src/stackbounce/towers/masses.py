@@ -85,7 +85,7 @@ def _varied(drops: Sequence[Drop]) -> dict[str, NDArray[np.float64]]:
             continue
         parts = [getattr(drop, number.part)[number.index] for drop in drops]
         first = parts[0]
-        if isinstance(first, ContactLaw) and number.field == first.derived_field():
+        if isinstance(first, ContactLaw) and number.field == first.derived:
             continue
         if getattr(first, number.field) is None:
             continue  # a ball's size or material, which does not affect a run

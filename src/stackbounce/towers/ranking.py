@@ -8,16 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import (
-    InvalidType,
-    InvalidValue,
-    listed,
-    non_negative,
-    placed,
-    positive,
-    shown,
-    whole,
-)
+from stackbounce.errors import InvalidType, InvalidValue, listed, non_negative, placed, shown, whole
 from stackbounce.library_types import Dataset
 from stackbounce.model import STANDARD_GRAVITY, Ball, ContactLaw, Drop, Hysteretic
 from stackbounce.model.catalogue import BALLS, catalogue_ball
@@ -134,12 +125,11 @@ def highest(
     """
     if isinstance(balls, Drop):
         names = tuple(ball.name or f"ball {i}" for i, ball in enumerate(balls.balls))
-        stacks, speed = [_Stack(names, balls)], balls.reference_speed
+        stacks = [_Stack(names, balls)]
         widths = None if gaps is None else _checked_gaps(gaps)
     else:
-        speed = math.sqrt(2.0 * STANDARD_GRAVITY * _HEIGHT)
-        if impact_speed is not None:
-            speed = checked(positive, "impact_speed", impact_speed, "m/s")
+        fallen = math.sqrt(2.0 * STANDARD_GRAVITY * _HEIGHT)
+        speed = fallen if impact_speed is None else impact_speed
         chosen = _list_candidates(balls, law, speed)
         widths = _checked_gaps(_GAPS if gaps is None else gaps)
         size = (3 if repeat else min(3, len(chosen))) if count is None else count
@@ -147,7 +137,7 @@ def highest(
     ds = _solved(stacks, widths)
     best = stacks[_order(ds)[0, 0]].drop
     best = best if widths is None else replace_gaps(best, None, widths[0])
-    attrs: dict[str, Any] = {"stackbounce": __version__, "impact_speed": speed}
+    attrs: dict[str, Any] = {"stackbounce": __version__, "impact_speed": best.reference_speed}
     if masses is not False:
         names, means = stacks[_order(ds)[0, 0]].names, geometric_means(best)
         within = None if masses is True else masses

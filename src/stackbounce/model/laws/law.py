@@ -142,10 +142,16 @@ class ContactLaw(Shown):
     """Whether the force depends on the compression and its history alone, not on its rate."""
     loss: ClassVar[str] = ""
     """The field that describes the energy loss; empty for a lossless law."""
+    loss_fields: ClassVar[tuple[str, ...]] = ()
+    """The fields of which any one can set the energy loss, where there are more than `loss`."""
+    derived: str = ""
+    """The name of the field that is computed from another one; empty for most laws."""
     loss_depends_on: ClassVar[tuple[str, ...]] = ()
     """What the restitution depends on besides the law: ``mass``, ``impact_speed``."""
     least_restitution: ClassVar[float] = 0.0
     """The smallest restitution that `calibrate` can give the law if no more is known of it."""
+    needs: ClassVar[tuple[str, ...] | None] = None
+    """The arguments that `calibrate` needs, where they do not follow from loss and exponent."""
     usual_exponent: ClassVar[float | None] = None
     """The default exponent in `calibrate`, for a law with a free exponent."""
     usual_models: ClassVar[Mapping[str, Mapping[str, float]]] = {}
@@ -166,7 +172,7 @@ class ContactLaw(Shown):
         def __getattr__(self, name: str) -> Any: ...
 
     def __repr__(self) -> str:
-        return call_of(self, self.derived_field())
+        return call_of(self, self.derived)
 
     def __post_init__(self) -> None:
         for name, number in self.quantities().items():
@@ -209,15 +215,6 @@ class ContactLaw(Shown):
         power = "" if exponent == 1.0 else f"**{exponent:g}"
         found = self.quantities().items()
         return {name: one.symbol.replace("**exponent", power) for name, one in found}
-
-    @classmethod
-    def loss_fields(cls) -> tuple[str, ...]:
-        """Return the fields of which any one can set the energy loss; none for a lossless law."""
-        return (cls.loss,) if cls.loss else ()
-
-    def derived_field(self) -> str:
-        """Return the name of the field that is computed from another one; empty for most laws."""
-        return ""
 
     def replaced(self, changes: Mapping[str, Any]) -> Self:
         """Return a copy of the law with changed fields; a derived field is computed again."""
@@ -344,6 +341,8 @@ class ContactLaw(Shown):
     @classmethod
     def calibration_needs(cls, exponent: float | None = None) -> list[str]:
         """Return the names of the arguments that `calibrate` needs for this law."""
+        if cls.needs is not None:
+            return list(cls.needs)
         usual = cls.default_exponent()
         p = usual if exponent is None else exponent
         loss = ["restitution"] if cls.loss else []

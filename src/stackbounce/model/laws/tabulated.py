@@ -92,6 +92,7 @@ class Tabulated(ContactLaw):
     rate_free = True
     loss = "restitution"
     loss_depends_on = ("mass", "impact_speed")
+    needs = ()  # `calibrated` says what makes a table
     usual_flanks = Flank(1.0, _STEEPEST_FLANK), Flank(1.0, _STEEPEST_FLANK)
 
     exponent: ClassVar[float] = 1.0
@@ -169,11 +170,6 @@ class Tabulated(ContactLaw):
     def contact_time_at(self, mass: float, speed: float) -> float:
         """Return the contact time in s of a mass in kg at a speed in m/s, by a simulation."""
         return self._bounce(mass, speed)[1]
-
-    @classmethod
-    def calibration_needs(cls, exponent: float | None = None) -> list[str]:
-        """Return no names: `calibrated` says what makes a table."""
-        return []
 
     @classmethod
     def calibrated(cls, given: Given) -> Self:

@@ -34,9 +34,7 @@ _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count 
 _HIGH = 0.25  # of the largest value, below which only hum and noise are sought at first
 _SMOOTHED = 1e-4  # s of averages, so that noise does not break high parts into short ones
 _MANY_EQUAL, _EQUAL = 5, 0.02  # pulses, and the share by which their peaks differ at most
-_FULL = (
-    0.8  # of peak times duration: the impulse of a square pulse with slow edges; a sine has 0.64
-)
+_FULL = 0.8  # of peak times duration: the impulse of a square pulse of slow edges; a sine has 0.64
 _ROUNDS = 4  # of finding baseline and contacts by each other; later ones change nothing
 _MOST_CONTACTS = 120  # of a record of bounces
 _FEW_SAMPLES = 6  # of a contact, below which a note says so
