@@ -65,7 +65,7 @@ def _describe_law(kind: type[ContactLaw]) -> dict[str, Any]:
         **{name: getattr(kind, name) for name in _TOLD},
         "fields": [_describe_number(kind, name) for name in kind.quantities()],
         "parameters": (kind.third_number, kind.fourth_number),
-        "loss_fields": list(kind.loss_fields()),
+        "loss_fields": list(kind.loss_fields or filter(None, [kind.loss])),
         "constant_loss": not kind.loss_depends_on,
         "exponent": kind.fixed_exponent(),
         "usual_exponent": kind.default_exponent(),

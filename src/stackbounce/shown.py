@@ -6,8 +6,7 @@ from html import escape
 from textwrap import fill, wrap
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-if TYPE_CHECKING:
-    import pandas as pd
+from stackbounce.library_types import DataFrame
 
 _WIDE = 80  # characters of a line
 _NARROW = 20  # characters of a column of words, at least
@@ -138,7 +137,7 @@ def call_of(value: Any, derived: str = "") -> str:
     return f"{type(value).__name__}({', '.join(said)})"
 
 
-def table_of(frame: "pd.DataFrame") -> Table:
+def table_of(frame: DataFrame) -> Table:
     """Return a table of pandas, each number with four digits.
 
     Examples

@@ -5,10 +5,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from stackbounce.cli.output import console, print_json
+from stackbounce.library_types import Console
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from stackbounce.model.catalogue import CatalogueBall
 
 
@@ -20,7 +19,7 @@ def run(as_json: bool) -> None:
         print_catalogue(console())
 
 
-def print_catalogue(console: "Console") -> None:
+def print_catalogue(console: Console) -> None:
     """Print the catalogue: balls, pairs, and where each figure comes from."""
     from stackbounce.cli.tables import new_table, number
     from stackbounce.model.catalogue import BALLS, CLASS_BALLS, PAIRS
@@ -36,7 +35,7 @@ def print_catalogue(console: "Console") -> None:
     _print_balls(console, "Balls a class owns, with their losses", CLASS_BALLS)
 
 
-def _print_balls(console: "Console", title: str, entries: "Sequence[CatalogueBall]") -> None:
+def _print_balls(console: Console, title: str, entries: "Sequence[CatalogueBall]") -> None:
     from stackbounce.cli.tables import new_table, number
 
     figures = {

@@ -5,10 +5,9 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from stackbounce.cli.output import console, print_json
+from stackbounce.library_types import Console
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from stackbounce.datasets import Column, Description
 
 _FACTS = ("measured", "ball", "surface", "mass", "diameter", "source", "doi", "address", "seen")
@@ -29,7 +28,7 @@ def run(name: str, as_json: bool) -> None:
         _print_list(console(), found)
 
 
-def _print_list(console: "Console", found: "Sequence[Description]") -> None:
+def _print_list(console: Console, found: "Sequence[Description]") -> None:
     from stackbounce.cli.tables import new_table
 
     table = new_table("Published measurements", ["name", "title", "read"], ["rows"])
@@ -40,7 +39,7 @@ def _print_list(console: "Console", found: "Sequence[Description]") -> None:
     console.print("\nNow: stackbounce datasets NAME")
 
 
-def _print_dataset(console: "Console", about: "Description") -> None:
+def _print_dataset(console: Console, about: "Description") -> None:
     from stackbounce.cli.tables import new_table
 
     words = [column for column in about.columns if column.unit == "text"]

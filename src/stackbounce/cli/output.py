@@ -5,16 +5,14 @@ import functools
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import typer
 
 from stackbounce.errors import FileError, InvalidValue, counted
 from stackbounce.extras import need
 from stackbounce.files import check_own, check_place, write_file
-
-if TYPE_CHECKING:
-    from rich.console import Console
+from stackbounce.library_types import Console
 
 SUFFIXES = (".svg", ".png", ".pdf")
 """The kinds of picture."""
@@ -86,7 +84,7 @@ def draw_picture(path: Path | None, overwrite: bool, kind: str, *what: Any, **op
         write_file(path, render(draw, path.suffix.lower().removeprefix(".")), overwrite)
 
 
-def console() -> "Console":
+def console() -> Console:
     """Return the console for tables: as wide as the terminal, at most 100 columns."""
     from rich.console import Console
 

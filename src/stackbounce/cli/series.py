@@ -11,12 +11,11 @@ import typer
 from stackbounce.cli import output
 from stackbounce.cli.tables import table_of
 from stackbounce.errors import FileError, InvalidValue, StackbounceError, a_or_an
+from stackbounce.library_types import Console
 from stackbounce.model.laws import LAWS
 from stackbounce.units import quantity
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from stackbounce.fitting.series import SeriesFit, StackTable
 
 PREFIX = "dataset:"
@@ -114,7 +113,7 @@ def _held(file: str) -> str:
     return "" if held == "table" else held
 
 
-def _print(console: "Console", done: "SeriesFit", *, compared: bool) -> None:
+def _print(console: Console, done: "SeriesFit", *, compared: bool) -> None:
     """Print the laws of each ball, what follows, and what was assumed."""
     for found in done.comparisons:
         speeds = f"from {found.series.speeds.min():.3g} to {found.series.speeds.max():.3g} m/s"

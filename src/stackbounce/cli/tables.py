@@ -2,13 +2,12 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rich import box
 from rich.table import Table
 
-if TYPE_CHECKING:
-    import pandas as pd
+from stackbounce.library_types import DataFrame
 
 
 def new_table(title: str | None, texts: Iterable[str], numbers: Iterable[str] = ()) -> Table:
@@ -78,7 +77,7 @@ def with_error(value: Any) -> str:
     return f"{value:.2uS}" if value.std_dev > 0.0 else number(value.nominal_value)
 
 
-def table_of(frame: "pd.DataFrame", title: str | None = None) -> Table:
+def table_of(frame: DataFrame, title: str | None = None) -> Table:
     """Return a table of pandas, each number with four digits."""
     headings = [str(name).replace("_", "\n") for name in frame.columns]
     table = new_table(title, [str(frame.index.name or "").capitalize()], headings)

@@ -21,16 +21,13 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from functools import lru_cache
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from stackbounce.files import shipped, shipped_table
+from stackbounce.library_types import Dataset, UFloat
 from stackbounce.model.drop import Drop
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from uncertainties import UFloat
 
 
 @dataclass(frozen=True)
@@ -130,7 +127,7 @@ class Bench:
         self.data = data
         self.read: list[str] = []
         self.drops: list[Drop] = []
-        self.curves: list[xr.Dataset] = []
+        self.curves: list[Dataset] = []
 
     def __call__(self, key: str) -> float:
         """Return a number of the paper in SI units."""
@@ -138,7 +135,7 @@ class Bench:
             self.read.append(key)
         return self.data[key].value
 
-    def measured(self, key: str) -> "UFloat":
+    def measured(self, key: str) -> UFloat:
         """Return a number of the paper with its error, in SI units."""
         from uncertainties import ufloat
 

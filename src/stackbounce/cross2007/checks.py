@@ -23,6 +23,8 @@ DIFFERS = "differs"
 SCALES = {"": 1.0, "%": 1e-2, "ms": 1e-3, "mm": 1e-3, "m": 1.0, "m/s": 1.0, "J": 1.0, "N/m": 1.0}
 """The size of an audit unit in SI units."""
 
+_OF_CLAIM = ("id", "where", "what", "printed", "digits", "unit", "reason")
+
 Compute = Callable[[Bench], Any]
 """Computes a number, of Python or of a numpy array."""
 
@@ -93,18 +95,12 @@ def run_check(claim: Claim, compute: Compute, readings: Sequence[Compute], data:
     """
     computed, error, verdict, bench = _compared(claim, claim.digits, compute, data)
     return Row(
-        id=claim.id,
-        where=claim.where,
-        what=claim.what,
-        printed=claim.printed,
-        digits=claim.digits,
+        **{name: getattr(claim, name) for name in _OF_CLAIM},
         number=float(claim.digits),
-        unit=claim.unit,
         computed=computed,
         tolerance=_tolerance(claim, claim.digits),
         error=error,
         verdict=verdict,
-        reason=claim.reason,
         attempts=tuple(
             _attempt(claim, reading, other, data)
             for reading, other in zip(claim.readings, readings, strict=True)

@@ -1,6 +1,6 @@
 """Figures 2, 4, 5 and 6: both models of two balls, and the curves of them as arrays."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -9,11 +9,9 @@ from stackbounce.cross2007.cases import AFTER_FIRST, AFTER_SECOND, STIFFNESS, pa
 from stackbounce.cross2007.drops import Array, after_meeting, rigid_pair, spring_pair
 from stackbounce.cross2007.stacks import figure_5
 from stackbounce.cross2007.style import BLACK, FLOOR, GREY, UPPER, Picture, describe, make_axes, tag
+from stackbounce.library_types import Axes
 from stackbounce.model.drop import Drop
 from stackbounce.run.result import Result
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 _POINTS = 241
 
@@ -162,7 +160,7 @@ def draw_figure_6(bench: Bench) -> Picture:
     return describe("6", figure, upper=bench.curves[-1]["rebound_ratio"].values[0, 1, -1])
 
 
-def _draw_separate(bench: Bench, ax: "Axes", ratios: Array, count: int) -> tuple[Array, Array]:
+def _draw_separate(bench: Bench, ax: Axes, ratios: Array, count: int) -> tuple[Array, Array]:
     """Draw and return the velocities after the balls' `count`-th collision, for both e."""
     lossless = after_collision(bench, ratios, bench("models.lossless"), count)
     lossy = after_collision(bench, ratios, bench("models.restitution"), count)
@@ -171,7 +169,7 @@ def _draw_separate(bench: Bench, ax: "Axes", ratios: Array, count: int) -> tuple
     return lossless, lossy
 
 
-def _two_curves(ax: "Axes", ratios: Array, pair: Array, style: str) -> None:
+def _two_curves(ax: Axes, ratios: Array, pair: Array, style: str) -> None:
     ax.plot(ratios, pair[0], style, color=FLOOR)
     ax.plot(ratios, pair[1], style, color=UPPER)
     ax.axhline(0.0, color=GREY, lw=0.6, zorder=0)

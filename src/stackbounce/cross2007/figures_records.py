@@ -1,7 +1,6 @@
 """Figures 7 to 13: the basketball with a tennis ball, pairs of superballs, and their forces."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,13 +20,10 @@ from stackbounce.cross2007.style import (
     make_axes,
     note,
 )
+from stackbounce.library_types import Axes, Figure
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import HollowBall, Spring
 from stackbounce.run.result import Result
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _LABELS = ("floor (P1)", "between the balls (P2)")
 _TIMES = np.linspace(0.0, 0.040, 401)  # s
@@ -35,7 +31,7 @@ _POINTS = 401
 
 
 def draw_two_panels(
-    bench: Bench, panels: "list[Axes]", drop: Drop, times: Array, *, dashed: bool = False
+    bench: Bench, panels: list[Axes], drop: Drop, times: Array, *, dashed: bool = False
 ) -> Result:
     """Draw both forces of a drop in two panels, the floor's above; return the drop's result."""
     curves, result = sample_forces(bench, drop, times)
@@ -50,7 +46,7 @@ def draw_two_panels(
 
 
 def draw_one_panel(
-    bench: Bench, ax: "Axes", drop: Drop, times: Array, labels: tuple[float, float]
+    bench: Bench, ax: Axes, drop: Drop, times: Array, labels: tuple[float, float]
 ) -> Result:
     """Draw both forces of a drop in one panel, labelled at two times in ms; return its result."""
     (floor, between), result = sample_forces(bench, drop, times)
@@ -66,7 +62,7 @@ def draw_one_panel(
     return result
 
 
-def number_contacts(panels: "list[Axes]", result: Result) -> None:
+def number_contacts(panels: list[Axes], result: Result) -> None:
     """Number the contact intervals of both contacts in order of time, above their peaks."""
     for number, row in enumerate(result.intervals, start=1):
         ax = panels[int(row["contact"])]
@@ -145,7 +141,7 @@ def draw_figure_8_hollow(bench: Bench) -> Picture:
 
 
 def _draw_record(
-    bench: Bench, panels: "list[Axes]", record: Callable[[Bench, float], Drop]
+    bench: Bench, panels: list[Axes], record: Callable[[Bench, float], Drop]
 ) -> tuple[Result, Result]:
     """Draw the drop of Fig. 8 with the balls touching and apart, and what the text reports of it.
 
@@ -271,7 +267,7 @@ def draw_figure_13(bench: Bench) -> Picture:
 
 def _draw_pair(
     bench: Bench, drop: Drop, end: float, delay: str = "superballs.delay", points: int = _POINTS
-) -> "tuple[Figure, list[Axes], Result]":
+) -> tuple[Figure, list[Axes], Result]:
     """Draw the forces of a drop in two panels, up to `end` s, with the measured delay."""
     figure, panels = make_axes(4.2, 2)
     result = draw_two_panels(bench, panels, drop, np.linspace(0.0, end, points))
@@ -280,12 +276,12 @@ def _draw_pair(
     return figure, panels, result
 
 
-def _mark_duration(bench: Bench, ax: "Axes", key: str) -> None:
+def _mark_duration(bench: Bench, ax: Axes, key: str) -> None:
     duration = 1e3 * bench(key)
     bracket(ax, duration, f"measured: impact lasts {duration:.1f} ms")
 
 
-def _contact(ax: "Axes", result: Result, times: Array) -> None:
+def _contact(ax: Axes, result: Result, times: Array) -> None:
     """Draw whether two balls touch, as the paper's copper strips show it."""
     closed = np.zeros_like(times)
     for row in result.intervals[result.intervals["contact"] == 1]:

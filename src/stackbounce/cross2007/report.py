@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.cross2007 import (
     checks_basketball,
@@ -25,11 +25,9 @@ from stackbounce.cross2007.tables import Table, make_table_one, make_table_two
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.extras import MEASURING, need
 from stackbounce.files import prepare_folder, write_folder
+from stackbounce.library_types import DataFrame
 from stackbounce.shown import Shown
 from stackbounce.version import __version__
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 _MODULES = (checks_models, checks_basketball, tables, checks_superballs, checks_fits)
 COMPUTED = {name: compute for module in _MODULES for name, compute in module.COMPUTED.items()}
@@ -75,7 +73,7 @@ class Audit(Shown):
         return {verdict: verdicts.count(verdict) for verdict in (AGREES, WITHIN_ERROR, DIFFERS)}
 
     @property
-    def table(self) -> "pd.DataFrame":
+    def table(self) -> DataFrame:
         """All rows by name, with the library calls and the inputs of each."""
         import pandas as pd
 
@@ -101,7 +99,7 @@ class Audit(Shown):
         return f"{len(self.rows)} numbers of the paper: {counts}"
 
     @property
-    def _differing(self) -> "pd.DataFrame":
+    def _differing(self) -> DataFrame:
         rows = self.table.query("verdict == @DIFFERS").set_index("what")
         return rows[["printed", "computed", "unit", "reason"]]
 

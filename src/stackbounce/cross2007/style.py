@@ -11,22 +11,16 @@ from dataclasses import dataclass
 from functools import cache
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.cross2007.bench import CLAIMS, Bench
 from stackbounce.cross2007.checks import SCALES
+from stackbounce.cross2007.drops import Array
 from stackbounce.cross2007.pages import data_uri
 from stackbounce.files import shipped_table
+from stackbounce.library_types import Axes, DataFrame, Dataset, Figure
 from stackbounce.shown import Shown
 from stackbounce.version import __version__
-
-if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from stackbounce.cross2007.drops import Array
 
 BLACK = "#000000"
 FLOOR = "#0072B2"
@@ -58,11 +52,11 @@ class Picture(Shown):
     caption: str
     guesses: tuple[str, ...]
     features: tuple[dict[str, str], ...]
-    picture: "Figure"
+    picture: Figure
     data: Any = None
 
     @property
-    def table(self) -> "pd.DataFrame":
+    def table(self) -> DataFrame:
         """The features that the paper's text reports, as it has them and as computed here."""
         import pandas as pd
 
@@ -85,7 +79,7 @@ class Picture(Shown):
         return f"{image}<p><b>{title}.</b> {escape(self.caption)}</p>"
 
 
-def describe(name: str, figure: "Figure", **numbers: object) -> Picture:
+def describe(name: str, figure: Figure, **numbers: object) -> Picture:
     """Return a figure with its words from ``figures.toml``, in which the numbers are filled in."""
     words = read_words()[name]
     return Picture(
@@ -101,7 +95,7 @@ def describe(name: str, figure: "Figure", **numbers: object) -> Picture:
     )
 
 
-def data_of(bench: Bench, name: str) -> "xr.Dataset":
+def data_of(bench: Bench, name: str) -> Dataset:
     """Return the curves that the bench has recorded of a figure, and the points of the text."""
     import xarray as xr
 
@@ -147,7 +141,7 @@ def make_axes(
     *,
     right: float = 0.14,
     ratios: tuple[float, ...] | None = None,
-) -> tuple["Figure", list["Axes"]]:
+) -> tuple[Figure, list[Axes]]:
     """Return an empty figure of journal width with stacked axes that share the horizontal axis.
 
     The margins are fixed, in inches, so that the frames of all figures line up; `ratios` are the
@@ -170,7 +164,7 @@ def make_axes(
     return figure, panels
 
 
-def bracket(ax: "Axes", end: float, text: str) -> None:
+def bracket(ax: Axes, end: float, text: str) -> None:
     """Mark an interval from 0 that the paper reports above the curves, with a text."""
     place = ax.get_xaxis_transform()
     ends: Any = {"arrowstyle": "|-|,widthA=0.25,widthB=0.25", "shrinkA": 0.0, "shrinkB": 0.0}
@@ -181,19 +175,19 @@ def bracket(ax: "Axes", end: float, text: str) -> None:
 
 
 def beside(
-    ax: "Axes", text: str, xy: tuple[float, float], by: tuple[float, float], **look: Any
+    ax: Axes, text: str, xy: tuple[float, float], by: tuple[float, float], **look: Any
 ) -> None:
     """Write a text beside a point, moved by some points of type."""
     ax.annotate(text, xy, by, textcoords="offset points", **look)
 
 
-def note(ax: "Axes", text: str) -> None:
+def note(ax: Axes, text: str) -> None:
     """Write a remark at the right edge of the axes, below their label."""
     ax.text(0.98, 0.6, text, transform=ax.transAxes, ha="right", va="top", color=GREY, fontsize=9)
 
 
 def tag(
-    ax: "Axes", xs: "Array", ys: "Array", at: float, text: str, color: str, *, above: bool = True
+    ax: Axes, xs: Array, ys: Array, at: float, text: str, color: str, *, above: bool = True
 ) -> None:
     """Label a curve above or below its point at x = `at`."""
     import numpy as np
@@ -203,7 +197,7 @@ def tag(
     beside(ax, text, point, (0, by), ha="center", va=side, color=color)
 
 
-def render(figure: "Figure", *endings: str) -> dict[str, bytes]:
+def render(figure: Figure, *endings: str) -> dict[str, bytes]:
     """Return a figure as bytes of an SVG and a PNG file; equal figures give equal bytes."""
     images = {}
     with use_style():

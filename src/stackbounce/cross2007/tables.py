@@ -6,18 +6,14 @@ The paper's errors are propagated by `uncertainties`.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import pi, sqrt
-from typing import TYPE_CHECKING
 
 from stackbounce import shown
 from stackbounce.cross2007.bench import CLAIMS, Bench
 from stackbounce.cross2007.checks import Compute
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.cross2007.stacks import heavier_b1, hollow_pair
+from stackbounce.library_types import DataFrame, UFloat
 from stackbounce.measure.constants import dynamic_stiffness
-
-if TYPE_CHECKING:
-    import pandas as pd
-    from uncertainties import UFloat
 
 PAIRS = ("B2_on_B1", "B1_on_B2", "B3_on_B1", "B1_on_B3", "B1_on_B1", "tennis_on_basketball")
 """Table II's rows, by upper and lower ball."""
@@ -111,7 +107,7 @@ class Table(shown.Shown):
     notes: tuple[str, ...]
 
     @property
-    def table(self) -> "pd.DataFrame":
+    def table(self) -> DataFrame:
         """The rows, by their first cell."""
         import pandas as pd
 
@@ -207,5 +203,5 @@ def _as_table(name: str, title: str, rows: list[dict[str, str]], notes: tuple[st
     return Table(name, title, tuple(rows[0]), cells, notes)
 
 
-def _text(value: "UFloat") -> str:
+def _text(value: UFloat) -> str:
     return f"{value:P}"

@@ -4,13 +4,11 @@ import functools
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.library_types import Dataset
 from stackbounce.units import in_si, quantity
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 TEXT = "text"
 """The unit of a column of words."""
@@ -161,7 +159,7 @@ def describe(name: str) -> Description:
     return known[name]
 
 
-def load(name: str) -> "xr.Dataset":
+def load(name: str) -> Dataset:
     """Return a dataset in SI units.
 
     Parameters

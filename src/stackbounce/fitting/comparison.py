@@ -4,20 +4,17 @@ import functools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fitting.problem import FitProblem, TooFewData
 from stackbounce.fitting.result import Fit
+from stackbounce.library_types import DataArray, DataFrame
 from stackbounce.run.quantities import Array
 from stackbounce.shown import Shown, Table, table_of
 from stackbounce.version import __version__
-
-if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
 
 _ALIKE = 0.01  # errors: models whose best fits differ by less in all data are one
 _DIGITS = 6  # of a criterion, after the point: smaller differences are round-off of the search
@@ -117,7 +114,7 @@ class Comparison(Shown):
         ]
 
     @property
-    def table(self) -> "pd.DataFrame":
+    def table(self) -> DataFrame:
         """The scores, a row for each model."""
         import pandas as pd
 
@@ -141,7 +138,7 @@ class Comparison(Shown):
         return (*same, *(f"Not fitted: {names}: {why}." for why, names in reasons.items()))
 
     @functools.cached_property
-    def pulls(self) -> "xr.DataArray":
+    def pulls(self) -> DataArray:
         """(model, datum) fitted less measured value, in errors."""
         import xarray as xr
 

@@ -4,25 +4,15 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
-from stackbounce.errors import (
-    InvalidValue,
-    ScenarioError,
-    a_or_an,
-    nearest,
-    placed,
-    positive,
-    shown,
-)
+from stackbounce.errors import InvalidValue, ScenarioError, a_or_an, nearest, placed, shown
 from stackbounce.fitting.parameters import Range
 from stackbounce.fitting.problem import FitProblem
+from stackbounce.library_types import DataArray
 from stackbounce.model import Drop
 from stackbounce.model.toml import load_toml
 from stackbounce.units import count_written, quantity
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _DROP = tuple(field.name for field in fields(Drop))
 _OWN = ("measured", "vary", "tie", "drops")
@@ -128,7 +118,7 @@ def convert_measured(name: str, value: object, folder: Path) -> Any:
     return read_force_record(name, value, folder) if name.startswith("force.") else value
 
 
-def read_force_record(name: str, value: object, folder: Path) -> "xr.DataArray":
+def read_force_record(name: str, value: object, folder: Path) -> DataArray:
     """Return the force record of a file, or of a table that has one; see `read_question`."""
     from stackbounce.measure import read
 
@@ -148,8 +138,7 @@ def read_force_record(name: str, value: object, folder: Path) -> "xr.DataArray":
     record = record.sortby("time").sel(time=slice(*ends))
     if "error" in table:
         unit = record.attrs.get("units", "")
-        error = quantity(table["error"], unit, f"{name}.error")
-        record.attrs["error"] = positive(f"{name}.error", error)
+        record.attrs["error"] = quantity(table["error"], unit, f"{name}.error")
     return record
 
 

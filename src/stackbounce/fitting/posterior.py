@@ -10,15 +10,13 @@ import numpy as np
 from stackbounce.errors import InvalidValue, nearest, shown, whole
 from stackbounce.extras import need
 from stackbounce.fitting.objective import Objective
+from stackbounce.library_types import Dataset, UFloat
 from stackbounce.run.options import check_room, seed_of
 from stackbounce.run.paths import identifier
 from stackbounce.run.quantities import Array
 from stackbounce.shown import Shown, Table
 
 if TYPE_CHECKING:
-    import xarray as xr
-    from uncertainties import UFloat
-
     from stackbounce.fitting.result import Fit
 
 _WALKERS = 32  # walkers, at least; also at least four per parameter
@@ -84,7 +82,7 @@ class Posterior(Shown):
         rows = [(name, value, self.units[name]) for name, value in values]
         return (Table(f"Posterior, acceptance {self.acceptance:.2f}", ("", "", "unit"), rows),)
 
-    def __getitem__(self, name: str) -> "UFloat":
+    def __getitem__(self, name: str) -> UFloat:
         """Mean and standard deviation of a parameter."""
         from uncertainties import ufloat
 
@@ -113,7 +111,7 @@ class Posterior(Shown):
             raise InvalidValue(f"{shown(name)} was not varied; {nearest(name, self.names)}")
         return np.asarray(self.chain[:, :, self.names.index(name)].ravel())
 
-    def to_dataset(self) -> "xr.Dataset":
+    def to_dataset(self) -> Dataset:
         """Return the draws (chain, draw) of each parameter in SI units, and `lp`, as ArviZ reads.
 
         The path ``gaps.0`` becomes the name ``gaps_0``.

@@ -4,7 +4,7 @@ import functools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from stackbounce.fitting.objective import Objective, differences
 from stackbounce.fitting.posterior import Posterior
 from stackbounce.fitting.profile import Interval, Profile
 from stackbounce.fitting.residuals import Record, Residual, list_records, list_residuals
+from stackbounce.library_types import DataArray, DataFrame, UFloat
 from stackbounce.model import Drop
 from stackbounce.prediction import Prediction, predict
 from stackbounce.prediction.draws import Progress
@@ -25,11 +26,6 @@ from stackbounce.run.quantities import Array, solve_quantities
 from stackbounce.shown import Shown
 from stackbounce.units import handy, rounded
 from stackbounce.version import __version__
-
-if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
-    from uncertainties import UFloat
 
 _LINEARISED = 60  # evaluations with derivatives for an interval, about
 _EVENTS = 10_000  # limit for one drop of `along`
@@ -62,7 +58,7 @@ class Fit(Shown):
     minima: list[Minimum]
     unsolved: Mapping[str, int] = field(default_factory=dict)
 
-    def __getitem__(self, name: str) -> "UFloat":
+    def __getitem__(self, name: str) -> UFloat:
         """The best value of a parameter with its error, in SI units."""
         return self.values[self._known(name)]
 
@@ -88,7 +84,7 @@ class Fit(Shown):
         return {name: float(array[0]) for name, array in values.items()}
 
     @functools.cached_property
-    def values(self) -> "dict[str, UFloat]":
+    def values(self) -> dict[str, UFloat]:
         """The best value of each parameter with its error, correlated as in `covariance`."""
         from uncertainties import correlated_values
 
@@ -96,7 +92,7 @@ class Fit(Shown):
         return dict(zip(self.names, numbers, strict=True))
 
     @functools.cached_property
-    def covariance(self) -> "xr.DataArray":
+    def covariance(self) -> DataArray:
         """(parameter, other) covariances at the best values, in the products of their units.
 
         What the data hardly determine may lie anywhere between its bounds: in each direction the
@@ -122,7 +118,7 @@ class Fit(Shown):
         return self.objective.linearise(self.x)[1]
 
     @property
-    def correlations(self) -> "xr.DataArray":
+    def correlations(self) -> DataArray:
         """(parameter, other) correlations, from -1 to 1."""
         spread = np.sqrt(np.diag(self.covariance.values))
         with np.errstate(all="ignore"):
@@ -202,7 +198,7 @@ class Fit(Shown):
         return notes.describe_undetermined(self.names, *self.directions)
 
     @property
-    def table(self) -> "pd.DataFrame":
+    def table(self) -> DataFrame:
         """The best values with their errors, in handy units."""
         import pandas as pd
 
@@ -417,7 +413,7 @@ class Fit(Shown):
             raise InvalidValue(f"drop must name one of the drops, got {shown(drop)}; {right}")
         return key
 
-    def _numbers(self, key: str) -> "dict[str, UFloat]":
+    def _numbers(self, key: str) -> dict[str, UFloat]:
         """Return the varied and tied numbers of a drop by path, correlated as in `covariance`."""
         trials = self.objective.neighbours(self.x)
         parameters = np.array(list(self.objective.values(trials).values()))

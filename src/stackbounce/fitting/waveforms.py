@@ -1,18 +1,16 @@
 """Force records as data: the force of a contact over time, in newtons or on an unknown scale."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, placed, positive, shown, unmasked
 from stackbounce.fitting.quantities import read_index
 from stackbounce.measure.kinds.waveform.analysis import waveform as analysed
+from stackbounce.measure.kinds.waveform.result import Waveform as Analysed
 from stackbounce.model import Drop
 from stackbounce.run.quantities import Array
-
-if TYPE_CHECKING:
-    from stackbounce.measure.kinds.waveform.result import Waveform as Analysed
 
 # The fit seeks the touch this far from where the analysis finds it: the largest of the three.
 _NEAR = 0.1  # of the first contact's duration
@@ -129,7 +127,7 @@ def read_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
     return Waveform(name, index, found.times, found.force, sigma, scaled, begins)
 
 
-def _begins(found: "Analysed", index: int) -> tuple[float, float]:
+def _begins(found: Analysed, index: int) -> tuple[float, float]:
     """Return the bounds in s of the first touch of the floor."""
     contact = found.contacts[0]
     assert contact.start is not None

@@ -2,14 +2,11 @@
 
 from collections.abc import Iterable
 from dataclasses import fields
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
+from stackbounce.library_types import DataArray, DataFrame, Dataset
 from stackbounce.measure.quantities import Array, Number, Row, known_rows, nominal
 from stackbounce.shown import Shown
-
-if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
 
 _LARGEST_GAIN = 0.02  # of a restitution above 1, or 3 standard errors
 
@@ -84,7 +81,7 @@ class Finding(Shown):
         )
 
     @property
-    def table(self) -> "pd.DataFrame":
+    def table(self) -> DataFrame:
         """The quantities of `rows`, each with its error in the last digits."""
         import pandas as pd
 
@@ -99,18 +96,18 @@ class Finding(Shown):
         """Return contact time, restitution and impact speed, as `law_constants` takes them."""
         return {}
 
-    def measured(self, data: "xr.Dataset") -> dict[str, str]:  # noqa: ARG002
+    def measured(self, data: Dataset) -> dict[str, str]:  # noqa: ARG002
         """Return the measured values that a fit can use, by the names that `stackbounce.fit` takes.
 
         Where a result has `restitutions`, the first one is the ball's rebound ratio.
         """
         return as_ratios(getattr(self, "restitutions", ())[:1])
 
-    def forces(self, data: "xr.Dataset", lasting: float) -> "dict[str, xr.DataArray]":  # noqa: ARG002
+    def forces(self, data: Dataset, lasting: float) -> dict[str, DataArray]:  # noqa: ARG002
         """Return force channels by name, without later impacts; one lasts `lasting` s."""
         return {}
 
-    def curves(self, data: "xr.Dataset") -> list[Curve] | None:  # noqa: ARG002
+    def curves(self, data: Dataset) -> list[Curve] | None:  # noqa: ARG002
         """Return the curves to draw over a simulated drop; None means the recorded channels."""
         return None
 
@@ -177,12 +174,12 @@ def no_gain(restitutions: Iterable[Number], moments: Iterable[Any]) -> str:
     return ""
 
 
-def force_channels(data: "xr.Dataset") -> list[str]:
+def force_channels(data: Dataset) -> list[str]:
     """Return the names of a record's forces; the first one is the floor's by custom."""
     return [str(name) for name in data.data_vars if _is_force(str(name))]
 
 
-def channels(data: "xr.Dataset", force: Curve | None = None) -> list[Curve]:
+def channels(data: Dataset, force: Curve | None = None) -> list[Curve]:
     """Return a record's channels over time; `force` replaces the first one if that is a force."""
     curves: list[Curve] = []
     for key, channel in data.data_vars.items():

@@ -5,12 +5,13 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    import xarray as xr
+from stackbounce.library_types import Dataset
 
+if TYPE_CHECKING:
     from stackbounce.measure.finding import Finding
     from stackbounce.measure.reading.roles import Column
     from stackbounce.measure.setup import Setup
+
 
 IN_AIR = ("mass", "diameter", "drag_coefficient", "air_density")
 """The options that tell the drag of the air."""
@@ -65,7 +66,7 @@ class Kind:
     starts_with: tuple[str, ...] = ()
     typed: str = ""
 
-    def analyse(self, data: "xr.Dataset", setup: "Setup") -> "tuple[Finding, ...]":
+    def analyse(self, data: Dataset, setup: "Setup") -> "tuple[Finding, ...]":
         """Return the results of a file."""
         found = import_module(self.module).analyse(data, setup)
         return found if isinstance(found, tuple) else (found,)

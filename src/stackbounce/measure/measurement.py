@@ -5,9 +5,10 @@ import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from stackbounce.errors import InvalidType, InvalidValue, StackbounceError, shown
+from stackbounce.library_types import Dataset
 from stackbounce.measure.finding import Branch, Curve, Finding, channels
 from stackbounce.measure.kinds import KINDS, TYPED
 from stackbounce.measure.messages import Message, Wording, python_wording
@@ -18,11 +19,6 @@ from stackbounce.measure.setup import Place, Setup
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.model.laws import ContactLaw
 
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from stackbounce.measure.finding import Finding
-
 _LOG = logging.getLogger(__name__)
 _CALCULATING = r"(numpy|scipy|pandas|xarray|uncertainties|stackbounce\.measure)\b"
 """Modules whose warnings are no user's: of numbers that an analysis refuses or leaves out."""
@@ -32,7 +28,7 @@ File: TypeAlias = Path | tuple[str, bytes]
 
 
 def analyse(
-    data: "xr.Dataset",
+    data: Dataset,
     *,
     mass: Number | float | None = None,
     diameter: Number | float | None = None,

@@ -1,19 +1,16 @@
 """What was measured of several drops, with fitted curves, against the number they differ in."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from stackbounce.library_types import Axes, Figure, SubFigure
 from stackbounce.plots.fitted_curves import Curve, Points, draw_fitted, spread_over
 from stackbounce.plots.scales import Scale, label, show_in_handy_unit
-from stackbounce.plots.style import figure_of, list_axes, read_style, written
+from stackbounce.plots.style import list_axes, read_style, written
 from stackbounce.run.paths import Number, numbers_of, value_in
 from stackbounce.run.quantities import QUANTITIES, Array
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure, SubFigure
 
 _RATIOS = (3.0, 1.3)  # the heights of the two panels of a quantity
 
@@ -59,15 +56,14 @@ def list_quantities(fit: Any) -> list[str]:
     return list(dict.fromkeys(datum.quantity for datum in data))
 
 
-def panels_of(figure: "Figure | SubFigure", fit: Any) -> "list[list[Axes]]":
-    """Return a pair of panels for each measured quantity of a fit, side by side."""
-    count = len(list_quantities(fit))
+def draw_panels(figure: Figure | SubFigure, fits: Mapping[str, Any], number: Number) -> None:
+    """Draw fits as `draw_by_number` does into panels of a figure, a pair for each quantity."""
+    count = len(list_quantities(next(iter(fits.values()))))
     look: Any = {"sharex": "col", "height_ratios": _RATIOS, "squeeze": False}
-    panels: list[list[Axes]] = figure.subplots(2, count, **look).T.tolist()
-    return panels
+    draw_by_number(figure.subplots(2, count, **look).T.tolist(), fits, number)
 
 
-def draw_into(axes: Any, fits: Mapping[str, Any], number: Number) -> "Figure":
+def draw_into(axes: Any, fits: Mapping[str, Any], number: Number) -> Figure:
     """Draw fits as `draw_by_number` does into one's own axes, and return their figure.
 
     Raises
@@ -78,14 +74,14 @@ def draw_into(axes: Any, fits: Mapping[str, Any], number: Number) -> "Figure":
     import matplotlib as mpl
 
     count = len(list_quantities(next(iter(fits.values()))))
-    own = list_axes(axes, count, 2 * count)
+    figure, own = list_axes(axes, count, 2 * count)
     with mpl.rc_context(read_style()):
         draw_by_number([own[k::count] for k in range(count)], fits, number)
-    return figure_of(own)
+    return figure
 
 
 def draw_by_number(
-    panels: "Sequence[Sequence[Axes]]", fits: Mapping[str, Any], number: Number
+    panels: Sequence[Sequence[Axes]], fits: Mapping[str, Any], number: Number
 ) -> None:
     """Draw each measured quantity in a pair of panels: the data with curves, and the pulls.
 

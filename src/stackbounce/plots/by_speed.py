@@ -1,17 +1,14 @@
 """The plot of restitutions at several heights or speeds, with the curves of contact laws."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from stackbounce.errors import InvalidValue
+from stackbounce.library_types import Axes, Figure
 from stackbounce.plots.fitted_curves import Curve, Points, draw_fitted, spread_over
 from stackbounce.plots.style import WIDTH, check_kind, into_axes, list_axes, panels
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _LEAST, _MOST = 1e-6, 1.0 - 1e-6  # restitution of a law
 _CHANCE = 0.0001  # p that is written
@@ -19,7 +16,7 @@ _FEW = 6  # laws in a picture, the best ones
 
 
 @into_axes
-def restitutions(fit: Any, *, axes: "Axes | Sequence[Axes] | None" = None) -> "Figure":
+def restitutions(fit: Any, *, axes: Axes | Sequence[Axes] | None = None) -> Figure:
     """Draw restitutions with their errors, the curves of the laws, and what is left over.
 
     Parameters
@@ -54,13 +51,13 @@ def restitutions(fit: Any, *, axes: "Axes | Sequence[Axes] | None" = None) -> "F
     check_kind(fit, "fit", "SeriesFit")
     if not fit.comparisons:
         raise InvalidValue("nothing is to be drawn: no ball has restitutions at several speeds")
-    ratios = (3, 1.25) if axes is None else (3, 1.25)[: len(list_axes(axes, 1, 2))]
+    ratios = (3, 1.25) if axes is None else (3, 1.25)[: len(list_axes(axes, 1, 2)[1])]
     with panels((WIDTH, 5.2), axes, ratios) as (figure, (above, *below)):
         _draw(above, below[0] if below else None, fit.comparisons)
     return figure
 
 
-def _draw(above: "Axes", below: "Axes | None", comparisons: Sequence[Any]) -> None:
+def _draw(above: Axes, below: Axes | None, comparisons: Sequence[Any]) -> None:
     heights = all(found.series.from_heights for found in comparisons)
     few = 1 if len(comparisons) > 1 else _FEW
     groups = []

@@ -1,30 +1,19 @@
 """Plots of a fit: pulls, force records, chi squared around its minimum, and its posterior."""
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
-from stackbounce.plots.by_number import draw_by_number, draw_into, find_number, panels_of
+from stackbounce.library_types import Axes, Figure
+from stackbounce.plots.by_number import draw_into, draw_panels, find_number
 from stackbounce.plots.by_speed import restitutions
 from stackbounce.plots.model_comparison import compared, draw_pulls
 from stackbounce.plots.scales import Scale, label
-from stackbounce.plots.style import (
-    COLORS,
-    check_kind,
-    figure_of,
-    into_axes,
-    list_axes,
-    styled_figure,
-)
+from stackbounce.plots.style import COLORS, check_kind, into_axes, list_axes, styled_figure
 from stackbounce.units import handy, rounded
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
 
 _REACH = 4.0  # standard errors drawn on both sides
 _WORTH = 9.0  # other minima are drawn if chi squared is less than this above the minimum
@@ -41,7 +30,7 @@ _SHOWN = 0.998  # central share of the draws within the axes
 _WITHIN = (0.393, 0.865)  # of the draws of two: one and two standard deviations of a Gaussian
 
 
-def draw_profile(axes: "Axes", fit: Any, k: int) -> None:
+def draw_profile(axes: Axes, fit: Any, k: int) -> None:
     """Draw chi squared against a fitted parameter, with all others fitted anew, and its error."""
     parameter = fit.objective.parameters[k]
     values = parameter.value(np.linspace(*_extent(fit, k), _STEPS))
@@ -77,7 +66,7 @@ def _extent(fit: Any, k: int) -> tuple[float, float]:
 
 
 @into_axes
-def fit(found: Any, *, axes: Any = None) -> "Figure":
+def fit(found: Any, *, axes: Any = None) -> Figure:
     """Draw what a fit found, as its kind asks: by `restitutions`, `fitted`, `compared` or `corner`.
 
     Parameters
@@ -111,7 +100,7 @@ def fit(found: Any, *, axes: Any = None) -> "Figure":
 
 
 @into_axes
-def fitted(fit: Any, *, axes: Any = None) -> "Figure":
+def fitted(fit: Any, *, axes: Any = None) -> Figure:
     """Draw what was measured with the fitted curves, and chi squared around the minimum.
 
     Parameters
@@ -164,13 +153,13 @@ def fitted(fit: Any, *, axes: Any = None) -> "Figure":
     heights += [2.4] * len(records) + [3.0] * bool(count)
     with styled_figure(_WIDE, sum(heights) + 0.3) as figure:
         if axes is not None:
-            given = list_axes(axes, len(draws))
-            figure, own = figure_of(given), iter(given)
+            figure, given = list_axes(axes, len(draws))
+            own = iter(given)
         else:
             figure.suptitle(fit.remarks[0], x=0.01, ha="left", fontsize=8.5)
             parts = figure.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0]
             if number:
-                draw_by_number(panels_of(parts[0], fit), {"": fit}, number)
+                draw_panels(parts[0], {"": fit}, number)
                 parts = parts[1:]
             across = [1] * (len(draws) - count) + [count] * bool(count)
             rows = zip(parts, across, strict=True)  # a colour bar comes before the next panel
@@ -180,7 +169,7 @@ def fitted(fit: Any, *, axes: Any = None) -> "Figure":
     return figure
 
 
-def _draw_record(axes: "Axes", record: Any) -> None:
+def _draw_record(axes: Axes, record: Any) -> None:
     """Draw a force record and the fitted curve, from shortly before to shortly after contact."""
     force = np.abs(record.fitted - np.median(record.fitted))
     during = record.times[force > 0.02 * force.max()]
@@ -201,7 +190,7 @@ def _draw_record(axes: "Axes", record: Any) -> None:
 
 
 @into_axes
-def corner(posterior: Any, *, axes: Any = None) -> "Figure":
+def corner(posterior: Any, *, axes: Any = None) -> Figure:
     """Draw the posterior distribution of each parameter and of each pair.
 
     Parameters
@@ -253,8 +242,7 @@ def corner(posterior: Any, *, axes: Any = None) -> "Figure":
     side = _SIDE * max(count, 1.6)
     with styled_figure(side, side, _OWN_STYLE) as figure:
         if axes is not None:
-            own = list_axes(axes, count**2)
-            figure = figure_of(own)
+            figure, own = list_axes(axes, count**2)
             if figure.axes != own:
                 raise InvalidValue("axes must be all that their figure has, as of plt.subplots")
         library.corner(

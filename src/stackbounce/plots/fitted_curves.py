@@ -1,15 +1,13 @@
 """Measured points with the curves of fits above, and how far they are apart below."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from stackbounce.library_types import Axes
 from stackbounce.plots.style import COLORS, written
 from stackbounce.run.quantities import Array
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 _POINTS = 80  # of a curve
 _BEYOND = 0.04  # of the range of the points: a curve goes on beyond them
@@ -51,7 +49,7 @@ def spread_over(places: Array) -> Array:
 
 
 def draw_fitted(
-    above: "Axes", below: "Axes | None", groups: Sequence[tuple[Points, Sequence[Curve]]]
+    above: Axes, below: Axes | None, groups: Sequence[tuple[Points, Sequence[Curve]]]
 ) -> None:
     """Draw groups of points with the curves of each, the best one first.
 

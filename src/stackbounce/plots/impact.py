@@ -5,15 +5,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from stackbounce.library_types import Axes, Figure
 from stackbounce.model.drawing import meeting
 from stackbounce.plots.style import WIDTH, check_kind, color_of, into_axes, panels, written
 from stackbounce.run.quantities import Array
 from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
     from stackbounce.prediction import Prediction
 
 _BEFORE, _AFTER = 0.15, 0.35  # margins, over the duration of the impact
@@ -61,7 +59,7 @@ def sample_with_approach(result: Result, times: Array) -> dict[str, Array]:
 
 
 @into_axes
-def bounce(result: "Result | Prediction", *, axes: Any = None) -> "Figure":
+def bounce(result: "Result | Prediction", *, axes: Any = None) -> Figure:
     """Draw the impact: the position of each ball and the force at each contact against time.
 
     Parameters
@@ -116,7 +114,7 @@ def bounce(result: "Result | Prediction", *, axes: Any = None) -> "Figure":
     return figure
 
 
-def _draw_positions(axes: "Axes", result: Result, times: Array, paths: Array) -> None:
+def _draw_positions(axes: Axes, result: Result, times: Array, paths: Array) -> None:
     """Draw the position of each ball against time, extended to times before the first touch."""
     drop = result.drop
     for b, (ball, path) in enumerate(zip(drop.balls, paths, strict=True)):
@@ -129,7 +127,7 @@ def _draw_positions(axes: "Axes", result: Result, times: Array, paths: Array) ->
 
 
 def _draw_bands(
-    axes: "Axes", prediction: "Prediction", times: Array, name: str, factor: float
+    axes: Axes, prediction: "Prediction", times: Array, name: str, factor: float
 ) -> None:
     """Draw one standard deviation on both sides of each curve, from the first touch on."""
     after = times[times >= 0.0]
@@ -140,7 +138,7 @@ def _draw_bands(
             )
 
 
-def _draw_contacts(axes: "Axes", result: Result, times: Array, forces: Array) -> None:
+def _draw_contacts(axes: Axes, result: Result, times: Array, forces: Array) -> None:
     """Draw the force at each contact, or each impulse of a rigid stack as a stem."""
     for i, law in enumerate(result.drop.contacts):
         if law is None:

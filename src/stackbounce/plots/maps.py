@@ -1,15 +1,12 @@
 """Maps: colors and contours for numbers, discrete colors for counts."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.library_types import Axes, ContourSet
 from stackbounce.plots.scales import Scale, is_flat, show_in_handy_unit
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.contour import ContourSet
 
 _LEVELS = 7  # approximate number of contours
 _LEAST = 5  # values in each direction that contours need
@@ -19,12 +16,12 @@ _SINGLE = 8  # of more counts, the first so many have a color of their own
 _INFINITE = (0.75, 0.75, 0.75, 1.0)
 
 
-def hatch(axes: "Axes") -> None:
+def hatch(axes: Axes) -> None:
     """Hatch the background of the axes, which shows through where cells have no value."""
     axes.patch.set(facecolor="white", edgecolor="#b0b0b0", hatch="////", linewidth=0.0)
 
 
-def draw_levels(axes: "Axes", x: Scale, y: Scale, values: NDArray[Any], unit: str) -> str:
+def draw_levels(axes: Axes, x: Scale, y: Scale, values: NDArray[Any], unit: str) -> str:
     """Draw numbers as colors with contours, and return the unit of the color bar.
 
     The colors go from dark to light, or from blue over white to red if the values change sign.
@@ -59,7 +56,7 @@ def draw_levels(axes: "Axes", x: Scale, y: Scale, values: NDArray[Any], unit: st
     return unit
 
 
-def _name_contours(axes: "Axes", drawn: "ContourSet", color: str, factor: float) -> None:
+def _name_contours(axes: Axes, drawn: ContourSet, color: str, factor: float) -> None:
     """Write the levels on their lines, without overlaps."""
     from matplotlib.figure import Figure
     from matplotlib.patheffects import withStroke
@@ -98,7 +95,7 @@ def group_counts(low: int, high: int) -> list[tuple[int, int]]:
     return found
 
 
-def draw_counts(axes: "Axes", x: Scale, y: Scale, values: NDArray[Any]) -> None:
+def draw_counts(axes: Axes, x: Scale, y: Scale, values: NDArray[Any]) -> None:
     """Draw counts in discrete colors, high counts in groups and infinity in grey."""
     from matplotlib import colormaps
     from matplotlib.colors import BoundaryNorm, ListedColormap

@@ -1,17 +1,15 @@
 """The plot of the result of any measurement analysis, drawn by the module that it names."""
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.errors import InvalidType
+from stackbounce.library_types import Figure
 from stackbounce.plots.style import drawn_by, into_axes
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 @into_axes
-def measured(data: Any, found: Any, *, axes: Any = None) -> "Figure":
+def measured(data: Any, found: Any, *, axes: Any = None) -> Figure:
     """Draw the result of a measurement analysis together with the data.
 
     Parameters

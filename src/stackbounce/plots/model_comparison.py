@@ -1,29 +1,13 @@
 """The plot of a model comparison: information criterion and pulls of each model."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from stackbounce.plots.by_number import (
-    draw_by_number,
-    draw_into,
-    find_number,
-    list_quantities,
-    panels_of,
-)
-from stackbounce.plots.style import (
-    COLORS,
-    check_kind,
-    figure_of,
-    into_axes,
-    list_axes,
-    styled_figure,
-)
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from stackbounce.library_types import Axes, Figure
+from stackbounce.plots.by_number import draw_into, draw_panels, find_number, list_quantities
+from stackbounce.plots.style import COLORS, check_kind, into_axes, list_axes, styled_figure
 
 _NAMES = {"aicc": "AICc", "bic": "BIC"}
 _MOST = 4.0  # errors: the strongest colour of a pull
@@ -33,7 +17,7 @@ _WIDEST = 40  # for more data, the pulls are not written into the cells
 
 
 @into_axes
-def compared(comparison: Any, *, axes: Any = None) -> "Figure":
+def compared(comparison: Any, *, axes: Any = None) -> Figure:
     """Draw the information criterion and the pulls of each model, the best model on top.
 
     Parameters
@@ -84,20 +68,20 @@ def compared(comparison: Any, *, axes: Any = None) -> "Figure":
             ratios: Any = {"width_ratios": (_SCORES, wide - _SCORES)}
             beside, others = np.ravel(figure.subfigures(1, 2, **ratios))
             left = beside.subplots()
-            draw_by_number(panels_of(others, comparison[names[0]]), best, number)
+            draw_panels(others, best, number)
         else:
             if axes is None:
                 axes = figure.subplots(1, 2, sharey=True, width_ratios=(2.2, wide - 3.0))
-            left, right = list_axes(axes, 2)
+            figure, (left, right) = list_axes(axes, 2)
             rows = dict(zip(names, pulls.values, strict=True))
             draw_pulls(right, rows, pulls.datum.values.tolist())
         _draw_scores(left, comparison)
         left.set_yticks(np.arange(len(names)), [score.title for score in comparison.scores])
         left.set_ylim(len(names) - 0.5, -0.5)
-    return figure if axes is None else figure_of([left])
+    return figure
 
 
-def _draw_scores(axes: "Axes", comparison: Any) -> None:
+def _draw_scores(axes: Axes, comparison: Any) -> None:
     """Draw the criterion of each model minus that of the best model."""
     values = np.array([getattr(score, comparison.criterion) for score in comparison.scores])
     more = values - values[0]
@@ -118,7 +102,7 @@ def _draw_scores(axes: "Axes", comparison: Any) -> None:
     axes.tick_params(axis="y", length=0)
 
 
-def draw_pulls(axes: "Axes", pulls: Mapping[str, Sequence[float]], data: Sequence[str]) -> None:
+def draw_pulls(axes: Axes, pulls: Mapping[str, Sequence[float]], data: Sequence[str]) -> None:
     """Draw pulls, a row for each model, as a colored table with the numbers in its cells."""
     table = np.array(list(pulls.values()))
     shown = axes.imshow(table, cmap="RdBu_r", vmin=-_MOST, vmax=_MOST, aspect="auto")

@@ -1,17 +1,13 @@
 """The axes of the plots of sweeps: positions, cell edges, units and ticks."""
 
 import re
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.library_types import Axes, Axis, Dataset
 from stackbounce.units import handy
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.axis import Axis
 
 _ROUND_OFF = 1e-9  # relative; smaller differences are none
 
@@ -50,7 +46,7 @@ class Scale(NamedTuple):
         return np.exp(edges) if self.log else edges
 
 
-def read_scale(data: "xr.Dataset", dim: Any) -> Scale:
+def read_scale(data: Dataset, dim: Any) -> Scale:
     """Return the scale of a dimension, by which `data` must be sorted."""
     size = data.sizes[dim]
     if dim not in data.coords or data[dim].dtype.kind not in "iuf":
@@ -63,12 +59,12 @@ def read_scale(data: "xr.Dataset", dim: Any) -> Scale:
     return Scale(values, log, data[dim].attrs.get("units", ""))
 
 
-def path_of(data: "xr.Dataset", dim: Any) -> str:
+def path_of(data: Dataset, dim: Any) -> str:
     """Return the path of the number that varies along a dimension, or the dimension's name."""
     return str(data[dim].attrs.get("path", dim))
 
 
-def label(axes: "Axes", which: str, name: str, scale: Scale) -> None:
+def label(axes: Axes, which: str, name: str, scale: Scale) -> None:
     """Label an axis with name and unit, and set its ticks; the data stay in SI units."""
     axis: Axis = getattr(axes, f"{which}axis")
     if scale.log:
@@ -78,7 +74,7 @@ def label(axes: "Axes", which: str, name: str, scale: Scale) -> None:
 
 
 def show_in_handy_unit(
-    axis: "Axis", values: NDArray[Any], unit: str, log: bool = False
+    axis: Axis, values: NDArray[Any], unit: str, log: bool = False
 ) -> tuple[str, float]:
     """Label the ticks of an axis in a suitably prefixed unit; return the unit and its factor."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter

@@ -2,18 +2,15 @@
 
 import functools
 import io
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, a_or_an, shown
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from stackbounce.library_types import Axes, Figure
 
 _Plot = TypeVar("_Plot", bound=Callable[..., Any])
 
@@ -39,7 +36,7 @@ def read_style() -> Any:
 
 
 @contextmanager
-def styled_figure(width: float, height: float, style: Any = None) -> "Iterator[Figure]":
+def styled_figure(width: float, height: float, style: Any = None) -> Iterator[Figure]:
     """Yield an empty figure of a size in inches, within the style of this package.
 
     ``style`` are further settings of matplotlib, which override this style.
@@ -62,7 +59,7 @@ def styled_figure(width: float, height: float, style: Any = None) -> "Iterator[F
 @contextmanager
 def panels(
     size: tuple[float, float], axes: Any = None, ratios: Any = (1.0,), *, sharex: bool = True
-) -> "Iterator[tuple[Figure, list[Axes]]]":
+) -> Iterator[tuple[Figure, list[Axes]]]:
     """Yield a figure, as `styled_figure`, and its panels from top to bottom.
 
     Parameters
@@ -90,8 +87,7 @@ def panels(
     """
     with styled_figure(*size) as figure:
         if axes is not None:
-            own = list_axes(axes, len(ratios))
-            yield figure_of(own), own
+            yield list_axes(axes, len(ratios))
             return
         look: Any = {"sharex": sharex, "squeeze": False, "height_ratios": ratios}
         yield figure, figure.subplots(len(ratios), 1, **look)[:, 0].tolist()
@@ -114,8 +110,13 @@ def into_axes(plot: _Plot) -> _Plot:
     return cast("_Plot", drawn)
 
 
-def list_axes(axes: Any, *counts: int) -> "list[Axes]":
-    """Return axes of the user as a list, and raise `InvalidValue` if they are not so many.
+def list_axes(axes: Any, *counts: int) -> tuple[Figure, list[Axes]]:
+    """Return the figure of axes of the user, and these; raise if they are not so many.
+
+    Raises
+    ------
+    InvalidValue
+        If their number is none of `counts`.
 
     Examples
     --------
@@ -130,12 +131,7 @@ def list_axes(axes: Any, *counts: int) -> "list[Axes]":
     if len(own) not in counts:
         most = " or ".join(map(str, counts))
         raise InvalidValue(f"axes must be {most} Axes of matplotlib, got {len(own)}")
-    return own
-
-
-def figure_of(axes: "Sequence[Axes]") -> "Figure":
-    """Return the figure that axes are in."""
-    return cast("Figure", axes[0].figure)  # or a part of one, if the user has parts
+    return cast("Figure", own[0].figure), own  # or a part of one, if the user has parts
 
 
 _DRAWN_BY = dict.fromkeys(("Comparison", "Fit", "Posterior", "SeriesFit"), "fit")
@@ -189,7 +185,7 @@ def file_of(data: Any) -> str:
     return str(getattr(data, "attrs", {}).get("source", ""))
 
 
-def render(make: "Callable[[], Figure]", kind: str) -> bytes:
+def render(make: Callable[[], Figure], kind: str) -> bytes:
     """Return a picture as the bytes of a file, whatever matplotlib's settings of this user are.
 
     The same picture is the same file: no time of day, no random names inside.
@@ -218,7 +214,7 @@ def render(make: "Callable[[], Figure]", kind: str) -> bytes:
     return stream.getvalue()
 
 
-def annotate(axes: "Axes", text: str, place: tuple[Any, Any], color: str, **more: Any) -> None:
+def annotate(axes: Axes, text: str, place: tuple[Any, Any], color: str, **more: Any) -> None:
     """Write a short text beside a point in data coordinates, or at a place given by `xycoords`."""
     at = {} if "xycoords" in more else {"xytext": (7, 7), "textcoords": "offset points"}
     axes.annotate(text, place, fontsize=9, color=color, **(at | more))

@@ -2,20 +2,16 @@
 
 import math
 import tomllib
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
+from stackbounce.library_types import Axes, DataArray, Dataset, Figure
 from stackbounce.plots.maps import draw_counts, draw_levels, hatch
 from stackbounce.plots.scales import is_flat, label, path_of, read_scale, show_in_handy_unit
 from stackbounce.plots.style import COLORS, WIDTH, color_of, drawn_by, into_axes, panels
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 SHOWN = ("rebound_ratio", "collisions", "energy_retained", "first_touch", "last_release")
 """The variables that can be drawn."""
@@ -31,8 +27,8 @@ _MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 
 @into_axes
 def lines(
-    data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = None, *, axes: Any = None
-) -> "Figure":
+    data: Dataset, show: str = "rebound_ratio", index: int | None = None, *, axes: Any = None
+) -> Figure:
     """Draw a sweep of one parameter: a line for each ball or each contact.
 
     Parameters
@@ -90,8 +86,8 @@ def lines(
 
 @into_axes
 def heatmap(
-    data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1, *, axes: Any = None
-) -> "Figure":
+    data: Dataset, show: str = "rebound_ratio", index: int = -1, *, axes: Any = None
+) -> Figure:
     """Draw a sweep of two parameters as a map: contours, or discrete colors for counts.
 
     Parameters
@@ -165,7 +161,7 @@ def _look(show: str, k: int, chosen: range, row: NDArray[Any]) -> dict[str, Any]
     return look
 
 
-def draw_legend(axes: "Axes", count: int) -> None:
+def draw_legend(axes: Axes, count: int) -> None:
     """Put the legend outside of the axes: above or, with many names, to the right."""
     look: Any = {"frameon": False, "handlelength": 1.6, "borderpad": 0.0}
     if count <= IN_A_ROW:
@@ -175,7 +171,7 @@ def draw_legend(axes: "Axes", count: int) -> None:
     axes.legend(**look)
 
 
-def _label_values(axes: "Axes", show: str, own: "xr.DataArray", rows: NDArray[Any]) -> None:
+def _label_values(axes: Axes, show: str, own: DataArray, rows: NDArray[Any]) -> None:
     """Label the vertical axis; widen its range if the values differ by round-off only."""
     unit = own.attrs.get("units", "1").removeprefix("1")
     if show != "collisions":
@@ -187,7 +183,7 @@ def _label_values(axes: "Axes", show: str, own: "xr.DataArray", rows: NDArray[An
     axes.set_ylabel(show.replace("_", " ") + (f" ({unit})" if unit else ""))
 
 
-def _counts_on(axes: "Axes", rows: NDArray[Any]) -> list[NDArray[Any]]:
+def _counts_on(axes: Axes, rows: NDArray[Any]) -> list[NDArray[Any]]:
     """Return the heights at which counts are drawn, and set the ticks of the axis.
 
     Infinite counts (-1) are drawn at a tick ∞ above all others.
@@ -219,7 +215,7 @@ def check_source(data: Any, name: str, source: str) -> None:
 
 def _prepared(
     data: Any, show: str, count: int
-) -> tuple["xr.Dataset", tuple[Any, ...], str, "xr.DataArray", str]:
+) -> tuple[Dataset, tuple[Any, ...], str, DataArray, str]:
     """Return what is to be drawn of a sweep, and raise if it has not `count` dimensions.
 
     That is: the sweep sorted by its numeric dimensions; these dimensions; the dimension of the
@@ -249,14 +245,14 @@ def _prepared(
     return data, dims, part, own, note
 
 
-def _index(own: "xr.DataArray", part: str, index: int) -> int:
+def _index(own: DataArray, part: str, index: int) -> int:
     size = own.sizes[part]
     if not -size <= index < size:
         raise InvalidValue(f"index must name a {part} from 0 to {size - 1}, got {index}")
     return index % size
 
 
-def name_of(data: "xr.Dataset", part: str, index: int) -> str:
+def name_of(data: Dataset, part: str, index: int) -> str:
     """Return a label for a ball or a contact, with the ball's name if it has one."""
     balls = tomllib.loads(data.attrs.get("drop", "")).get("balls", [])
     own = balls[index].get("name", "") if part == "ball" and index < len(balls) else ""
@@ -264,7 +260,7 @@ def name_of(data: "xr.Dataset", part: str, index: int) -> str:
 
 
 @into_axes
-def highest(data: "xr.Dataset", *, axes: Any = None) -> "Figure":
+def highest(data: Dataset, *, axes: Any = None) -> Figure:
     """Draw the rebound height of the top ball for the best stacks, for each gap.
 
     Parameters

@@ -5,11 +5,12 @@ import functools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.library_types import DataArray, Dataset, UFloat
 from stackbounce.model import Drop
 from stackbounce.prediction.draws import Slopes, budget, carry
 from stackbounce.prediction.inputs import Inputs, error_of_deviation, of_draws
@@ -23,10 +24,6 @@ from stackbounce.run.sideways import LIMIT, REMARK, UNITS
 from stackbounce.shown import Shown, Table
 from stackbounce.units import rounded
 from stackbounce.version import __version__
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from uncertainties import UFloat
 
 _CURVES = ("position", "velocity", "force", "compression")
 _ROUGH = 0.02  # the relative error of a standard deviation above which a note says so
@@ -133,7 +130,7 @@ class Prediction(Shown):
         return "draws" if self.reason else "derivatives"
 
     @property
-    def errors(self) -> "dict[str, UFloat]":
+    def errors(self) -> dict[str, UFloat]:
         """The numbers with errors, by their paths, in SI units."""
         found = dict(zip(self.inputs.paths, self.inputs.errors, strict=True))
         return found | {f"offsets.{ball}": off for ball, off in self.inputs.offsets.items()}
@@ -155,7 +152,7 @@ class Prediction(Shown):
         most = budget(self.options, self.asked) * len(self.drawn)
         return most // max(1, each * int(np.sum(self.solved.work)))
 
-    def __getitem__(self, name: str) -> "UFloat":
+    def __getitem__(self, name: str) -> UFloat:
         """Return a value with its error, such as ``rebound_speeds.1``, in SI units."""
         values = self._all
         if name not in values:
@@ -205,7 +202,7 @@ class Prediction(Shown):
         return [dict(zip(k.tolist(), (n / len(counts)).tolist(), strict=True)) for k, n in found]
 
     @functools.cached_property
-    def draws(self) -> "xr.Dataset":
+    def draws(self) -> Dataset:
         """All quantities of drops that are drawn within the errors.
 
         With the dimensions `draw`, and `ball` or `contact`; the numbers drawn are coordinates.
@@ -242,7 +239,7 @@ class Prediction(Shown):
         return np.asarray(np.nanquantile(self._columns[name], at))
 
     @functools.cached_property
-    def sensitivity(self) -> "xr.DataArray":
+    def sensitivity(self) -> DataArray:
         """The share (quantity, number) of each number's error in the variance of each quantity.
 
         It is found by derivatives, or by a straight line through the draws. For correlated numbers
@@ -363,7 +360,7 @@ class Prediction(Shown):
         ]
 
     @functools.cached_property
-    def sideways(self) -> "dict[str, UFloat]":
+    def sideways(self) -> dict[str, UFloat]:
         """How balls leave sideways that lie off the middle by ``offsets.N``, to first order.
 
         By what and which ball, such as ``angle.1``, as `Result.sideways` has them; empty without
@@ -402,7 +399,7 @@ class Prediction(Shown):
                     found[name] = found[name] + slope * apart
         return found
 
-    def carry(self, function: Callable[[Result], Mapping[Any, float]]) -> "dict[Any, UFloat]":
+    def carry(self, function: Callable[[Result], Mapping[Any, float]]) -> dict[Any, UFloat]:
         """Return any numbers of a `Result` with their errors.
 
         Parameters

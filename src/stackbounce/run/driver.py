@@ -7,7 +7,7 @@ one call for a stack of few balls. The log, in SI units, becomes a `Result`.
 
 import functools
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Never
+from typing import Any, NamedTuple, Never
 
 from stackbounce.engine import codes
 from stackbounce.engine.memory import RIGID, memory
@@ -21,9 +21,6 @@ from stackbounce.run.engines import choose_compiled, choose_engine
 from stackbounce.run.options import Options, run_options
 from stackbounce.run.paths import Array, drop_numbers, drop_pieces
 from stackbounce.run.result import ROUND_OFF, Cause, Result, Status
-
-if TYPE_CHECKING:
-    pass
 
 _KINDS: list[Any] = [Drop, Ball, *LAWS.values()]
 _ARGUMENTS = ("drop", "until", "rtol", "event_limit", "compiled")

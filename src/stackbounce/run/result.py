@@ -14,6 +14,7 @@ from stackbounce.engine import codes
 from stackbounce.engine.ratios import energy_kept
 from stackbounce.errors import InvalidType, InvalidValue, finite, no_attribute, shown, unmasked
 from stackbounce.files import shipped_table
+from stackbounce.library_types import Dataset
 from stackbounce.model import STANDARD_GRAVITY, Drop
 from stackbounce.model.drawing import label, meeting
 from stackbounce.run.conditioning import amplification, known_until
@@ -22,9 +23,6 @@ from stackbounce.run.sideways import leave_sideways
 from stackbounce.shown import Shown, Table
 from stackbounce.units import in_unit
 from stackbounce.version import __version__
-
-if TYPE_CHECKING:
-    import xarray
 
 _COLUMNS = {  # of the log, by the field of an interval
     "start": codes.START,
@@ -356,7 +354,7 @@ class Result(Shown):
 
     def sideways(
         self, offsets: Mapping[int, Any] | None = None, speeds: Mapping[int, Any] | None = None
-    ) -> "xarray.Dataset":
+    ) -> Dataset:
         """Return how balls leave sideways that do not stand exactly above each other.
 
         To first order in the offsets, without friction, and without a run: the vertical motion is
@@ -401,7 +399,7 @@ class Result(Shown):
         """
         return leave_sideways(self, offsets, speeds)
 
-    def to_dataset(self) -> "xarray.Dataset":
+    def to_dataset(self) -> Dataset:
         """Return all numbers of the result as a Dataset, with units and names in attributes.
 
         Returns
@@ -459,7 +457,7 @@ class Result(Shown):
         names = ("advice", *arrays, "energy_retained", "end_time")
         return {"status": self.status.name} | {name: getattr(self, name) for name in names}
 
-    def sample(self, times: ArrayLike) -> "xarray.Dataset":
+    def sample(self, times: ArrayLike) -> Dataset:
         """Return positions, velocities, forces and energy at given times, by repeating the run.
 
         Parameters

@@ -16,13 +16,12 @@ from stackbounce.engine.sideways import ENOUGH, FEW, LEVELS, MANY, WRONG, new_pu
 from stackbounce.engine.stack import as_arrays
 from stackbounce.engine.tables import Table
 from stackbounce.errors import InvalidType, InvalidValue, finite, shown, whole
+from stackbounce.library_types import Dataset
 from stackbounce.model import STANDARD_GRAVITY
 from stackbounce.units import in_unit
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
-    import xarray
-
     from stackbounce.run.result import Result
 
 _Array = NDArray[np.float64]
@@ -37,7 +36,7 @@ REMARK = "an angle is above 15 degrees, where first order ends"
 
 def leave_sideways(
     result: "Result", offsets: Mapping[int, Any] | None, speeds: Mapping[int, Any] | None
-) -> "xarray.Dataset":
+) -> Dataset:
     """Return how the balls of a run leave sideways; see `Result.sideways`."""
     import xarray as xr
 

@@ -2,22 +2,20 @@
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, listed, positive, shown
 from stackbounce.extras import need
+from stackbounce.library_types import Dataset
 from stackbounce.model import Ball, ContactLaw, Drop
 from stackbounce.model.laws import contact_numbers
 from stackbounce.run.options import run_options
 from stackbounce.run.paths import identifier, numbers_of
 from stackbounce.sweeps import sweep
 from stackbounce.units import checked
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 Contacts: TypeAlias = Callable[[Sequence[Ball]], Sequence[ContactLaw | None]]
 """A function of the balls that returns their contacts, the lowest first."""
@@ -28,7 +26,7 @@ _SEED = 2007
 _ALIKE = 1e-13  # standard deviation of the rebound ratios at which the search stops
 
 
-def solve_drops(drops: Sequence[Drop], gaps: Sequence[float] | None = None) -> "xr.Dataset":
+def solve_drops(drops: Sequence[Drop], gaps: Sequence[float] | None = None) -> Dataset:
     """Solve many drops and return their results as `sweep` does.
 
     Parameters
@@ -87,7 +85,7 @@ def _varied(drops: Sequence[Drop]) -> dict[str, NDArray[np.float64]]:
             continue
         parts = [getattr(drop, number.part)[number.index] for drop in drops]
         first = parts[0]
-        if isinstance(first, ContactLaw) and number.field == first.derived_field():
+        if isinstance(first, ContactLaw) and number.field == first.derived:
             continue
         if getattr(first, number.field) is None:
             continue  # a ball's size or material, which does not affect a run

@@ -4,20 +4,12 @@ import functools
 import itertools
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import (
-    InvalidType,
-    InvalidValue,
-    listed,
-    non_negative,
-    placed,
-    positive,
-    shown,
-    whole,
-)
+from stackbounce.errors import InvalidType, InvalidValue, listed, non_negative, placed, shown, whole
+from stackbounce.library_types import Dataset
 from stackbounce.model import STANDARD_GRAVITY, Ball, ContactLaw, Drop, Hysteretic
 from stackbounce.model.catalogue import BALLS, catalogue_ball
 from stackbounce.model.laws.series import between
@@ -26,9 +18,6 @@ from stackbounce.towers.masses import best_masses, geometric_means, mass_range, 
 from stackbounce.towers.separation import replace_gaps
 from stackbounce.units import checked
 from stackbounce.version import __version__
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _GAPS = (0.0, 0.001, 0.005)
 _HEIGHT = 1.0  # m
@@ -69,7 +58,7 @@ def highest(
     law: type[ContactLaw] = Hysteretic,
     impact_speed: float | None = None,
     masses: bool | Sequence[float] = False,
-) -> "xr.Dataset":
+) -> Dataset:
     """Return all stacks of given balls, in the order of the top ball's rebound, highest first.
 
     Parameters
@@ -136,12 +125,11 @@ def highest(
     """
     if isinstance(balls, Drop):
         names = tuple(ball.name or f"ball {i}" for i, ball in enumerate(balls.balls))
-        stacks, speed = [_Stack(names, balls)], balls.reference_speed
+        stacks = [_Stack(names, balls)]
         widths = None if gaps is None else _checked_gaps(gaps)
     else:
-        speed = math.sqrt(2.0 * STANDARD_GRAVITY * _HEIGHT)
-        if impact_speed is not None:
-            speed = checked(positive, "impact_speed", impact_speed, "m/s")
+        fallen = math.sqrt(2.0 * STANDARD_GRAVITY * _HEIGHT)
+        speed = fallen if impact_speed is None else impact_speed
         chosen = _list_candidates(balls, law, speed)
         widths = _checked_gaps(_GAPS if gaps is None else gaps)
         size = (3 if repeat else min(3, len(chosen))) if count is None else count
@@ -149,7 +137,7 @@ def highest(
     ds = _solved(stacks, widths)
     best = stacks[_order(ds)[0, 0]].drop
     best = best if widths is None else replace_gaps(best, None, widths[0])
-    attrs: dict[str, Any] = {"stackbounce": __version__, "impact_speed": speed}
+    attrs: dict[str, Any] = {"stackbounce": __version__, "impact_speed": best.reference_speed}
     if masses is not False:
         names, means = stacks[_order(ds)[0, 0]].names, geometric_means(best)
         within = None if masses is True else masses
@@ -176,9 +164,8 @@ def _list_candidates(balls: Any, law: type[ContactLaw], impact_speed: float) -> 
         )
     if balls is None:
         balls = [str(entry.ball.name) for entry in BALLS]
-    if isinstance(balls, str):
-        raise InvalidType(f"balls must be a list, got {shown(balls)}")
-    return [_candidate(ball, i, law, impact_speed) for i, ball in enumerate(balls)]
+    many = enumerate(listed("balls", balls, _MOST))
+    return [_candidate(ball, i, law, impact_speed) for i, ball in many]
 
 
 def _candidate(given: object, i: int, law: type[ContactLaw], impact_speed: float) -> _Candidate:
@@ -275,7 +262,7 @@ def _stacks(
     return found
 
 
-def _solved(stacks: Sequence[_Stack], widths: Sequence[float] | None) -> "xr.Dataset":
+def _solved(stacks: Sequence[_Stack], widths: Sequence[float] | None) -> Dataset:
     """Return the outcome of each stack (stack, gap, ...)."""
     ds = solve_drops([stack.drop for stack in stacks], widths)
     if widths is None:
@@ -283,13 +270,13 @@ def _solved(stacks: Sequence[_Stack], widths: Sequence[float] | None) -> "xr.Dat
     return ds.assign_coords(gap=("gap", widths or [math.nan], {"units": "m"}))
 
 
-def _order(ds: "xr.Dataset") -> Any:
+def _order(ds: Dataset) -> Any:
     """Return the indices of the stacks at each gap, the highest rebound of the top ball first."""
     top = ds.rebound_ratio.values[..., -1]
     return np.argsort(-top, axis=0, kind="stable")  # nan of unfinished runs comes last
 
 
-def _ranked(stacks: Sequence[_Stack], ds: "xr.Dataset") -> "xr.Dataset":
+def _ranked(stacks: Sequence[_Stack], ds: Dataset) -> Dataset:
     """Return the sweep in the order at the first gap, with ranks, heights and energy shares."""
     top, order = ds.rebound_ratio.isel(ball=-1), _order(ds)
     mass = np.array([[ball.mass for ball in stack.drop.balls] for stack in stacks])

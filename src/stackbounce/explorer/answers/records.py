@@ -2,16 +2,17 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from stackbounce.errors import InvalidValue, StackbounceError, a_or_an, nearest, shown
 from stackbounce.explorer.answers.predictions import run_drop
-from stackbounce.fitting import Fit, fit
+from stackbounce.fitting import Fit, Record, fit
 from stackbounce.fitting.files import convert_measured
 from stackbounce.fitting.series import fit_series
 from stackbounce.json_values import as_json
+from stackbounce.library_types import DataArray
 from stackbounce.measure.finding import Branch
 from stackbounce.measure.measurement import Measurement, measure_file
 from stackbounce.measure.messages import OptionHint
@@ -20,11 +21,6 @@ from stackbounce.measure.options import OPTIONS, Option
 from stackbounce.model import Drop
 from stackbounce.run.quantities import Array
 from stackbounce.version import __version__
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from stackbounce.fitting.residuals import Record
 
 _Series = dict[str, Any]
 
@@ -196,7 +192,7 @@ def _sorted(branch: Branch) -> dict[str, Any]:
     return {"label": branch.label, **{name: getattr(branch, name)[kept] for name in names}}
 
 
-def _find_channel(drop: Drop, what: str, which: str, record: Measurement) -> "xr.DataArray":
+def _find_channel(drop: Drop, what: str, which: str, record: Measurement) -> DataArray:
     """Return the channel of a file that is the force of a contact, cut to one impact."""
     lasting = _AFTER * run_drop(drop, None).end_time
     own = {
@@ -218,7 +214,7 @@ def _describe_value(done: Fit, path: str) -> dict[str, Any]:
     return {"path": path, "value": value.nominal_value, "error": value.std_dev, "unit": unit}
 
 
-def _align(record: "Record", drop: Drop) -> _Series:
+def _align(record: Record, drop: Drop) -> _Series:
     """Put a force record on the clock of the fitted drop, and on its scale if that is free."""
     index = int(record.name.partition(".")[2])
     values, unit = record.measured, record.unit

@@ -3,19 +3,17 @@
 import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
 from stackbounce.errors import StackbounceError
 from stackbounce.fitting.series.family import Family, reason_to_skip
 from stackbounce.fitting.series.series import Series
+from stackbounce.library_types import DataFrame
 from stackbounce.model.laws import LAWS
 from stackbounce.run.quantities import Array
 from stackbounce.shown import Shown, Table, table_of
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 AGREES, DOUBTFUL, REFUTED = "agrees", "doubtful", "refuted"
 REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05  # the p values of the verdicts
@@ -92,6 +90,12 @@ class Outcome:
         given = [p for p in (self.p_half, self.p_twice) if p is not None]
         return all(verdict(p) == self.verdict for p in given)
 
+    def as_dict(self) -> dict[str, Any]:
+        """Return the numbers and what they say as plain values, without the names of the laws."""
+        numbers = {key: value for key, value in vars(self).items() if key != "laws"}
+        said = {"verdict": self.verdict, "steady": self.steady, "interval": self.interval()}
+        return numbers | said
+
 
 @dataclass(frozen=True, repr=False)
 class Comparison(Shown):
@@ -122,7 +126,7 @@ class Comparison(Shown):
     curves: dict[str, Family]
 
     @property
-    def table(self) -> "pd.DataFrame":
+    def table(self) -> DataFrame:
         """The laws, the best first: restitution at the highest speed with its interval, χ², p."""
         import pandas as pd
 

@@ -5,21 +5,19 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from stackbounce.errors import InvalidValue
 from stackbounce.fitting.rows import Row, decimal_comma
 from stackbounce.fitting.series.columns import UNITS, Column, columns_of
+from stackbounce.library_types import DataFrame
 from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.measure.reading.roles import is_unit
 from stackbounce.measure.reading.text import MISSING
 from stackbounce.run.quantities import Array
 from stackbounce.units import handy, quantity
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 STARTS = ("drop_height", "impact_speed")  # roles of what was before a bounce
 MEASURED = ("rebound_height", "rebound_speed", "restitution")  # of what was measured after it
@@ -32,7 +30,7 @@ _ENOUGH = 5  # numbers that all end in 0, or in 0 and 5, were not read more fine
 _SUCCESSIVE = 0.5  # of the logarithm of the first ratio of heights: bounces in turn fall by more
 
 
-def readings_of(rows: Sequence[Row]) -> "tuple[pd.DataFrame, str, list[str]]":
+def readings_of(rows: Sequence[Row]) -> tuple[DataFrame, str, list[str]]:
     """Return all readings, a row each, what was read (one of `MEASURED`), and notes.
 
     The columns are `line`, `group` and `drop`; the role of what was before the first bounce with
@@ -219,18 +217,12 @@ def _by_drop(
         for number, column in enumerate(read if in_turn else there, 1):
             if column not in there:
                 break  # the bounces after one that is missing have no fall that is known
-            where = {"line": line, "group": groups[k], "drop": k, "start_role": start.role}
-            bounce = {"number": number if in_turn else 1}
-            found.append(where | bounce | _both(before, k, numbers[column.index], k))
+            own, where = numbers[column.index], {"line": line, "group": groups[k], "drop": k}
+            bounce = {"start_role": start.role, "number": number if in_turn else 1}
+            begun = {"start": before.values[k], "start_error": before.errors[k]}
+            then = {"value": own.values[k], "error": own.errors[k], "digit": own.digit}
+            found.append(where | bounce | begun | then)
     return found, measured
-
-
-def _both(start: Numbers, before: int, measured: Numbers, after: int) -> dict[str, float]:
-    """Return what was before the first bounce and after the one that was read, with errors."""
-    return {
-        "start": start.values[before], "start_error": start.errors[before],
-        "value": measured.values[after], "error": measured.errors[after], "digit": measured.digit,
-    }  # fmt: skip
 
 
 def _in_turn(read: Sequence[Column], numbers: dict[int, Numbers], start: Column) -> bool:
@@ -256,7 +248,7 @@ def _listed(columns: Sequence[Column]) -> str:
     return f"name them, such as {_RIGHT}; {known}"
 
 
-def _check(readings: "pd.DataFrame", measured: str) -> None:
+def _check(readings: DataFrame, measured: str) -> None:
     """Refuse numbers that are not above 0, and a bounce that gains speed."""
     for _, drop in readings.groupby("drop"):
         before = float(drop.start.iloc[0])

@@ -6,30 +6,21 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce import datasets
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
 from stackbounce.files import prepare_folder, write_folder
 from stackbounce.fitting.rows import File
-from stackbounce.fitting.series.comparison import (
-    REFUTED_BELOW,
-    Comparison,
-    Outcome,
-    compare_laws,
-    format_p,
-)
+from stackbounce.fitting.series.comparison import REFUTED_BELOW, Comparison, compare_laws, format_p
 from stackbounce.fitting.series.series import make_series, why_not
 from stackbounce.fitting.series.table import read_table
 from stackbounce.json_values import plain
+from stackbounce.library_types import DataFrame, Dataset
 from stackbounce.model.laws import LAWS, law_named
 from stackbounce.shown import Shown, Table
 from stackbounce.version import __version__
-
-if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
 
 PREFIX = "dataset:"
 """Begins the name of a published data set, in place of a file."""
@@ -71,7 +62,7 @@ class SeriesFit(Shown):
         )
 
     @property
-    def table(self) -> "pd.DataFrame":
+    def table(self) -> DataFrame:
         """The laws of each ball, the best first: restitution at the highest speed, χ², p."""
         import pandas as pd
 
@@ -156,7 +147,7 @@ def fit_series(
 
 
 def _compared(
-    groups: "Mapping[str, xr.Dataset]",
+    groups: Mapping[str, Dataset],
     laws: Collection[str],
     progress: Callable[[str], None],
     notes: tuple[str, ...] = (),
@@ -220,20 +211,15 @@ def _as_dict(comparison: Comparison) -> dict[str, Any]:
         "exponent_error": comparison.exponent_error,
         "p_power": comparison.p_power,
         "laws": [
-            _law_as_dict(name, outcome) for outcome in comparison.outcomes for name in outcome.laws
+            {"law": name, **outcome.as_dict()}
+            for outcome in comparison.outcomes
+            for name in outcome.laws
         ],
     }
     plain_values: dict[str, Any] = plain(
         found | {name: getattr(comparison, name) for name in _OF_COMPARISON}
     )
     return plain_values
-
-
-def _law_as_dict(name: str, outcome: Outcome) -> dict[str, Any]:
-    numbers = {key: value for key, value in vars(outcome).items() if key != "laws"}
-    return {"law": name} | numbers | {
-        "verdict": outcome.verdict, "steady": outcome.steady, "interval": outcome.interval()
-    }  # fmt: skip
 
 
 def _csv(done: SeriesFit) -> str:

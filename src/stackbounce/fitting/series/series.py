@@ -6,17 +6,15 @@ Each kind of table has a formula, which is chosen by the names of its columns.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from stackbounce.errors import InvalidValue
+from stackbounce.library_types import Dataset
 from stackbounce.model import drag as in_air
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.run.quantities import Array
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _AIR_DENSITY = 1.2  # kg/m**3
 _DRAG_COEFFICIENT, _DRAG_ERROR = 0.45, 0.05
@@ -116,7 +114,7 @@ class Series:
         return bool(np.any(self.assumed != 0.0))
 
 
-def why_not(data: "xr.Dataset") -> str:
+def why_not(data: Dataset) -> str:
     """Return why a dataset is no series; empty if it is one."""
     if data.attrs.get("kind") == "rule":
         return "it has the limits of rules, no measurement"
@@ -127,7 +125,7 @@ def why_not(data: "xr.Dataset") -> str:
     return "it has no restitutions of one ball at known speeds"
 
 
-def make_series(data: "xr.Dataset", *, air: bool = True) -> Series:
+def make_series(data: Dataset, *, air: bool = True) -> Series:
     """Return a dataset as a series.
 
     Parameters
@@ -165,12 +163,12 @@ class _Measured(NamedTuple):
     scatters: tuple[Scatter, ...]
 
 
-def _points(drag: float, data: "xr.Dataset") -> _Measured:
+def _points(drag: float, data: Dataset) -> _Measured:
     columns = _columns_of(data)
     return _propagated(columns, drag, data) if columns else _flights(drag, data)
 
 
-def _drag_of_ball(data: "xr.Dataset") -> float:
+def _drag_of_ball(data: Dataset) -> float:
     """Return the drag of a dataset's ball in 1/m; 0 if its mass or its diameter is not known."""
     if not {"mass", "diameter"} <= set(data.attrs):
         return 0.0
@@ -245,12 +243,12 @@ _FORMULAS: dict[tuple[str, ...], _Transform] = {
 }
 
 
-def _columns_of(data: "xr.Dataset") -> tuple[str, ...]:
+def _columns_of(data: Dataset) -> tuple[str, ...]:
     """Return the columns that a formula takes; empty if none does."""
     return next((columns for columns in _FORMULAS if set(columns) <= set(data)), ())
 
 
-def _propagated(names: tuple[str, ...], drag: float, data: "xr.Dataset") -> _Measured:
+def _propagated(names: tuple[str, ...], drag: float, data: Dataset) -> _Measured:
     """Return speeds, values and their covariances, by the derivatives by each number given."""
     transform, columns = _FORMULAS[names], {name: _read(data, name) for name in names}
     given = {name: column.means for name, column in columns.items()}
@@ -291,7 +289,7 @@ class _Column(NamedTuple):
     assumed: float
 
 
-def _read(data: "xr.Dataset", name: str) -> _Column:
+def _read(data: Dataset, name: str) -> _Column:
     variable = data[name]
     values = np.asarray(variable.values, dtype=np.float64)
     scatter, freedom = np.zeros(len(values)), 0.0
@@ -306,7 +304,7 @@ def _read(data: "xr.Dataset", name: str) -> _Column:
     return _Column(values, np.asarray(errors) ** 2, scatter, freedom, assumed)
 
 
-def _flights(drag: float, data: "xr.Dataset") -> _Measured:
+def _flights(drag: float, data: Dataset) -> _Measured:
     """Return the restitutions of all bounces between two flights, averaged over the throws.
 
     Neighbouring bounces share a flight, so that their errors are correlated. Variance and

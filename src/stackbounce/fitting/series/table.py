@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -11,13 +11,10 @@ from stackbounce.errors import InvalidValue, counted, nearest, placed, positive,
 from stackbounce.fitting.rows import File, rows_of
 from stackbounce.fitting.series.columns import UNITS, role_of
 from stackbounce.fitting.series.readings import MEASURED, STARTS, readings_of, with_unit
+from stackbounce.library_types import DataFrame, Dataset
 from stackbounce.measure.reading.dataset import dataset_of
 from stackbounce.run.quantities import Array
 from stackbounce.units import quantity, unit_written
-
-if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
 
 _SAME = 6  # digits in which the heights of repeated drops are equal
 _FAR = 6.0  # robust standard deviations: a reading that differs so much is named
@@ -38,7 +35,7 @@ class Table(NamedTuple):
     """
 
     name: str
-    groups: "dict[str, xr.Dataset]"
+    groups: dict[str, Dataset]
     notes: tuple[str, ...]
 
 
@@ -93,7 +90,7 @@ def read_table(
             if value is not None
         }
         readings, measured, notes = readings_of(rows)
-        groups: dict[str, xr.Dataset] = {}
+        groups: dict[str, Dataset] = {}
         for group, own in readings.groupby("group", sort=False):
             data = _dataset(own, measured, told, notes)
             title = str(group) or Path(name).name
@@ -118,8 +115,8 @@ def told_errors(errors: Sequence[str]) -> dict[str, float]:
 
 
 def _dataset(
-    readings: "pd.DataFrame", measured: str, told: dict[str, float], notes: list[str]
-) -> "xr.Dataset":
+    readings: DataFrame, measured: str, told: dict[str, float], notes: list[str]
+) -> Dataset:
     """Return the readings of a group as a data set, those of the same thing in one row."""
     start = str(readings.start_role.iloc[0])
     readings = readings.assign(
@@ -167,7 +164,7 @@ def _dataset(
     return dataset_of(data, {})
 
 
-def _repeated(readings: "pd.DataFrame") -> "pd.DataFrame | None":
+def _repeated(readings: DataFrame) -> DataFrame | None:
     """Return a row for each height and bounce with all readings, padded; None if none repeats."""
     alike = ["drop", "number"]
     own = readings.assign(drop=readings.start.map(lambda start: float(f"{start:.{_SAME}g}")))
@@ -179,7 +176,7 @@ def _repeated(readings: "pd.DataFrame") -> "pd.DataFrame | None":
     return found.assign(values_read=read.to_numpy().tolist())
 
 
-def _pooled(merged: "pd.DataFrame") -> float:
+def _pooled(merged: DataFrame) -> float:
     """Return the standard deviation of repeated readings about their means, all rows together."""
     values = np.array(merged.values_read.tolist())
     apart = values - np.nanmean(values, axis=1, keepdims=True)
@@ -187,7 +184,7 @@ def _pooled(merged: "pd.DataFrame") -> float:
     return math.sqrt(float(np.nansum(apart**2)) / freedom)
 
 
-def _said_of_scatter(readings: "pd.DataFrame", values: Array, scatter: float, measured: str) -> str:
+def _said_of_scatter(readings: DataFrame, values: Array, scatter: float, measured: str) -> str:
     """Return where errors come from, and which readings are far from the others."""
     freedom = int(np.isfinite(values).sum() - len(values))
     what, unit = measured.replace("_", " "), UNITS[measured]

@@ -3,11 +3,12 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from stackbounce.errors import FileError, a_or_an
+from stackbounce.library_types import Dataset
 from stackbounce.measure.kind import Kind
 from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.messages import Message, OptionHint, about_option
@@ -15,9 +16,6 @@ from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.roles import ACCELERATIONS, ARBITRARY, FRAME, ROLES, Column
 from stackbounce.measure.reading.series import in_time, on_the_clock
 from stackbounce.measure.reading.video import rows_by_frame
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _ASSUMED = {"time": "s", "knock_time": "s", "force": "N", "compression": "m", "x": "m", "y": "m"}
 _OTHER_UNITS = {"s": "ms", "N": "kN", "m": "cm"}  # examples in doubts
@@ -45,7 +43,7 @@ def _is(column: Column, what: str) -> bool:
 
 def assemble(
     holds: str, columns: Sequence[Column], values: Array, run: object
-) -> tuple["xr.Dataset", list[str]]:
+) -> tuple[Dataset, list[str]]:
     """Return the Dataset of columns, without its attributes, and what is unsure.
 
     Parameters
@@ -86,7 +84,7 @@ def assemble(
     return dataset_of(data, coordinates), doubts + more
 
 
-def dataset_of(data: Mapping[str, Any], coordinates: Mapping[str, Any]) -> "xr.Dataset":
+def dataset_of(data: Mapping[str, Any], coordinates: Mapping[str, Any]) -> Dataset:
     """Return arrays of numpy as a Dataset, for which xarray imports neither dask nor pint.
 
     It imports them to see if an array is theirs, unless that is an index or takes the fast path.

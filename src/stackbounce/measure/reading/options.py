@@ -2,16 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, positive, shown
+from stackbounce.library_types import Dataset
 from stackbounce.measure.kinds import KINDS, kind_named
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.reading.roles import Column, slug
 from stackbounce.units import in_si, quantity, unit_written
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _Key = str | int
 
@@ -114,8 +111,8 @@ def of_run(
 
 
 def part_of(
-    data: "xr.Dataset", start: float | str | None = None, stop: float | str | None = None
-) -> "xr.Dataset":
+    data: Dataset, start: float | str | None = None, stop: float | str | None = None
+) -> Dataset:
     """Return the part of a Dataset from one time, frame or row to another, both included.
 
     Parameters

@@ -4,12 +4,13 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from stackbounce.errors import FileError, StackbounceError, shown
 from stackbounce.files import content_of
+from stackbounce.library_types import Dataset
 from stackbounce.measure.messages import Message, OptionHint, about_option
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading import wav
@@ -25,9 +26,6 @@ from stackbounce.measure.reading.tables import Tables, chosen, from_project, tab
 from stackbounce.measure.reading.text import decode, tabulate
 from stackbounce.measure.reading.video import on_frames
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 
 def read(
     path: str | os.PathLike[str],
@@ -42,7 +40,7 @@ def read(
     scale: float | None = None,
     start: float | str | None = None,
     stop: float | str | None = None,
-) -> "xr.Dataset":
+) -> Dataset:
     r"""Return what a file of measurements holds, recognised by its content, in SI units.
 
     Tables of Tracker, ImageJ, TrackMate, phyphox, Sensor Logger, Vernier, Logger Pro, PASCO
@@ -127,7 +125,7 @@ def read(
     return _named(*content_of(path, BYTES), options)
 
 
-def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
+def read_content(name: str, content: bytes, **options: Any) -> Dataset:
     r"""Read the content of a file that is in memory; see `read`.
 
     Parameters
@@ -162,7 +160,7 @@ def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
     return _named(name, bytearray(content), checked)
 
 
-def _named(name: str, content: bytearray, options: ReadOptions) -> "xr.Dataset":
+def _named(name: str, content: bytearray, options: ReadOptions) -> Dataset:
     try:
         data = part_of(_read(name, content, options), options.start, options.stop)
     except StackbounceError as error:
@@ -173,7 +171,7 @@ def _named(name: str, content: bytearray, options: ReadOptions) -> "xr.Dataset":
     return data
 
 
-def _read(name: str, content: bytearray, options: ReadOptions) -> "xr.Dataset":
+def _read(name: str, content: bytearray, options: ReadOptions) -> Dataset:
     if wav.is_wav(content):
         data, why, doubts = wav.read_wav(content)
         if options.holds not in (None, "sound"):
@@ -187,13 +185,13 @@ def _read(name: str, content: bytearray, options: ReadOptions) -> "xr.Dataset":
     return _from_table(name, content, options)
 
 
-def _from_tables(tables: Tables, options: ReadOptions) -> "xr.Dataset":
+def _from_tables(tables: Tables, options: ReadOptions) -> Dataset:
     """Read the first table that holds a known kind of measurement, or the one that is asked for."""
     names = sorted(tables.members, key=lambda member: member.count("/"))
     if options.table is not None:
         names = [chosen(tables, options.table)]
     options = replace(options, table=None, decimal=tables.decimal or options.decimal)
-    read: dict[str, xr.Dataset] = {}
+    read: dict[str, Dataset] = {}
     for name in names:
         try:
             content = bytearray(tables.members.pop(name))
@@ -218,7 +216,7 @@ def _from_tables(tables: Tables, options: ReadOptions) -> "xr.Dataset":
     return data
 
 
-def _from_table(name: str, content: bytearray, options: ReadOptions) -> "xr.Dataset":
+def _from_table(name: str, content: bytearray, options: ReadOptions) -> Dataset:
     layout, columns, table, doubts, runs = _table(name, content, options)
     _count(layout, columns, table)
     doubts += _flaws(table)
@@ -274,9 +272,7 @@ def _count(layout: Layout, columns: Sequence[Column], table: Table) -> None:
             table.values[:, time] = layout.clock[0] + layout.clock[1] * table.values[:, time]
 
 
-def _signed(
-    data: "xr.Dataset", form: str, why: str, holds: str, doubts: Sequence[str]
-) -> "xr.Dataset":
+def _signed(data: Dataset, form: str, why: str, holds: str, doubts: Sequence[str]) -> Dataset:
     doubt = Message("; ").join(dict.fromkeys(doubts))
     data.attrs = {"format": form, "why": why, "doubt": doubt, "holds": holds}
     return data

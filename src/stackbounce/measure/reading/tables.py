@@ -14,19 +14,17 @@ import zlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from tokenize import TokenError
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 from xml.etree.ElementTree import Element, ParseError, fromstring
 
 import numpy as np
 
 from stackbounce.errors import FileError, nearest, shown
 from stackbounce.extras import need
+from stackbounce.library_types import DataFrame
 from stackbounce.measure.messages import about_option
 from stackbounce.measure.reading.limits import BYTES, CELLS, COLUMNS, refusing
 from stackbounce.measure.reading.text import decode
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 _MEMBERS = 1000  # of an archive, at most
 _RATIO = 400  # of bytes to packed bytes; numbers as text come to about 10
@@ -183,7 +181,7 @@ def from_arrays(members: Mapping[str, bytes | bytearray]) -> Tables:
     return Tables(texts, "NumPy", "it is an array of NumPy", ".")
 
 
-def _array(content: bytes | bytearray) -> "pd.DataFrame":
+def _array(content: bytes | bytearray) -> DataFrame:
     """Return the numbers of an array: its columns, or the fields of its records."""
     import pandas as pd
 

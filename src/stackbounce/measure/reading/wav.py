@@ -2,18 +2,16 @@
 
 import io
 import struct
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import FileError
+from stackbounce.library_types import Dataset
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.dataset import dataset_of
 from stackbounce.measure.reading.limits import CELLS, refusing
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _CHUNKS = 10_000  # that are looked at
 _UNDECODED = (ValueError, TypeError, ArithmeticError, struct.error)
@@ -26,7 +24,7 @@ def is_wav(content: bytearray) -> bool:
     return riff and bytes(content[8:12]) in (b"WAVE", b"")
 
 
-def read_wav(content: bytearray) -> tuple["xr.Dataset", str, list[str]]:
+def read_wav(content: bytearray) -> tuple[Dataset, str, list[str]]:
     """Return the sound over time, the evidence for its format, and what is unsure.
 
     Channels are averaged, and full scale is 1. If the file is cut off, the samples that are there

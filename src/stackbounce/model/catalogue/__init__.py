@@ -18,13 +18,7 @@ measurement: a ball on a ball is taken to give way as it does on the floor.
 
 from stackbounce.model.catalogue.balls import BALLS, CLASS_BALLS, KINDS, PAIRS, CatalogueBall, Pair
 from stackbounce.model.catalogue.listing import Balls, balls
-from stackbounce.model.catalogue.stacking import (
-    DEFAULT_HEIGHT,
-    Stack,
-    catalogue_ball,
-    stack,
-    stacked,
-)
+from stackbounce.model.catalogue.stacking import DEFAULT_HEIGHT, catalogue_ball, stack, stacked
 
 __all__ = [
     "BALLS",
@@ -35,7 +29,6 @@ __all__ = [
     "Balls",
     "CatalogueBall",
     "Pair",
-    "Stack",
     "balls",
     "catalogue_ball",
     "stack",

@@ -63,14 +63,10 @@ class Bond(DampedSpring):
     form = codes.BOND
     listed = False
     pulls = True
+    needs = ("mass", "frequency")
 
     stiffness: Annotated[float, stiffness_in("N/m")]
     damping: Annotated[float, number_in("N s/m", non_negative, (0.0, 0.0, 1e3))] = 0.0
-
-    @classmethod
-    def calibration_needs(cls, exponent: float | None = None) -> list[str]:
-        """Return the names of the arguments that `calibrate` needs: mass and frequency."""
-        return ["mass", "frequency"]
 
     @classmethod
     def calibrated(cls, given: Given) -> Self:
@@ -87,6 +83,4 @@ class Bond(DampedSpring):
         """Raise an error: a bond has no collision."""
         raise InvalidValue("law must be that of a collision, got Bond, which never opens")
 
-    def contact_time_at(self, mass: float, speed: float) -> float:
-        """Raise an error: a bond has no collision."""
-        raise InvalidValue("law must be that of a collision, got Bond, which never opens")
+    contact_time_at = restitution_at

@@ -23,7 +23,7 @@ from stackbounce.engine import codes
 from stackbounce.errors import non_negative
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import root
-from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Given, number_in, stiffness_in
+from stackbounce.model.laws.law import ContactLaw, Flank, Given, number_in, stiffness_in
 from stackbounce.model.laws.registry import register
 
 
@@ -82,6 +82,7 @@ class Dashpot(DampedSpring):
     source = "Bartz, arXiv 2007.15005"
     form = codes.DASHPOT
     loss_depends_on = ("mass",)
+    usual_flanks = Flank(0.01, 0.3, "jump"), Flank(1.0, 1.0)  # a jump, and a linear release
 
     stiffness: Annotated[float, stiffness_in("N/m")]
     damping: Annotated[float, number_in("N s/m", non_negative, (2.0, 1e-2, 1e3))]
@@ -109,11 +110,6 @@ class Dashpot(DampedSpring):
     def linger(self) -> float:
         """The time in s for which c stays above 0 after the force ends at ``c = -b ċ/k``."""
         return self.damping / self.stiffness
-
-    @classmethod
-    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
-        """Return the flanks: the force jumps at the touch, and falls linearly at the release."""
-        return Flank(0.01, 0.3, "jump"), Flank(1.0, 1.0)
 
 
 _FAR = 2.0  # from here on 1 - x would lose digits

@@ -1,16 +1,13 @@
 """The lossless laws: the force is a power of the compression, loading and unloading."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import Annotated, ClassVar
 
 from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, instance
 from stackbounce.model.ball import Ball
-from stackbounce.model.laws.law import EXPONENT, ContactLaw, Flank, Flanks, stiffness_in
+from stackbounce.model.laws.law import EXPONENT, ContactLaw, Flank, stiffness_in
 from stackbounce.model.laws.registry import register
-
-if TYPE_CHECKING:
-    from stackbounce.model.laws.hysteretic import Hysteretic
 
 _STEEPEST_FLANK = 2.5  # the largest exponent that a force record of an unknown power law may have
 
@@ -22,12 +19,12 @@ class ElasticLaw(ContactLaw):
     rate_free = True
 
     @classmethod
-    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
+    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> tuple[Flank, Flank]:
         """Return the flanks: the same power of the time at touch and release."""
         either = Flank(exponent or 1.0, exponent or _STEEPEST_FLANK, exact=True)
         return either, either
 
-    def as_hysteretic(self) -> "Hysteretic":
+    def as_hysteretic(self) -> ContactLaw:
         """Return the law as a `Hysteretic` one that loses nothing."""
         from stackbounce.model.laws.hysteretic import Hysteretic
 

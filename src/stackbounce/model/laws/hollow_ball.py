@@ -19,7 +19,6 @@ from stackbounce.model.laws.law import (
     ContactLaw,
     EngineNumbers,
     Flank,
-    Flanks,
     Given,
     Quantity,
     number_in,
@@ -99,6 +98,7 @@ restitution 0.75'
     rate_free = True
     loss = "restitution"
     least_restitution = 0.0873  # at which it buckles after 4 % of the contact time at the softest
+    usual_flanks = Flank(1.0, 1.0), Flank(1.0, _SOFTEST)
 
     exponent: ClassVar[float] = 1.0
     stiffness: Annotated[float, stiffness_in("N/m")]
@@ -139,11 +139,6 @@ restitution 0.75'
         unit = _unit_law(start, share, kept)
         knee = unit.buckling_compression * given["impact_speed"] / rate
         return cls(given["mass"] * rate * rate, knee, unit.stiffness_ratio, kept)
-
-    @classmethod
-    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
-        """Return the flanks: linear at the touch, a power of at least 1 at the release."""
-        return Flank(1.0, 1.0), Flank(1.0, _SOFTEST)
 
     def series_constants(self) -> dict[str, Any]:
         """Return what two laws in series must have in common: all but the stiffness."""

@@ -24,15 +24,7 @@ from stackbounce.engine import codes
 from stackbounce.errors import non_negative
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import root
-from stackbounce.model.laws.law import (
-    EXPONENT,
-    ContactLaw,
-    Flank,
-    Flanks,
-    Given,
-    number_in,
-    stiffness_in,
-)
+from stackbounce.model.laws.law import EXPONENT, ContactLaw, Flank, Given, number_in, stiffness_in
 from stackbounce.model.laws.registry import register
 
 LARGEST = 1e300
@@ -109,7 +101,7 @@ class HuntCrossley(ContactLaw):
         return cls(k, p, d / given["impact_speed"])
 
     @classmethod
-    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
+    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> tuple[Flank, Flank]:
         """Return the flanks: a power at the touch, and roughly a power at the release."""
         return Flank(exponent or 1.0, exponent or 1.5, exact=True), Flank(1.0, 2.5)
 

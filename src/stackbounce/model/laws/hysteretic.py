@@ -14,7 +14,6 @@ from stackbounce.model.laws.law import (
     ContactLaw,
     EngineNumbers,
     Flank,
-    Flanks,
     Given,
     Quantity,
     stiffness_in,
@@ -85,6 +84,7 @@ class Hysteretic(ContactLaw):
     third_number = "unloading_exponent"
     rate_free = True
     loss = "restitution"
+    loss_fields = ("restitution", "unloading_exponent")
     usual_exponent = 1.0
     usual_models: ClassVar = {"Hysteretic": {}, "Hysteretic, Hertz loading": {"exponent": 1.5}}
 
@@ -103,15 +103,6 @@ class Hysteretic(ContactLaw):
         names = ("stiffness", "exponent", "restitution", "unloading_exponent", "derived")
         for name, value in zip(names, (k, p, e, n, derived), strict=True):
             object.__setattr__(self, name, value)
-
-    @classmethod
-    def loss_fields(cls) -> tuple[str, ...]:
-        """Return ``restitution`` and ``unloading_exponent``, of which one is given."""
-        return _ONE_OF
-
-    def derived_field(self) -> str:
-        """Return the name of the derived field: ``restitution`` or ``unloading_exponent``."""
-        return self.derived
 
     def replaced(self, changes: Mapping[str, Any]) -> Self:
         """Return a copy with changed fields; the derived field is computed again."""
@@ -157,7 +148,7 @@ class Hysteretic(ContactLaw):
         return cls(k, exponent=p, restitution=e)
 
     @classmethod
-    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
+    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> tuple[Flank, Flank]:
         """Return the flanks: the exponent of the release is at least that of the touch."""
         touch = Flank(exponent or 1.0, exponent or 1.5, exact=True)
         if law is None:
@@ -188,7 +179,7 @@ class Hysteretic(ContactLaw):
         return Hysteretic(stiffness, exponent=p, restitution=math.sqrt(kept))
 
 
-_ONE_OF = ("restitution", "unloading_exponent")
+_ONE_OF = Hysteretic.loss_fields
 _OTHER = dict(zip(_ONE_OF, reversed(_ONE_OF), strict=True))
 
 

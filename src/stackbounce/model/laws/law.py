@@ -6,17 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from numbers import Real
 from types import MappingProxyType
-from typing import (
-    TYPE_CHECKING,
-    Any,
-    ClassVar,
-    Literal,
-    NamedTuple,
-    Self,
-    TypeAlias,
-    TypeVar,
-    get_type_hints,
-)
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, TypeVar, get_type_hints
 
 from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, between, positive
@@ -28,10 +18,10 @@ from stackbounce.units import WORDS, Unit, in_unit, unit_of
 STEEPEST = 1e6
 """The largest exponent of a loading or unloading curve; above it the curve is almost a step."""
 
-Given: TypeAlias = Mapping[str, float]
+Given = Mapping[str, float]
 """The measured quantities of a collision, by the names of the arguments of `calibrate`."""
 
-EngineNumbers: TypeAlias = tuple[int, Any, Any, Any, Any]
+EngineNumbers = tuple[int, Any, Any, Any, Any]
 """A contact as the engine takes it, see `stackbounce.engine.forces`."""
 
 _MEASURED = ("mass", "impact_speed", "contact_time", "exponent")
@@ -117,10 +107,6 @@ class Flank(NamedTuple):
     exact: bool = False
 
 
-Flanks: TypeAlias = tuple[Flank, Flank]
-"""The flanks at the touch and at the release."""
-
-
 _Law = TypeVar("_Law", bound="ContactLaw")
 
 
@@ -156,10 +142,16 @@ class ContactLaw(Shown):
     """Whether the force depends on the compression and its history alone, not on its rate."""
     loss: ClassVar[str] = ""
     """The field that describes the energy loss; empty for a lossless law."""
+    loss_fields: ClassVar[tuple[str, ...]] = ()
+    """The fields of which any one can set the energy loss, where there are more than `loss`."""
+    derived: str = ""
+    """The name of the field that is computed from another one; empty for most laws."""
     loss_depends_on: ClassVar[tuple[str, ...]] = ()
     """What the restitution depends on besides the law: ``mass``, ``impact_speed``."""
     least_restitution: ClassVar[float] = 0.0
     """The smallest restitution that `calibrate` can give the law if no more is known of it."""
+    needs: ClassVar[tuple[str, ...] | None] = None
+    """The arguments that `calibrate` needs, where they do not follow from loss and exponent."""
     usual_exponent: ClassVar[float | None] = None
     """The default exponent in `calibrate`, for a law with a free exponent."""
     usual_models: ClassVar[Mapping[str, Mapping[str, float]]] = {}
@@ -168,6 +160,8 @@ class ContactLaw(Shown):
     Rigid laws are there in any case.
     """
 
+    usual_flanks: ClassVar[tuple[Flank, Flank] | None] = None
+    """The shapes of the flanks of a force record, at touch and release, if always these."""
     page_code: ClassVar[Mapping[str, str]] = {}
     """What the page cannot do by default, in JavaScript: ``numbers``, those of the engine after the
     form as `engine_numbers` gives them; ``others``, the fields that `calibrated` derives from what
@@ -178,7 +172,7 @@ class ContactLaw(Shown):
         def __getattr__(self, name: str) -> Any: ...
 
     def __repr__(self) -> str:
-        return call_of(self, self.derived_field())
+        return call_of(self, self.derived)
 
     def __post_init__(self) -> None:
         for name, number in self.quantities().items():
@@ -221,15 +215,6 @@ class ContactLaw(Shown):
         power = "" if exponent == 1.0 else f"**{exponent:g}"
         found = self.quantities().items()
         return {name: one.symbol.replace("**exponent", power) for name, one in found}
-
-    @classmethod
-    def loss_fields(cls) -> tuple[str, ...]:
-        """Return the fields of which any one can set the energy loss; none for a lossless law."""
-        return (cls.loss,) if cls.loss else ()
-
-    def derived_field(self) -> str:
-        """Return the name of the field that is computed from another one; empty for most laws."""
-        return ""
 
     def replaced(self, changes: Mapping[str, Any]) -> Self:
         """Return a copy of the law with changed fields; a derived field is computed again."""
@@ -356,6 +341,8 @@ class ContactLaw(Shown):
     @classmethod
     def calibration_needs(cls, exponent: float | None = None) -> list[str]:
         """Return the names of the arguments that `calibrate` needs for this law."""
+        if cls.needs is not None:
+            return list(cls.needs)
         usual = cls.default_exponent()
         p = usual if exponent is None else exponent
         loss = ["restitution"] if cls.loss else []
@@ -406,7 +393,9 @@ class ContactLaw(Shown):
     # force records
 
     @classmethod
-    def flanks(cls, exponent: float | None, law: "ContactLaw | None" = None) -> Flanks | None:
+    def flanks(
+        cls, exponent: float | None, law: "ContactLaw | None" = None
+    ) -> tuple[Flank, Flank] | None:
         """Return the possible shapes of the flanks of a force record; None if nothing is known.
 
         Parameters
@@ -416,7 +405,7 @@ class ContactLaw(Shown):
         law : ContactLaw, optional
             The law with its parameters, if they are known.
         """
-        return None
+        return cls.usual_flanks
 
     # two contacts in series
 

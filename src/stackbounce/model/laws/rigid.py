@@ -56,6 +56,7 @@ class Rigid(ContactLaw):
     rigid = True
     exact = True
     loss = "restitution"
+    needs: ClassVar[tuple[str, ...] | None] = ("restitution",)
 
     restitution: Annotated[float, Quantity("", fraction, (0.8, 0.05, 1.0))]
 
@@ -67,11 +68,6 @@ class Rigid(ContactLaw):
     def contact_time_at(self, mass: float, speed: float) -> float:
         """Return 0."""
         return 0.0
-
-    @classmethod
-    def calibration_needs(cls, exponent: float | None = None) -> list[str]:
-        """Return the name of the only argument that `calibrate` needs."""
-        return ["restitution"]
 
     @classmethod
     def calibrated(cls, given: Given) -> Self:
@@ -135,6 +131,7 @@ class RigidBySpeed(Rigid):
           [restitution * speed ** speed_exponent, speed_exponent, scatter, seed]"""
     }
     loss_depends_on = ("impact_speed",)
+    needs = ("restitution", "impact_speed")
 
     restitution: Annotated[float, _RESTITUTION]
     speed: Annotated[float, _SPEED]
@@ -159,11 +156,6 @@ class RigidBySpeed(Rigid):
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution at a speed in m/s, without scatter."""
         return min(1.0, self.restitution * power(self.speed / speed, self.speed_exponent))
-
-    @classmethod
-    def calibration_needs(cls, exponent: float | None = None) -> list[str]:
-        """Return the names of the arguments that `calibrate` needs."""
-        return ["restitution", "impact_speed"]
 
     @classmethod
     def calibrated(cls, given: Given) -> Self:

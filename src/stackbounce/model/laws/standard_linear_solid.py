@@ -7,15 +7,7 @@ from typing import Annotated, ClassVar, Self
 
 from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, non_negative, positive
-from stackbounce.model.laws.law import (
-    ContactLaw,
-    Flank,
-    Flanks,
-    Given,
-    Quantity,
-    number_in,
-    stiffness_in,
-)
+from stackbounce.model.laws.law import ContactLaw, Flank, Given, Quantity, number_in, stiffness_in
 from stackbounce.model.laws.registry import register
 
 
@@ -77,6 +69,7 @@ class StandardLinearSolid(ContactLaw):
     loss = "relaxation_strength"
     loss_depends_on = ("mass",)
     least_restitution = 2.7e-4  # at a relaxation strength of half a million
+    usual_flanks = Flank(1.0, 1.0), Flank(1.0, 1.0)  # linear
 
     exponent: ClassVar[float] = 1.0
     stiffness: Annotated[float, stiffness_in("N/m")]
@@ -107,8 +100,3 @@ class StandardLinearSolid(ContactLaw):
                 f"restitution must be one that a relaxation_time of {share:.2g} contact "
                 f"times allows, got {given['restitution']:g}: no relaxation strength loses so much"
             ) from None
-
-    @classmethod
-    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
-        """Return the flanks: the force rises and falls linearly."""
-        return Flank(1.0, 1.0), Flank(1.0, 1.0)

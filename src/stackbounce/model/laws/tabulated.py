@@ -17,7 +17,7 @@ from typing import Annotated, Any, ClassVar, Self
 
 from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, finite, listed
-from stackbounce.model.laws.law import RESTITUTION, ContactLaw, EngineNumbers, Flank, Flanks, Given
+from stackbounce.model.laws.law import RESTITUTION, ContactLaw, EngineNumbers, Flank, Given
 from stackbounce.model.laws.registry import register
 from stackbounce.units import Unit, checked
 
@@ -92,6 +92,8 @@ class Tabulated(ContactLaw):
     rate_free = True
     loss = "restitution"
     loss_depends_on = ("mass", "impact_speed")
+    needs = ()  # `calibrated` says what makes a table
+    usual_flanks = Flank(1.0, _STEEPEST_FLANK), Flank(1.0, _STEEPEST_FLANK)
 
     exponent: ClassVar[float] = 1.0
     compression: Annotated[Sequence[float], Unit("m")]
@@ -170,22 +172,12 @@ class Tabulated(ContactLaw):
         return self._bounce(mass, speed)[1]
 
     @classmethod
-    def calibration_needs(cls, exponent: float | None = None) -> list[str]:
-        """Return no names: `calibrated` says what makes a table."""
-        return []
-
-    @classmethod
     def calibrated(cls, given: Given) -> Self:
         """Raise an error: a contact time and a restitution are no table."""
         raise InvalidValue(
             "law_class must be a law with a formula, got Tabulated: press(...).as_law() makes one "
             "of a press curve"
         )
-
-    @classmethod
-    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
-        """Return the flanks: the force begins and ends with a power of the time."""
-        return Flank(1.0, _STEEPEST_FLANK), Flank(1.0, _STEEPEST_FLANK)
 
 
 def _points(

@@ -12,7 +12,7 @@ from typing import Annotated, ClassVar
 
 from stackbounce.engine import codes
 from stackbounce.errors import non_negative
-from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, number_in, stiffness_in
+from stackbounce.model.laws.law import ContactLaw, Flank, number_in, stiffness_in
 from stackbounce.model.laws.registry import register
 
 
@@ -60,6 +60,7 @@ class Viscoelastic(ContactLaw):
     third_number = "dissipative_time"
     loss = "dissipative_time"
     loss_depends_on = ("mass", "impact_speed")
+    usual_flanks = Flank(0.01, 0.3, "root"), Flank(0.01, 0.3, "fade")
     usual_models: ClassVar = {"Viscoelastic": {}}
 
     exponent: ClassVar[float] = 1.5
@@ -70,8 +71,3 @@ class Viscoelastic(ContactLaw):
     def linger(self) -> float:
         """The time in s for which c stays above 0 after the force ends at ``c = -1.5 A ċ``."""
         return 1.5 * self.dissipative_time
-
-    @classmethod
-    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
-        """Return the flanks: ``root`` at the touch and ``fade`` at the release; see `Flank`."""
-        return Flank(0.01, 0.3, "root"), Flank(0.01, 0.3, "fade")

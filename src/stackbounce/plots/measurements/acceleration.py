@@ -1,18 +1,16 @@
 """The plot of an accelerometer's record: its flights, and the restitution of each bounce."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from stackbounce.library_types import Figure
 from stackbounce.plots.style import COLORS, annotate, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _BESIDE = 0.15  # of the series' duration, shown on each side
 
 
-def draw(data: Any, found: Any, axes: Any = None) -> "Figure":  # noqa: ARG001
+def draw(data: Any, found: Any, axes: Any = None) -> Figure:  # noqa: ARG001
     """Draw the magnitude of the acceleration, its flights shaded, with their restitutions.
 
     Parameters

@@ -1,19 +1,17 @@
 """The plot of the restitution of each bounce against its impact speed."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from stackbounce.library_types import Figure
 from stackbounce.plots.style import COLORS, annotate, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _LINES = {"linear": "-", "power law": "--"}
 _FIRST_NUMBERS = 6  # further ones would be written on each other
 
 
-def draw(data: Any, found: Any, axes: Any = None) -> "Figure":  # noqa: ARG001
+def draw(data: Any, found: Any, axes: Any = None) -> Figure:  # noqa: ARG001
     """Draw the restitution of each bounce against its impact speed, with the fitted laws e(v).
 
     Parameters

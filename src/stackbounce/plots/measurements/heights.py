@@ -1,17 +1,15 @@
 """The plot of bounce heights, with those of a constant restitution."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from stackbounce.library_types import Figure
 from stackbounce.plots.style import COLORS, annotate, panels, with_error
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-    from numpy.typing import NDArray
+from stackbounce.run.quantities import Array
 
 
-def draw(data: Any, found: Any, axes: Any = None) -> "Figure":  # noqa: ARG001
+def draw(data: Any, found: Any, axes: Any = None) -> Figure:  # noqa: ARG001
     """Draw the measured heights of the ball's lowest point, and those at the mean restitution.
 
     Parameters
@@ -62,7 +60,7 @@ def draw(data: Any, found: Any, axes: Any = None) -> "Figure":  # noqa: ARG001
     return figure
 
 
-def _curve(found: Any, start: float, kept: float, bounces: "NDArray[np.float64]") -> Any:
+def _curve(found: Any, start: float, kept: float, bounces: Array) -> Any:
     """Return the heights at one restitution after some bounces."""
     if found.drag is None:
         return start * kept ** (2.0 * bounces)

@@ -1,17 +1,15 @@
 """The plot of a result without a plot of its own: a table of its numbers with errors."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from stackbounce.library_types import Figure
 from stackbounce.plots.style import file_of, panels
 from stackbounce.shown import table_of
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _MOST = 24  # rows that fit
 
 
-def draw(data: Any, found: Any, axes: Any = None) -> "Figure":
+def draw(data: Any, found: Any, axes: Any = None) -> Figure:
     """Draw the rows of a result as a table.
 
     Parameters

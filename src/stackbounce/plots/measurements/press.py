@@ -1,19 +1,16 @@
 """The plot of a press curve (force against compression) and of the fits to it."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from stackbounce.library_types import Axes, Figure
 from stackbounce.plots.style import COLORS, WIDTH, file_of, panels
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _MANY = 1500  # points of a branch that are drawn, about
 
 
-def draw(data: Any, found: Any, axes: Any = None) -> "Figure":
+def draw(data: Any, found: Any, axes: Any = None) -> Figure:
     """Draw a press curve with the fits of its branches, the hysteresis loop, and the residuals.
 
     Parameters
@@ -72,7 +69,7 @@ def draw(data: Any, found: Any, axes: Any = None) -> "Figure":
     return figure
 
 
-def _shade(axes: "Axes", found: Any, at: Any) -> None:
+def _shade(axes: Axes, found: Any, at: Any) -> None:
     """Shade the hysteresis loop between the fits, and write down how much of the work is lost."""
     fits = []
     for curve in (found.loading, found.unloading):

@@ -1,22 +1,19 @@
 """The plot of a sound recording, its detected knocks, and those that were rejected."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.library_types import Axes, Figure
 from stackbounce.plots.style import COLORS, WIDTH, panels
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _MARGIN = 0.06
 _WORDS = {"echo": "echoes", "second sound of one impact": "second sounds of one impact"}
 _BLUE, _RED = COLORS[:2]
 
 
-def draw(data: Any, found: Any, axes: Any = None) -> "Figure":
+def draw(data: Any, found: Any, axes: Any = None) -> Figure:
     """Draw a recording with its knocks, and the flights between them.
 
     Parameters
@@ -43,7 +40,7 @@ def draw(data: Any, found: Any, axes: Any = None) -> "Figure":
     return figure
 
 
-def _draw_sound(axes: "Axes", data: Any, found: Any, times: NDArray[np.float64]) -> None:
+def _draw_sound(axes: Axes, data: Any, found: Any, times: NDArray[np.float64]) -> None:
     samples, origin = _samples(data)
     pad = 2.0 * _MARGIN * max(float(np.ptp(times)), 0.1)
     first = max(0, int((times[0] - pad - origin) * found.rate))
@@ -80,7 +77,7 @@ def _words(found: Any) -> str:
     return _WORDS.get(whys[0], whys[0]) if len(whys) == 1 else "echoes and other sounds"
 
 
-def _draw_flights(axes: "Axes", found: Any, times: NDArray[np.float64]) -> None:
+def _draw_flights(axes: Axes, found: Any, times: NDArray[np.float64]) -> None:
     flights = np.diff(times)
     missed = np.array(found.missed, dtype=bool)
     middle = 0.5 * (times[1:] + times[:-1])

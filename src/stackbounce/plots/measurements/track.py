@@ -1,20 +1,17 @@
 """The plot of a track: the points, the parabolas of the flights, and the residuals."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from stackbounce.library_types import Axes, Figure
 from stackbounce.plots.style import WIDTH, annotate, color_of, panels
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _SAMPLES = 60  # of a parabola
 _LINES = 2  # on which restitutions are written in turn
 
 
-def draw(data: Any, found: Any, axes: Any = None) -> "Figure":  # noqa: ARG001
+def draw(data: Any, found: Any, axes: Any = None) -> Figure:  # noqa: ARG001
     """Draw each ball's points and parabolas, its bounces, and the residuals.
 
     Parameters
@@ -50,7 +47,7 @@ def draw(data: Any, found: Any, axes: Any = None) -> "Figure":  # noqa: ARG001
     return figure
 
 
-def _draw_ball(axes: "Axes", ball: Any, color: str, found: Any) -> None:
+def _draw_ball(axes: Axes, ball: Any, color: str, found: Any) -> None:
     named = len(found.balls) > 1
     times, used = ball.fit.times, np.isfinite(ball.fit.residuals)
     label = _label(ball, named, found.units.speed)

@@ -1,12 +1,9 @@
 """The plot of a force record, and of the contacts, flanks and peaks found in it."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from stackbounce.library_types import Axes, Figure
 from stackbounce.plots.style import COLORS, FORCES, WIDTH, annotate, file_of, panels
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _RECORD, _SHADE, _FLANK, _PEAK = "#4d4d4d", COLORS[0], COLORS[1], COLORS[2]
 _TINY = 0.03  # of the whole extent: a contact too narrow to be seen
@@ -16,7 +13,7 @@ _DOTS = 160  # samples within the picture, up to which each gets a dot
 _MANY = 5000  # beyond, the line is drawn in pixels, also in a vector graphic
 
 
-def draw(data: Any, found: Any, axes: Any = None) -> "Figure":
+def draw(data: Any, found: Any, axes: Any = None) -> Figure:
     """Draw a force record, its baseline, its contacts with their flanks, and its peaks.
 
     Parameters
@@ -65,7 +62,7 @@ def draw(data: Any, found: Any, axes: Any = None) -> "Figure":
 
 
 def _draw_panel(
-    axes: "Axes", found: Any, contacts: Any, extent: tuple[float, float], *, named: bool
+    axes: Axes, found: Any, contacts: Any, extent: tuple[float, float], *, named: bool
 ) -> None:
     """Draw a stretch of the record and the contacts in it."""
     low, high = extent
@@ -98,7 +95,7 @@ def _extent(found: Any, contacts: Any) -> tuple[float, float]:
     return max(first, low - beside), min(last, high + beside)
 
 
-def _draw_record(axes: "Axes", found: Any, low: float, high: float, factor: float) -> None:
+def _draw_record(axes: Axes, found: Any, low: float, high: float, factor: float) -> None:
     """Draw the samples: as dots if they are few, else as a line, of pixels if they are many."""
     inside = (found.times >= low) & (found.times <= high)
     times, force = factor * found.times[inside], found.force[inside]
@@ -111,7 +108,7 @@ def _draw_record(axes: "Axes", found: Any, low: float, high: float, factor: floa
     axes.plot(times, force, style, rasterized=len(times) > _MANY, **look)
 
 
-def _draw_contact(axes: "Axes", found: Any, contact: Any, factor: float, *, flanks: bool) -> None:
+def _draw_contact(axes: Axes, found: Any, contact: Any, factor: float, *, flanks: bool) -> None:
     """Shade a contact, draw the fits of its flanks, mark its peaks."""
     start = found.times[0] if contact.start is None else contact.start.nominal_value
     end = found.times[-1] if contact.end is None else contact.end.nominal_value
@@ -129,7 +126,7 @@ def _draw_contact(axes: "Axes", found: Any, contact: Any, factor: float, *, flan
     axes.plot(times, heights, "v", label="peaks", **mark)
 
 
-def _label_contacts(axes: "Axes", contacts: Any, factor: float) -> None:
+def _label_contacts(axes: Axes, contacts: Any, factor: float) -> None:
     """Write the contact time above each contact, on two lines in turn."""
     whole = [contact for contact in contacts if contact.time is not None]
     for k, contact in enumerate(whole):
@@ -141,7 +138,7 @@ def _label_contacts(axes: "Axes", contacts: Any, factor: float) -> None:
         annotate(axes, text, (middle, 1.0), _SHADE, bbox=box, **place, **top)
 
 
-def _title(axes: "Axes", data: Any, found: Any) -> None:
+def _title(axes: Axes, data: Any, found: Any) -> None:
     """Write the title: the number of contacts, and the name of the file."""
     count = len(found.contacts)
     words = f"{count or 'no'} contact{'s' * (count != 1)}"

@@ -1,16 +1,14 @@
 """The analysis of a press curve."""
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.library_types import Dataset
 from stackbounce.measure.kinds.press.cycle import result_of
 from stackbounce.measure.kinds.press.record import cycles, record_of
 from stackbounce.measure.kinds.press.result import Press
 from stackbounce.measure.setup import Setup
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _CLEAR = 3.0  # standard errors
 
@@ -20,7 +18,7 @@ def analyse(data: Any, setup: Setup) -> Press:
     return press(data, tabulated=setup.tabulated)
 
 
-def press(data: "xr.Dataset | Any", *, tabulated: bool = False) -> Press:
+def press(data: Dataset | Any, *, tabulated: bool = False) -> Press:
     """Return stiffness, exponent and energy loss of a curve of force against compression.
 
     Parameters

@@ -2,18 +2,16 @@
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue
+from stackbounce.library_types import Dataset
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns, resolution
 from stackbounce.measure.statistics.ar_noise import difference_noise
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _LEAST_POINTS = 6  # of a branch that is fitted, which has three parameters
 _LEAST_REVERSAL = 0.15  # of the range of compressions: smaller reversals belong to a branch
@@ -64,7 +62,7 @@ class Cycle:
     peak_error: float
 
 
-def record_of(data: "xr.Dataset | Any") -> Record:
+def record_of(data: Dataset | Any) -> Record:
     """Return a press curve's record; see `press`.
 
     Raises

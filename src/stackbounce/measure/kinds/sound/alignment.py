@@ -307,6 +307,8 @@ def _best(
 
     The weighted sum of squares at all shifts is a correlation, calculated by Fourier transforms.
     """
+    from scipy.signal import fftconvolve
+
     most = round(reach / bands.step)
     now = np.round(shifts / bands.step).astype(np.int64)
     steps = window.first + now[:, None] + np.arange(-most, window.steps + most)
@@ -314,7 +316,9 @@ def _best(
     logs = np.take_along_axis(bands.logs, steps[:, None], axis=2)
     weights = compared.weights[..., ::-1]
     wanted = weights * compared.wanted[..., ::-1]
-    squares = (_convolved(logs**2, weights) - 2.0 * _convolved(logs, wanted)).sum(axis=1)
+    pairs = ((logs**2, weights), (logs, wanted))
+    squared, crossed = (fftconvolve(*pair, "valid", axes=-1) for pair in pairs)
+    squares = (squared - 2.0 * crossed).sum(axis=1)
     at = np.clip(np.argmin(squares, axis=1), 1, 2 * most - 1)
     low, mid, high = (squares[np.arange(len(at)), at + k] for k in (-1, 0, 1))
     bend = low - 2.0 * mid + high
@@ -360,13 +364,3 @@ def _shares(shifts: Array, variances: Array) -> Pair:
     weights = 1.0 / variances
     share = weights / weights.sum(axis=1, keepdims=True)
     return share, (share * shifts).sum(axis=1)
-
-
-def _convolved(values: Array, window: Array) -> Array:
-    """Return the convolution along the last axis, where the whole window lies within the values."""
-    from scipy.fft import irfft, next_fast_len, rfft
-
-    long, short = values.shape[-1], window.shape[-1]
-    count = next_fast_len(long + short - 1, real=True)
-    convolved = irfft(rfft(values, count) * rfft(window, count), count)
-    return np.asarray(convolved[..., short - 1 : long])

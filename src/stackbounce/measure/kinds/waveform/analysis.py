@@ -3,12 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from stackbounce.errors import InvalidValue
+from stackbounce.library_types import Dataset
 from stackbounce.measure.kinds.waveform.baseline import first_guess, quiet_parts
 from stackbounce.measure.kinds.waveform.contact import Seen, measure_contact
 from stackbounce.measure.kinds.waveform.hum import regression
@@ -29,16 +30,11 @@ from stackbounce.measure.quantities import Array, Mask, known_to, measured_if_gi
 from stackbounce.measure.samples import runs
 from stackbounce.model.laws import ContactLaw
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
 _HIGH = 0.25  # of the largest value, below which only hum and noise are sought at first
 _SMOOTHED = 1e-4  # s of averages, so that noise does not break high parts into short ones
 _MANY_EQUAL, _EQUAL = 5, 0.02  # pulses, and the share by which their peaks differ at most
-_FULL = (
-    0.8  # of peak times duration: the impulse of a square pulse with slow edges; a sine has 0.64
-)
+_FULL = 0.8  # of peak times duration: the impulse of a square pulse of slow edges; a sine has 0.64
 _ROUNDS = 4  # of finding baseline and contacts by each other; later ones change nothing
 _MOST_CONTACTS = 120  # of a record of bounces
 _FEW_SAMPLES = 6  # of a contact, below which a note says so
@@ -48,7 +44,7 @@ _CLEARLY_STEEP = 3.0  # standard errors by which it is below 1
 
 
 def waveform(
-    data: "xr.Dataset | Sequence[ArrayLike]",
+    data: Dataset | Sequence[ArrayLike],
     *,
     mass: Any = None,
     impact_speed: Any = None,

@@ -11,7 +11,7 @@ where q is the lower ball's displacement, up-positive, as it bounces alone: on a
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.finding import Finding, Listed, force_channels
@@ -19,10 +19,8 @@ from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.result import Waveform
 from stackbounce.measure.quantities import Number, measured, propagate
 from stackbounce.model import Ball, Drop
+from stackbounce.model.laws import ContactLaw
 from stackbounce.run.driver import simulate
-
-if TYPE_CHECKING:
-    from stackbounce.model.laws import ContactLaw
 
 
 @dataclass(frozen=True, repr=False)
@@ -50,7 +48,7 @@ def gap_from_delay(
     *,
     contact_time: Any = None,
     mass: Any = None,
-    contact: "ContactLaw | None" = None,
+    contact: ContactLaw | None = None,
 ) -> Number:
     """Return the gap of two falling balls that touch a delay after the lower one's landing.
 

@@ -2,18 +2,16 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from stackbounce.errors import InvalidValue, positive
+from stackbounce.library_types import Dataset
 from stackbounce.measure.finding import force_channels
 from stackbounce.measure.quantities import Array, Mask
 from stackbounce.measure.samples import columns, resolution
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _LEAST_SAMPLES = 8  # of a record
 _UNEVEN = 0.01  # of a step, by which one may differ before a note says so
@@ -48,7 +46,7 @@ class Record:
     notes: tuple[str, ...]
 
 
-def read_record(data: "xr.Dataset | Sequence[ArrayLike]") -> Record:
+def read_record(data: Dataset | Sequence[ArrayLike]) -> Record:
     """Return the first force or voltage of a record, cleaned.
 
     Parameters

@@ -1,15 +1,14 @@
 """The result of the analysis of a force record."""
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
+from stackbounce.library_types import DataArray, Dataset
 from stackbounce.measure.constants import dynamic_stiffness
 from stackbounce.measure.finding import Curve, Finding, channels, force_channels
 from stackbounce.measure.kinds.waveform.flanks import Flank
 from stackbounce.measure.quantities import Array, Number, Row, known_rows, nominal
 
-if TYPE_CHECKING:
-    import xarray as xr
 _LISTED = 12  # contacts in a table for people
 
 
@@ -162,15 +161,15 @@ class Waveform(Finding):
         """Return the contact time of the first whole contact, and the impact speed as given."""
         return {"contact_time": self._first_time, "impact_speed": self.impact_speed}
 
-    def measured(self, data: "xr.Dataset") -> dict[str, str]:
+    def measured(self, data: Dataset) -> dict[str, str]:
         """Return the channels that are the forces of the two lowest contacts."""
         return {f"force.{i}": name for i, name in enumerate(force_channels(data)[:2])}
 
-    def forces(self, data: "xr.Dataset", lasting: float) -> "dict[str, xr.DataArray]":
+    def forces(self, data: Dataset, lasting: float) -> dict[str, DataArray]:
         """Return the force channels, without later bounces, which are those of another drop."""
         return {name: self._first_impact(data[name], lasting) for name in force_channels(data)}
 
-    def _first_impact(self, channel: "xr.DataArray", lasting: float) -> "xr.DataArray":
+    def _first_impact(self, channel: DataArray, lasting: float) -> DataArray:
         record = channel.dropna("time").sortby("time")
         first = self.contacts[0] if self.contacts else None
         if first is None or first.start is None:
@@ -184,7 +183,7 @@ class Waveform(Finding):
         beyond = [start for start in later if start > end]
         return record.sel(time=slice(None, 0.5 * (end + min(beyond)))) if beyond else record
 
-    def curves(self, data: "xr.Dataset") -> list[Curve]:
+    def curves(self, data: Dataset) -> list[Curve]:
         """Return the channels; the one that was analysed without its baseline, contacts upward."""
         return channels(data, Curve("", "force", self.times, self.force, self.unit))
 
