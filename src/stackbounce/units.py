@@ -6,12 +6,10 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from numbers import Real
-from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin
+from typing import Annotated, Any, get_args, get_origin
 
 from stackbounce.errors import InvalidType, UnitError, finite, shown
-
-if TYPE_CHECKING:
-    import pint
+from stackbounce.library_types import UnitRegistry
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?"
 _WRITTEN = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
@@ -340,7 +338,7 @@ def _message(name: str, value: object, unit: str) -> str:
 
 
 @functools.cache
-def _registry() -> "pint.UnitRegistry[float]":
+def _registry() -> "UnitRegistry[float]":
     import pint
 
     return pint.UnitRegistry()

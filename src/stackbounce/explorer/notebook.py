@@ -74,19 +74,13 @@ def explore(drop: Drop | None = None, *, height: int = 640) -> ExplorerFrame:
     <the explorer with 1 ball: a notebook shows it as the last line of a cell>
     """
     if drop is not None:
-        _check(drop)
+        drop = instance("drop", drop, Drop)
+        if len(drop.balls) > LIMITS.balls:
+            raise InvalidValue(
+                f"balls must be at most {LIMITS.balls} in the explorer, got {len(drop.balls)}"
+            )
+        for i, law in enumerate(drop.contacts):
+            name, home = type(law).__name__, type(law).__module__
+            if law is not None and not (law.listed and home.startswith("stackbounce.")):
+                raise InvalidValue(f"contacts.{i} must be a law that the explorer has, got {name}")
     return ExplorerFrame(drop, whole("height", height, 1))
-
-
-def _check(drop: object) -> None:
-    """Refuse what the page cannot show."""
-    drop = instance("drop", drop, Drop)
-    if len(drop.balls) > LIMITS.balls:
-        raise InvalidValue(
-            f"balls must be at most {LIMITS.balls} in the explorer, got {len(drop.balls)}"
-        )
-    for i, law in enumerate(drop.contacts):
-        own = law is not None and not type(law).__module__.startswith("stackbounce.")
-        if law is not None and (own or not law.listed):
-            name = type(law).__name__
-            raise InvalidValue(f"contacts.{i} must be a law that the explorer has, got {name}")

@@ -28,33 +28,20 @@ question      a problem from texts, as typed beside a file
 """
 
 from stackbounce.extras import MEASURING, need
-from stackbounce.fitting.comparison import Comparison, compare
-from stackbounce.fitting.files import read_question
-from stackbounce.fitting.parameters import Range
-from stackbounce.fitting.posterior import Posterior
-from stackbounce.fitting.problem import FitProblem, Interrupted, Model, fit
-from stackbounce.fitting.profile import Interval
-from stackbounce.fitting.residuals import Record, Residual
-from stackbounce.fitting.result import Fit
-from stackbounce.fitting.standard import standard_models
-from stackbounce.fitting.tables import read_drops
-
-__all__ = [
-    "Comparison",
-    "Fit",
-    "FitProblem",
-    "Interrupted",
-    "Interval",
-    "Model",
-    "Posterior",
-    "Range",
-    "Record",
-    "Residual",
-    "compare",
-    "fit",
-    "read_drops",
-    "read_question",
-    "standard_models",
-]
+from stackbounce.fitting.comparison import Comparison as Comparison
+from stackbounce.fitting.comparison import compare as compare
+from stackbounce.fitting.files import read_question as read_question
+from stackbounce.fitting.parameters import Range as Range
+from stackbounce.fitting.posterior import Posterior as Posterior
+from stackbounce.fitting.problem import FitProblem as FitProblem
+from stackbounce.fitting.problem import Interrupted as Interrupted
+from stackbounce.fitting.problem import Model as Model
+from stackbounce.fitting.problem import fit as fit
+from stackbounce.fitting.profile import Interval as Interval
+from stackbounce.fitting.residuals import Record as Record
+from stackbounce.fitting.residuals import Residual as Residual
+from stackbounce.fitting.result import Fit as Fit
+from stackbounce.fitting.standard import standard_models as standard_models
+from stackbounce.fitting.tables import read_drops as read_drops
 
 need("stackbounce fit", *MEASURING)

@@ -261,8 +261,10 @@ def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> 
     kind = law_named(law) if isinstance(law, str) else law
     known: dict[str, Any] = {}
     for result in found:
-        values = result.law_arguments().items()
-        known |= {name: _usable(value) for name, value in values if value is not None}
+        for name, value in result.law_arguments().items():
+            if value is not None:  # an error that is NaN is unknown
+                unknown = math.isnan(getattr(value, "std_dev", 0.0))
+                known[name] = value.nominal_value if unknown else value
     known |= {name: value for name, value in given.items() if value is not None}
     exponent = known.get("exponent")
     needed = kind.calibration_needs(getattr(exponent, "nominal_value", exponent))
@@ -275,11 +277,6 @@ def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> 
         raise InvalidValue(f"{kind.__name__} needs what was not found: {', '.join(words)}")
     used = {name: known[name] for name in (*needed, "exponent") if name in known}
     return law_constants(kind, **used)
-
-
-def _usable(value: Any) -> Any:
-    """Return a number; drop its error if that is NaN, which means unknown."""
-    return value.nominal_value if math.isnan(getattr(value, "std_dev", 0.0)) else value
 
 
 def _together(contacts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:

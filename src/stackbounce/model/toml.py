@@ -82,12 +82,8 @@ def write_mapping(drop: Any) -> dict[str, Any]:
         if name not in ("balls", "contacts")
     }
     balls = [_given(ball) for ball in drop.balls]
-    return plain | {"balls": balls, "contacts": [write_law(law) for law in drop.contacts]}
-
-
-def write_law(law: ContactLaw | None) -> dict[str, Any]:
-    """Return a contact law as plain values, with its name as ``law``."""
-    return {"law": NO_FLOOR} if law is None else law.to_mapping()
+    laws = [{"law": NO_FLOOR} if law is None else law.to_mapping() for law in drop.contacts]
+    return plain | {"balls": balls, "contacts": laws}
 
 
 def _given(instance: Any) -> dict[str, Any]:

@@ -16,11 +16,6 @@ _SINGLE = 8  # of more counts, the first so many have a color of their own
 _INFINITE = (0.75, 0.75, 0.75, 1.0)
 
 
-def hatch(axes: Axes) -> None:
-    """Hatch the background of the axes, which shows through where cells have no value."""
-    axes.patch.set(facecolor="white", edgecolor="#b0b0b0", hatch="////", linewidth=0.0)
-
-
 def draw_levels(axes: Axes, x: Scale, y: Scale, values: NDArray[Any], unit: str) -> str:
     """Draw numbers as colors with contours, and return the unit of the color bar.
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.library_types import Axes, DataArray, Dataset, Figure
-from stackbounce.plots.maps import draw_counts, draw_levels, hatch
+from stackbounce.plots.maps import draw_counts, draw_levels
 from stackbounce.plots.scales import is_flat, label, path_of, read_scale, show_in_handy_unit
 from stackbounce.plots.style import COLORS, WIDTH, color_of, drawn_by, into_axes, panels
 
@@ -134,8 +134,8 @@ def heatmap(
         label(axes, "x", path_of(data, across), x)
         label(axes, "y", path_of(data, up), y)
         values = own.values.astype(float)
-        if np.isnan(values).any():
-            hatch(axes)
+        if np.isnan(values).any():  # the background shows through where cells have no value
+            axes.patch.set(facecolor="white", edgecolor="#b0b0b0", hatch="////", linewidth=0.0)
         if show == "collisions":
             draw_counts(axes, x, y, values)
         else:

@@ -54,6 +54,15 @@ class Apex(NamedTuple):
     share: float
 
 
+def _parts(name: str, text: str) -> property:
+    """Return a property: the parts of a quantity, one for each ball or contact."""
+
+    def parts(found: "Prediction") -> list[Any]:
+        return [found[f"{name}.{k}"] for k in range(len(found.drop.balls))]
+
+    return property(parts, doc=text)
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Prediction(Shown):
     """What follows of a drop whose numbers have errors, with errors; made by `predict`.
@@ -159,35 +168,21 @@ class Prediction(Shown):
             raise InvalidValue(f"{shown(name)} is not predicted; {nearest(name, values)}")
         return values[name]
 
-    @property
-    def rebound_speeds(self) -> list[Any]:
-        """(N,) velocity of each ball after the impact, m/s, up-positive."""
-        return self._parts("rebound_speeds")
-
-    @property
-    def rebound_ratios(self) -> list[Any]:
-        """(N,) rebound speed of each ball over the impact speed v0."""
-        return self._parts("rebound_ratios")
-
-    @property
-    def rebound_heights(self) -> list[Any]:
-        """(N,) how far each ball rises at its rebound speed, m; negative if it moves down."""
-        return self._parts("rebound_heights")
-
-    @property
-    def first_touch(self) -> list[Any]:
-        """(N,) time of each contact's first touch, s."""
-        return self._parts("first_touch")
-
-    @property
-    def last_release(self) -> list[Any]:
-        """(N,) time at which each contact opened last, s."""
-        return self._parts("last_release")
-
-    @property
-    def durations(self) -> list[Any]:
-        """(N,) time from each contact's first touch to its last release, s."""
-        return self._parts("durations")
+    rebound_speeds = _parts(
+        "rebound_speeds", "(N,) velocity of each ball after the impact, m/s, up-positive."
+    )
+    rebound_ratios = _parts(
+        "rebound_ratios", "(N,) rebound speed of each ball over the impact speed v0."
+    )
+    rebound_heights = _parts(
+        "rebound_heights",
+        "(N,) how far each ball rises at its rebound speed, m; negative if it moves down.",
+    )
+    first_touch = _parts("first_touch", "(N,) time of each contact's first touch, s.")
+    last_release = _parts("last_release", "(N,) time at which each contact opened last, s.")
+    durations = _parts(
+        "durations", "(N,) time from each contact's first touch to its last release, s."
+    )
 
     @property
     def energy_retained(self) -> Any:
@@ -487,9 +482,6 @@ class Prediction(Shown):
                 ]
             found |= {_label(name, part): value for part, value in enumerate(values)}
         return found
-
-    def _parts(self, name: str) -> list[Any]:
-        return [self[f"{name}.{k}"] for k in range(len(self.drop.balls))]
 
     @functools.cached_property
     def _columns(self) -> dict[str, Array]:

@@ -112,14 +112,35 @@ class Press(Finding):
     def as_law(self) -> Tabulated:
         """Return the curve itself as a law: a `Tabulated` one.
 
-        Its points are at equal distances from the contact to the peak.
+        Its points are at equal distances from the contact to the peak, by monotone least squares
+        through the many points of a branch; those with a compression below 0 are left out.
 
         Raises
         ------
         InvalidValue
             If it has too few points.
         """
-        return _table(self.loading, self.unloading)
+        from scipy.interpolate import PchipInterpolator
+
+        c, f = _pressed("loading", self.loading)
+        knots = np.linspace(0.0, float(c.max()), MOST_POINTS)
+        force, bulge = np.zeros(MOST_POINTS), np.zeros(len(c))
+        for _ in range(2):  # the second time by how much the law's spline is off straight lines
+            force = np.append(0.0, np.cumsum(_rises(_ramps(knots, c), f - bulge)))
+            bulge = PchipInterpolator(knots, force)(c) - np.interp(c, knots, force)
+        force[1:] += _STEEP * force[-1] * np.arange(1, MOST_POINTS) / MOST_POINTS
+        if self.unloading is None:
+            return Tabulated(knots.tolist(), force.tolist())
+        c, f = _pressed("unloading", self.unloading)
+        # The share of the loading rises to 1: all rises together are 1, by a firm condition.
+        ramps = np.insert(_ramps(knots, c)[:, 1:], 0, 1.0, axis=1)
+        ramps *= np.interp(c, knots, force)[:, None]
+        firm = _FIRM * len(c) ** 0.5 * force[-1]
+        firmly = np.vstack([ramps, np.full_like(ramps[:1], firm)])
+        shares = np.cumsum(_rises(firmly, np.append(f, firm)))
+        shares[-1] = 1.0
+        back = np.append(0.0, force[1:] * np.minimum(shares, 1.0))
+        return Tabulated(knots.tolist(), force.tolist(), back.tolist())
 
     def parts(self) -> dict[str, Any]:
         """Return the contact, as a drop's TOML has it.
@@ -146,34 +167,6 @@ class Press(Finding):
         if e is not None and loss.nominal_value > _AGREES * loss.std_dev:
             contact |= {"law": "Hysteretic", "restitution": nominal(e)}
         return {"contact": contact}
-
-
-def _table(loading: Branch, unloading: Branch | None) -> Tabulated:
-    """Return the law of the points of loading and, if they are known, of unloading.
-
-    It goes through the many points of a branch by monotone least squares; those with a compression
-    below 0 are left out.
-    """
-    from scipy.interpolate import PchipInterpolator
-
-    c, f = _pressed("loading", loading)
-    knots = np.linspace(0.0, float(c.max()), MOST_POINTS)
-    force, bulge = np.zeros(MOST_POINTS), np.zeros(len(c))
-    for _ in range(2):  # the second time by how much the law's spline is off straight lines
-        force = np.append(0.0, np.cumsum(_rises(_ramps(knots, c), f - bulge)))
-        bulge = PchipInterpolator(knots, force)(c) - np.interp(c, knots, force)
-    force[1:] += _STEEP * force[-1] * np.arange(1, MOST_POINTS) / MOST_POINTS
-    if unloading is None:
-        return Tabulated(knots.tolist(), force.tolist())
-    c, f = _pressed("unloading", unloading)
-    # The share of the loading rises to 1: all rises together are 1, by a firm condition.
-    ramps = np.insert(_ramps(knots, c)[:, 1:], 0, 1.0, axis=1) * np.interp(c, knots, force)[:, None]
-    firm = _FIRM * len(c) ** 0.5 * force[-1]
-    firmly = np.vstack([ramps, np.full_like(ramps[:1], firm)])
-    shares = np.cumsum(_rises(firmly, np.append(f, firm)))
-    shares[-1] = 1.0
-    back = np.append(0.0, force[1:] * np.minimum(shares, 1.0))
-    return Tabulated(knots.tolist(), force.tolist(), back.tolist())
 
 
 def _pressed(name: str, curve: Branch) -> tuple[Array, Array]:
