@@ -157,7 +157,7 @@ def take_step(x: Floats) -> None:
     _find_rates(x, 0.0, _END[0])
     for i in range(BOTH):
         x[ACC + i] = x[ACC_NEW + i]
-    a = _TO_2
+    a: Sequence[float] = _TO_2
     for i in range(T):
         x[K1 + i] = k = x[OUT + i]
         x[NOW + i] = x[Y + i] + a[0] * k

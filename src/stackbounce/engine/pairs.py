@@ -38,9 +38,8 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
     Parameters
     ----------
     drops : Drops
-        The parameters of n drops, of the forms POWER, DASHPOT, VISCOELASTIC and
-        HUNT_CROSSLEY. Both balls come with the lower one's
-        velocity.
+        The parameters of n drops, of the forms POWER, DASHPOT, VISCOELASTIC and HUNT_CROSSLEY.
+        Both balls come with the lower one's velocity.
     rtol : float
         The error of the velocities that is aimed at, over the impact speed.
     out : Outcomes

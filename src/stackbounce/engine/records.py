@@ -39,7 +39,7 @@ class Outcomes(NamedTuple):
     last_release: FloatTable  # s; nan where none, infinity where the run stopped in an interval
     energy_retained: FloatColumn  # kinetic energy after over that before
     status: IntegerColumn
-    work: IntegerColumn  # what the run cost, see `work`; that of two springs is not counted
+    work: IntegerColumn  # what the run cost, see `work`; that of drops in lanes is not counted
 
 
 class Workspace(NamedTuple):
