@@ -22,7 +22,7 @@ from stackbounce.engine import native
 from stackbounce.engine.memory import FINITE, lane_workspace, memory
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
-from stackbounce.model.laws import contact_numbers
+from stackbounce.model.laws import ContactLaw, contact_numbers
 from stackbounce.run.batch import new_outcomes
 
 LAWS = {
@@ -39,7 +39,7 @@ COUNT = 4000
 ROUNDS = 5
 
 
-def random_drops(law: sb.Law, count: int = COUNT, seed: int = 1) -> Drops:
+def random_drops(law: ContactLaw, count: int = COUNT, seed: int = 1) -> Drops:
     """Return random drops, both of whose contacts have a law with other stiffnesses."""
     random, one = np.random.default_rng(seed), np.ones((count, 2))
     form, stiffness, *others = contact_numbers(law)
@@ -58,72 +58,82 @@ def random_drops(law: sb.Law, count: int = COUNT, seed: int = 1) -> Drops:
 
 
 @numba.njit  # type: ignore[untyped-decorator]
-def _force(k: float, p: float, a: float, b: float, d: float, c: float, r: float) -> float:
-    """Return k c^(p - 1) (a + b c + d r) (b + a c), which holds all of `LAWS`."""
-    if c <= 0.0:
-        return 0.0
-    base = 1.0 if p == 1.0 else (math.sqrt(c) if p == 1.5 else c ** (p - 1.0))
-    return max(0.0, k * base * (a + b * c + d * r) * (b + a * c))
+def _hertz(k: float, d: float, c: float, r: float) -> float:  # noqa: ARG001 - one signature for all
+    return k * c * math.sqrt(c) if c > 0.0 else 0.0
 
 
 @numba.njit  # type: ignore[untyped-decorator]
-def _rates(m: Any, law: Any, y: Any) -> Any:
-    q0, q1, v0, v1 = y
-    k0, k1, p, a, b, d0, d1 = law
-    floor = _force(k0, p, a, b, d0, -q0, -v0)
-    balls = _force(k1, p, a, b, d1, q0 - q1, v0 - v1)
-    return v0, v1, (floor - balls) / m[0], balls / m[1]
+def _power(k: float, d: float, c: float, r: float) -> float:  # noqa: ARG001 - the same
+    return k * c**2.2 if c > 0.0 else 0.0
 
 
 @numba.njit  # type: ignore[untyped-decorator]
-def _moved(y: Any, h: float, f: Any) -> Any:
-    return y[0] + h * f[0], y[1] + h * f[1], y[2] + h * f[2], y[3] + h * f[3]
+def _viscoelastic(k: float, d: float, c: float, r: float) -> float:
+    return max(0.0, k * math.sqrt(c) * (c + 1.5 * d * r)) if c > 0.0 else 0.0
 
 
 @numba.njit  # type: ignore[untyped-decorator]
-def by_hand(m: Any, laws: Any, gap: Any, speed: Any, dt: Any, final: Any) -> None:
-    """Solve drops by the classical Runge-Kutta method; the velocities are written to ``final``."""
-    for i in range(len(gap)):
-        y, h, law = (0.0, gap[i], -speed[i], -speed[i]), dt[i], laws[i]
-        for _ in range(1_000_000):
-            f = _rates(m[i], law, y)
-            g = _rates(m[i], law, _moved(y, 0.5 * h, f))
-            u = _rates(m[i], law, _moved(y, 0.5 * h, g))
-            w = _rates(m[i], law, _moved(y, h, u))
-            y = _moved(_moved(_moved(y, h / 6.0, f), h / 3.0, g), h / 3.0, u)
-            y = _moved(y, h / 6.0, w)
-            apart = y[0] > 0.0 and y[1] > y[0]
-            if apart and y[2] >= 0.0 and y[3] >= y[2]:
-                break
-            # free flight until the next touch
-            if apart:
-                floor = -y[0] / y[2] if y[2] < 0.0 else math.inf
-                balls = (y[1] - y[0]) / (y[2] - y[3]) if y[2] > y[3] else math.inf
-                wait = min(floor, balls)
-                y = (y[0] + wait * y[2], y[1] + wait * y[3], y[2], y[3])
-        final[i, 0], final[i, 1] = y[2], y[3]
+def _hunt_crossley(k: float, d: float, c: float, r: float) -> float:
+    return max(0.0, k * c * math.sqrt(c) * (1.0 + d * r)) if c > 0.0 else 0.0
 
 
-def _loop(drops: Drops, law: sb.Law, steps: int) -> Callable[[], Any]:
+@numba.njit  # type: ignore[untyped-decorator]
+def _dashpot(k: float, d: float, c: float, r: float) -> float:
+    return max(0.0, k * c + d * r) if c > 0.0 else 0.0
+
+
+FORCES = dict(zip(LAWS, (_hertz, _power, _viscoelastic, _hunt_crossley, _dashpot), strict=True))
+
+
+def by_hand(force: Any) -> Any:
+    """Return the loop for a force, which writes the final velocities of drops to ``final``."""
+
+    @numba.njit  # type: ignore[untyped-decorator]
+    def accelerations(
+        m0: float, m1: float, k: Any, d: Any, q0: float, q1: float, v0: float, v1: float
+    ) -> Any:
+        floor, balls = force(k[0], d[0], -q0, -v0), force(k[1], d[1], q0 - q1, v0 - v1)
+        return (floor - balls) / m0, balls / m1
+
+    @numba.njit  # type: ignore[untyped-decorator]
+    def loop(m: Any, k: Any, d: Any, gap: Any, speed: Any, dt: Any, final: Any) -> None:
+        for i in range(len(gap)):
+            h, half, m0, m1, ki, di = dt[i], 0.5 * dt[i], m[i, 0], m[i, 1], k[i], d[i]
+            q0, q1, v0, v1 = 0.0, gap[i], -speed[i], -speed[i]
+            for _ in range(1_000_000):
+                a0, a1 = accelerations(m0, m1, ki, di, q0, q1, v0, v1)
+                u0, u1 = v0 + half * a0, v1 + half * a1
+                b0, b1 = accelerations(m0, m1, ki, di, q0 + half * v0, q1 + half * v1, u0, u1)
+                w0, w1 = v0 + half * b0, v1 + half * b1
+                e0, e1 = accelerations(m0, m1, ki, di, q0 + half * u0, q1 + half * u1, w0, w1)
+                x0, x1 = v0 + h * e0, v1 + h * e1
+                f0, f1 = accelerations(m0, m1, ki, di, q0 + h * w0, q1 + h * w1, x0, x1)
+                q0 += h / 6.0 * (v0 + 2.0 * (u0 + w0) + x0)
+                q1 += h / 6.0 * (v1 + 2.0 * (u1 + w1) + x1)
+                v0 += h / 6.0 * (a0 + 2.0 * (b0 + e0) + f0)
+                v1 += h / 6.0 * (a1 + 2.0 * (b1 + e1) + f1)
+                if q0 > 0.0 and q1 > q0:  # free flight, to the next touch if there is one
+                    if v0 >= 0.0 and v1 >= v0:
+                        break
+                    wait = -q0 / v0 if v0 < 0.0 else math.inf
+                    if v0 > v1:
+                        wait = min(wait, (q1 - q0) / (v0 - v1))
+                    q0, q1 = q0 + wait * v0, q1 + wait * v1
+            final[i, 0], final[i, 1] = v0, v1
+
+    return loop
+
+
+def _loop(drops: Drops, loop: Any, steps: int) -> Callable[[], Any]:
     """Return what solves drops by hand and returns the velocities."""
-    k, speed = drops.first, -drops.velocity[:, 0]
-    p, loss, name = drops.second[0, 0], drops.third, type(law).__name__
-    a, b, d = 1.0, 0.0, loss
-    if name == "Dashpot":
-        p, a, b, d = 1.0, 0.0, 1.0, loss / k
-    elif name == "Viscoelastic":
-        p, a, b, d = 1.5, 0.0, 1.0, 1.5 * loss
-    elif name != "HuntCrossley":
-        d = 0.0 * loss
-    one = np.ones(len(speed))
-    laws = np.column_stack([k, p * one, a * one, b * one, d])
+    speed, p = -drops.velocity[:, 0], drops.second[0, 0]
     reduced = np.column_stack([drops.mass[:, 0], 1.0 / (1.0 / drops.mass).sum(axis=1)])
-    depth = (reduced * speed[:, None] ** 2 / k) ** (1.0 / (p + 1.0))
+    depth = (reduced * speed[:, None] ** 2 / drops.first) ** (1.0 / (p + 1.0))
     dt = 3.0 * depth.min(axis=1) / speed / steps
     gap, final = np.ascontiguousarray(drops.gap[:, 1]), np.empty((len(speed), 2))
 
     def call() -> Any:
-        by_hand(drops.mass, laws, gap, speed, dt, final)
+        loop(drops.mass, drops.first, drops.third, gap, speed, dt, final)
         return final
 
     return call
@@ -151,37 +161,37 @@ def _general(drops: Drops, rtol: float) -> tuple[Callable[[], Any], Outcomes]:
     return call, out
 
 
-def measure(law: sb.Law) -> list[tuple[str, float, float, float]]:
+def measure(name: str) -> list[tuple[str, float, float, float]]:
     """Return the ways to solve random drops of a law: name, time in s a drop, errors.
 
     The errors are the median, and that which 1 % of the drops exceed.
     """
-    drops = random_drops(law)
+    drops, loop = random_drops(LAWS[name]), by_hand(FORCES[name])
     truth, _ = _general(drops, TRUTH)
     right = truth().copy()
-    ways = {f"loop, {steps} steps": _loop(drops, law, steps) for steps in STEPS}
+    ways = {f"loop, {steps} steps": _loop(drops, loop, steps) for steps in STEPS}
     ways |= {f"lanes, rtol {rtol:.0e}": _lanes(drops, rtol)[0] for rtol in TOLERANCES}
     ways |= {f"drop by drop, rtol {rtol:.0e}": _general(drops, rtol)[0] for rtol in TOLERANCES}
     found = dict.fromkeys(ways, math.inf)
     errors: dict[str, Any] = {}
     for _ in range(ROUNDS + 1):  # the first one compiles
-        for name, solve in ways.items():
+        for way, solve in ways.items():
             start = process_time()
             velocity = solve()
-            found[name] = min(found[name], process_time() - start)
+            found[way] = min(found[way], process_time() - start)
             error = np.abs(velocity - right).max(axis=1) / -drops.velocity[:, 0]
-            errors[name] = np.nanquantile(error, [0.5, 0.99])
-    return [(name, time / COUNT, *map(float, errors[name])) for name, time in found.items()]
+            errors[way] = np.nanquantile(error, [0.5, 0.99])
+    return [(way, time / COUNT, *map(float, errors[way])) for way, time in found.items()]
 
 
 def main() -> None:
     """Measure and print."""
     console = Console(highlight=False)
-    for name, law in LAWS.items():
+    for name in LAWS:
         table = Printed(title=name)
         for head in ("way", "µs a drop", "median error", "99 %"):
             table.add_column(head, justify="left" if head == "way" else "right")
-        for way, time, median, most in measure(law):
+        for way, time, median, most in measure(name):
             table.add_row(way, f"{1e6 * time:.2f}", f"{median:.1e}", f"{most:.1e}")
         console.print(table)
 
