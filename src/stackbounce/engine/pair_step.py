@@ -79,7 +79,7 @@ MOST_STEPS = 2000.0  # of a drop: the general engine solves one that needs more
 # by less is not sure.
 UNSURE, UNSURE_LATER = 4.0, 0.5
 _AHEAD = 1.2  # steps: an event within this is aimed at
-_TINY = 1e-300  # avoids 0/0
+_TINY = 1e-150  # m/s: a step without an error is exact
 ONWARD = 1.7  # the first step by time, over the time of the last one by a root
 
 # fmt: off
@@ -259,7 +259,7 @@ def _find_errors(x: Floats) -> None:
         third += x[K3 + R + i] + x[K3 + R + LANES + i]
         fifth = (x[K4 + C + i] + x[K4 + C + LANES + i]) * per_time
         fifth += x[K4 + R + i] + x[K4 + R + LANES + i]
-        over = (fifth + 0.1 * third) * (speed * tolerance) / (fifth * fifth + _TINY)
+        over = (fifth + 0.1 * third + _TINY) * (speed * tolerance) / (fifth * fifth + _TINY * _TINY)
         over = over if third < coarse * speed and dt > 0.0 else 0.0
         over = min(max(over, 1e-6), 1e6)
         root = math.sqrt(math.sqrt(math.sqrt(over)))

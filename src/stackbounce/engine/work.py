@@ -11,6 +11,9 @@ EVENT_LIMIT = 1_000_000
 WORK_LIMIT = 150_000_000
 """The work after which a run stops by default: one to five seconds."""
 
+LANE_EVENTS = 10_000
+"""An event limit that no drop reaches to which an engine in lanes gives an answer."""
+
 SLICE = 2**17
 """The work after which a kernel returns to its caller, who may stop it: some milliseconds."""
 
@@ -22,3 +25,6 @@ STANDSTILL = 1000  # for an event since the last of which no time has passed: mo
 CREST = 12  # to find the largest compression or force in a step, times the order of the series
 CYCLE = 6  # for each cycle that a contact remembers, and each of its pieces, at a change of curve
 COLLISION = 30  # of two rigid balls
+LANE_EVENTS = (
+    10_000  # an event limit that no drop reaches to which an engine in lanes gives an answer
+)

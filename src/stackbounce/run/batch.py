@@ -30,9 +30,9 @@ from stackbounce.engine.memory import (
 )
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
+from stackbounce.engine.work import LANE_EVENTS
 from stackbounce.model import Drop
 from stackbounce.run.engines import (
-    LANE_EVENTS,
     choose_compiled,
     choose_engine,
     choose_lanes,

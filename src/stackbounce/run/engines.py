@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 from stackbounce.engine import native
 from stackbounce.engine.codes import DASHPOT, HUNT_CROSSLEY, POWER, VISCOELASTIC
 from stackbounce.engine.memory import FINITE, RIGID, Engine
+from stackbounce.engine.work import LANE_EVENTS
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.model import Drop
 from stackbounce.model.laws import contact_numbers
@@ -30,8 +31,6 @@ from stackbounce.run.options import Options
 if TYPE_CHECKING:
     from stackbounce.run.paths import Number
 
-LANE_EVENTS = 10_000
-"""An event limit that no drop reaches to which an engine in lanes gives an answer."""
 _PAIRS = {POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY}  # forms of force
 _PAIRS_RTOL = 1e-13  # the least tolerance: round-off accumulates over some 100 steps
 

@@ -1,4 +1,4 @@
-"""What the library answers to the page's questions, by its public functions."""
+"""What the library answers to the page's questions."""
 
 import numpy as np
 from page_build.data import MAP_RTOL, WORDS
@@ -9,6 +9,8 @@ from stackbounce.explorer.limits import LIMITS, RTOL
 from stackbounce.json_values import plain
 from stackbounce.model import law_named
 from stackbounce.plots.impact import choose_window, sample_with_approach
+from stackbounce.run.batch import solve
+from stackbounce.run.options import run_options
 from stackbounce.run.paths import drop_at, number_at, numbers_of
 
 RATIOS, OUTCOMES = WORDS["ratios"], WORDS["outcomes"]
@@ -148,16 +150,16 @@ def at(mapping, path, value):
 
 def outcome(drop, show, index, event_limit):
     """Return what the library finds of a drop; None where it does not come to its end."""
-    result = sb.simulate(drop, rtol=MAP_RTOL, event_limit=event_limit)
-    if result.status > sb.Status.COLLAPSED:
+    out = solve(drop, {}, (1,), run_options(drop, None, MAP_RTOL, event_limit))
+    if out.status[0] > sb.Status.COLLAPSED:
         return None
     if show == "energy_retained":
-        return finite(result.energy_retained)
+        return finite(out.energy_retained[0])
     if show == "collisions":
-        return int(result.collisions[index])
+        return int(out.collisions[0, index])
     if show == "rebound_ratio":
-        return finite(result.rebound_ratios[index])
-    speed = result.rebound_speeds[index]
+        return finite(out.rebound_ratio[0, index])
+    speed = out.velocity[0, index]
     return finite(speed * abs(speed) / (2.0 * sb.model.STANDARD_GRAVITY))
 
 

@@ -90,7 +90,8 @@ export class Points {
     const { POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY } = theEngine().forms;
     const together = new Set(base.velocity).size === 1 && base.velocity[0] < 0;
     const free = varied.some(({ number }) => number.part === "velocities" || number.field === "gravity");
-    if (drop.balls.length !== 2 || drop.gravity !== 0 || !together || free) return null;
+    const few = known.limits.events < theEngine().layout.limits.lanes; // a drop in lanes counts no events
+    if (drop.balls.length !== 2 || drop.gravity !== 0 || !together || free || few) return null;
     const linear = base.form.every((form, i) => form === POWER && base.second[i] === 1);
     if (linear && varied.every(({ number }) => number.field !== "exponent")) return "run_two_springs";
     return base.form.every((form) => [POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY].includes(form)) ? "run_pairs" : null;
