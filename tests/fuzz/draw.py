@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from stackbounce.engine import codes
+from stackbounce.engine.elementary import power
 
 # laws of random drops
 NONE, SPRING, HERTZ, POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY = range(7)
@@ -101,7 +102,7 @@ def drops_of(seed: int, batch: int, count: int = BATCH) -> Drops:
         mass=mass,
         law=law,
         form=np.array(KINDS)[law],
-        first=linear * length ** (1.0 - exponent),
+        first=linear * _power(length, 1.0 - exponent),
         second=exponent,
         third=extra,
         fourth=relaxation_time,
@@ -132,13 +133,13 @@ def _damping(random, law, extra, linear, reduced, length, speed):
 
 def _decades(random, shape, low, high):
     """Return numbers whose logarithms are uniform."""
-    return 10.0 ** random.uniform(low, high, shape)
+    return _power(10.0, random.uniform(low, high, shape))
 
 
 def _spread(random, shape, widths, odds):
     """Return rows of numbers each within its own number of decades."""
     width = random.choice(widths, (shape[0], 1), p=odds)
-    return 10.0 ** (width * random.uniform(-0.5, 0.5, shape))
+    return _power(10.0, width * random.uniform(-0.5, 0.5, shape))
 
 
 def _masses(random, shape):
@@ -215,3 +216,9 @@ def _gaps(random, shape, length):
         equal = random.random(count) < 0.1
         gap[equal, 1:] = gap[equal, 1:2]
     return gap
+
+
+def _power(base, exponent):
+    """Return base^exponent of arrays with the same bits on every machine, as numpy's has not."""
+    values = np.vectorize(power, otypes=[float])(base, exponent)
+    return values.reshape(np.broadcast_shapes(np.shape(base), np.shape(exponent)))
