@@ -22,8 +22,8 @@ from stackbounce.engine.kernels import kernel
 from stackbounce.engine.slots import BALLS_AT_REST, GRAVITY
 from stackbounce.engine.stack import RigidStack
 
-_ALIKE = 8.0  # times a difference of speeds: up to this they give it to all digits
-_LATE = 256.0  # times a wait: a later local time gets a new origin
+ALIKE = 8.0  # times a difference of speeds: up to this they give it to all digits
+LATE = 256.0  # times a wait: a later local time gets a new origin
 
 
 @kernel
@@ -105,7 +105,7 @@ def schedule_collision(stack: RigidStack, i: int) -> None:
     if pull > 0.0 and stack.law[i] != ABSENT:
         gap, rate, last = max(0.0, -stack.compression[i]), stack.rate[i], closing_rate(stack, i)
         wait = 2.0 * gap / (rate + last) if rate > 0.0 else (last - rate) / pull
-    if wait > 0.0 and wait * _LATE < stack.now[0]:
+    if wait > 0.0 and wait * LATE < stack.now[0]:
         _move_origin(stack)
     schedule(stack.due, stack.heap, stack.place, i, stack.now[0] + wait)
 
@@ -133,7 +133,7 @@ def change_rate(stack: RigidStack, i: int, change: float) -> None:
     below = stack.velocity[i - 1] if i > 0 else 0.0
     above = stack.velocity[i]
     stack.rate_noise[i] = 64.0 * EPSILON * largest
-    if max(abs(below), abs(above)) <= _ALIKE * largest:
+    if max(abs(below), abs(above)) <= ALIKE * largest:
         stack.rate[i] = below - above
     else:
         stack.rate[i] += change

@@ -39,17 +39,17 @@ from stackbounce.engine.kernels import Floats, kernel
 LANES = 32  # a power of two
 BOTH = 2 * LANES  # a slot for each contact: the floor's, then the balls'
 
-# A state: compressions, closing rates, and time.
-C, R, T = 0, BOTH, 2 * BOTH
+# A state: compressions beyond the surfaces, their rates, the surfaces' compressions, and time.
+C, R, S, T = 0, BOTH, 2 * BOTH, 3 * BOTH
 STATE = T + LANES
 # The present state and that at the end of the step; without time, the state of a stage, its rates,
 # and those of earlier stages.
 Y, NEW = 0, STATE
 NOW, OUT, K1, K3, K4, K5, K6, K7, K8, K9, K10, K11 = (2 * STATE + k * T for k in range(12))
-# Slots for each contact: the base c^(p - 1) and then the force; the acceleration r' at both ends of
-# the step; stiffness, 0 where it does not press; stiffness, p - 1, and a, b, d of its gain; the
-# sign that its compression has while no event comes, and that of its gain; 1 if the step goes by
-# it, and the weights by_r and by_a.
+# Slots for each contact: the base (c/C)^(p - 1) and then the force; the acceleration r' at both ends
+# of the step; stiffness, 0 where it does not press; stiffness, p - 1, and a, b, d of its gain; the
+# sign that its compression has while no event comes, and that of its watched gain; 1 if the step
+# goes by it, and the weights by_r and by_a.
 _EACH = 2 * STATE + 12 * T
 F, ACC, ACC_NEW, PRESSING, STIFFNESS, POWER = (_EACH + k * BOTH for k in range(6))
 A, B, D, SIGN, GAIN_SIGN, OWN, BY_R, BY_A = (_EACH + k * BOTH for k in range(6, 14))
@@ -58,19 +58,25 @@ A, B, D, SIGN, GAIN_SIGN, OWN, BY_R, BY_A = (_EACH + k * BOTH for k in range(6, 
 # next.
 SCALE, COUNT, FIRST, LAST, DOUBT, SOON = (_EACH + k * BOTH for k in range(14, 20))
 DT, MARGIN, NEXT, TAKEN = (_EACH + k * BOTH for k in range(20, 24))  # the same for both contacts
+# a, b, d of the gain that is watched; 1/C; p - 1 of loading and of unloading, 0 if that is the same;
+# the rates mu and nu of its surface, and mu while it presses; the part of r' that is the surface's.
+END_A, END_B, END_D, OVER_PEAK, LOADING, UNLOADING = (_EACH + k * BOTH for k in range(24, 30))
+MU, NU, MU_NOW, DRIFT = (_EACH + k * BOTH for k in range(30, 34))
 # Slots for each lane: 1/m1, 1/m2; the step in s, s where it begins, and the weights m, n, q; how
 # the step goes; impact speed, row, status; 1 if `pairs` must decide how the lane goes on; steps so
 # far; the allowed error over that of the step, and the factor for the next step; the last step by
 # time.
-_LANE = _EACH + 24 * BOTH
+_LANE = _EACH + 34 * BOTH
 OVER_1, OVER_2, H, START, M, N, Q, MODE = (_LANE + k * LANES for k in range(8))
 V0, ROW, STATUS, ASKS, STEPS, OVER_ERROR, GROW, BY_TIME = (_LANE + k * LANES for k in range(8, 16))
 # The event that a step is to end at: its contact, its kind, and the time to it.
 CONTACT, KIND, WAIT = (_LANE + k * LANES for k in range(16, 19))
-TOLERANCE = _LANE + 19 * LANES  # the error allowed in a step, over the impact speed
+STAGE_DT = _LANE + 19 * LANES  # dt of a whole step at the rates of a stage
+TOLERANCE = _LANE + 20 * LANES  # the error allowed in a step, over the impact speed
 COARSE = TOLERANCE + 1  # the largest estimate of order 3 with which the others can be trusted
 GENERAL = TOLERANCE + 2  # 1 if some exponent is neither 1 nor 1.5
-SLOTS = TOLERANCE + 3
+CREEPS = TOLERANCE + 3  # 1 if some contact creeps
+SLOTS = TOLERANCE + 4
 
 TIME, ROOT, EVENT = 0.0, 1.0, 2.0  # modes: by time, by a root from a touch on, up to an event
 
@@ -121,7 +127,7 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
             x[F + i] = root if x[POWER + i] > 0.0 else 1.0
     else:
         for i in range(BOTH):
-            c, p = x[NOW + C + i], x[POWER + i]
+            c, p = x[NOW + C + i] * x[OVER_PEAK + i], x[POWER + i]
             root, base = math.sqrt(max(c, 0.0)), swift_power(c, p)
             base = root if p == 0.5 else base
             x[F + i] = base if p > 0.0 else 1.0
@@ -129,11 +135,17 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
         c, a, b = max(x[NOW + C + i], 0.0), x[A + i], x[B + i]
         gain = a + b * c + x[D + i] * x[NOW + R + i]
         x[F + i] = max(x[PRESSING + i] * x[F + i] * gain * (b + a * c), 0.0)
+    if x[CREEPS] > 0.0:
+        for i in range(BOTH):
+            mu, nu = x[MU_NOW + i], x[NU + i]
+            rate = mu * max(x[NOW + C + i], 0.0) - nu * x[NOW + S + i]
+            x[OUT + S + i], x[DRIFT + i] = rate, nu * rate - mu * x[NOW + R + i]
     for i in range(LANES):
         r0, r1 = x[NOW + R + i], x[NOW + R + LANES + i]
         floor, balls = x[F + i], x[F + LANES + i]
         a0 = (balls - floor) * x[OVER_1 + i]
-        a1 = -a0 - balls * x[OVER_2 + i]
+        a1 = x[DRIFT + LANES + i] - a0 - balls * x[OVER_2 + i]
+        a0 += x[DRIFT + i]
         speed = x[Q + i] + x[BY_R + i] * r0 + x[BY_R + LANES + i] * r1
         speed += x[BY_A + i] * a0 + x[BY_A + LANES + i] * a1
         h = x[H + i]
@@ -142,6 +154,14 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
         x[OUT + R + i], x[OUT + R + LANES + i] = dt * a0, dt * a1
         x[NEW + T + i] += weight * dt
         x[ACC_NEW + i], x[ACC_NEW + LANES + i] = a0, a1
+        x[STAGE_DT + i] = dt
+    if x[CREEPS] > 0.0:
+        for i in range(LANES):
+            dt = x[STAGE_DT + i]
+            x[OUT + S + i], x[OUT + S + LANES + i] = (
+                dt * x[OUT + S + i],
+                dt * x[OUT + S + LANES + i],
+            )
 
 
 @kernel
@@ -150,76 +170,77 @@ def take_step(x: Floats) -> None:
 
     Those of orders 3 and 5, without signs, are left in K3 and K4.
     """
+    size = T if x[CREEPS] > 0.0 else S  # of a state without time
     for i in range(LANES):
         x[NEW + T + i] = x[Y + T + i]
-    for i in range(T):
+    for i in range(size):
         x[NOW + i] = x[Y + i]
     _find_rates(x, 0.0, _END[0])
     for i in range(BOTH):
         x[ACC + i] = x[ACC_NEW + i]
     a: Sequence[float] = _TO_2
-    for i in range(T):
+    for i in range(size):
         x[K1 + i] = k = x[OUT + i]
         x[NOW + i] = x[Y + i] + a[0] * k
     _find_rates(x, 0.05260015195876773, 0.0)
     a = _TO_3
-    for i in range(T):
+    for i in range(size):
         x[NOW + i] = x[Y + i] + (a[0] * x[K1 + i] + a[1] * x[OUT + i])
     _find_rates(x, 0.0789002279381516, 0.0)
     a = _TO_4
-    for i in range(T):
+    for i in range(size):
         x[K3 + i] = k = x[OUT + i]
         x[NOW + i] = x[Y + i] + (a[0] * x[K1 + i] + a[1] * k)
     _find_rates(x, 0.1183503419072274, 0.0)
     a = _TO_5
-    for i in range(T):
+    for i in range(size):
         x[K4 + i] = k = x[OUT + i]
         x[NOW + i] = x[Y + i] + (a[0] * x[K1 + i] + a[1] * x[K3 + i] + a[2] * k)
     _find_rates(x, 0.2816496580927726, 0.0)
     a = _TO_6
-    for i in range(T):
+    for i in range(size):
         x[K5 + i] = k = x[OUT + i]
         x[NOW + i] = x[Y + i] + (a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * k)
     _find_rates(x, 0.3333333333333333, _END[1])
     a = _TO_7
-    for i in range(T):
+    for i in range(size):
         x[K6 + i] = k = x[OUT + i]
         way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * k
         x[NOW + i] = x[Y + i] + way
     _find_rates(x, 0.25, _END[2])
     a = _TO_8
-    for i in range(T):
+    for i in range(size):
         x[K7 + i] = k = x[OUT + i]
         way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
         x[NOW + i] = x[Y + i] + (way + a[4] * k)
     _find_rates(x, 0.3076923076923077, _END[3])
     a = _TO_9
-    for i in range(T):
+    for i in range(size):
         x[K8 + i] = k = x[OUT + i]
         way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
         x[NOW + i] = x[Y + i] + (way + a[4] * x[K7 + i] + a[5] * k)
     _find_rates(x, 0.6512820512820513, _END[4])
     a = _TO_10
-    for i in range(T):
+    for i in range(size):
         x[K9 + i] = k = x[OUT + i]
         way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
         x[NOW + i] = x[Y + i] + (way + a[4] * x[K7 + i] + a[5] * x[K8 + i] + a[6] * k)
     _find_rates(x, 0.6, _END[5])
     a = _TO_11
-    for i in range(T):
+    for i in range(size):
         x[K10 + i] = k = x[OUT + i]
         way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
         way += a[4] * x[K7 + i] + a[5] * x[K8 + i] + a[6] * x[K9 + i] + a[7] * k
         x[NOW + i] = x[Y + i] + way
     _find_rates(x, 0.8571428571428571, _END[6])
     a = _TO_12
-    for i in range(T):
+    for i in range(size):
         x[K11 + i] = k = x[OUT + i]
         way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
         way += a[4] * x[K7 + i] + a[5] * x[K8 + i] + a[6] * x[K9 + i] + a[7] * x[K10 + i]
         x[NOW + i] = x[Y + i] + (way + a[8] * k)
     _find_rates(x, 1.0, _END[7])
-    for i in range(T):
+    for i in range(size):
         x[NEW + i] = x[Y + i] + _weighted(x, i, _END)
         third, fifth = _weighted(x, i, _THIRD), _weighted(x, i, _FIFTH)
         x[K3 + i], x[K4 + i] = abs(third), abs(fifth)
@@ -287,7 +308,7 @@ def _look_for_events(x: Floats) -> None:
         low = min(low, sign * (c_new - 2.0 * fifth * r_new + bend * acc_new))
         low = min(low, sign * (c_new - fifth * r_new))
         low = min(low, sign * c_new)
-        a, b, d, third = x[A + i], x[B + i], x[D + i], 0.3333333333333333 * dt
+        a, b, d, third = x[END_A + i], x[END_B + i], x[END_D + i], 0.3333333333333333 * dt
         gain, gain_new = a + b * c + d * r, a + b * c_new + d * r_new
         slope, slope_new = b * r + d * acc, b * r_new + d * acc_new
         least = min(gain_sign * (gain + third * slope), gain_sign * (gain_new - third * slope_new))
@@ -338,6 +359,10 @@ def _go_on(x: Floats) -> None:
         c, c_new, r, r_new = x[Y + C + i], x[NEW + C + i], x[Y + R + i], x[NEW + R + i]
         x[Y + C + i] = c_new if x[TAKEN + i] > 0.0 else c
         x[Y + R + i] = r_new if x[TAKEN + i] > 0.0 else r
+    if x[CREEPS] > 0.0:
+        for i in range(BOTH):
+            surface, surface_new = x[Y + S + i], x[NEW + S + i]
+            x[Y + S + i] = surface_new if x[TAKEN + i] > 0.0 else surface
     for i in range(LANES):
         t, t_new = x[Y + T + i], x[NEW + T + i]
         x[Y + T + i] = t_new if x[TAKEN + i] > 0.0 else t

@@ -10,14 +10,15 @@ another.
 import math
 
 from stackbounce.engine import pair_step as lane
-from stackbounce.engine.codes import ASK, DASHPOT, FINISHED, POWER, VISCOELASTIC
-from stackbounce.engine.elementary import near_root, power
+from stackbounce.engine.codes import ASK, DASHPOT, FINISHED, HYSTERETIC, POWER, RELAXING, VISCOELASTIC
+from stackbounce.engine.elementary import exp, near_root, power
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.pair_step import EVENT, LANES, ROOT, TIME, judge_step, take_step
 from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import Drops, Outcomes, Workspace
 
-TOUCH, RELEASE, CLIP, OPEN = 0.0, 1.0, 2.0, 3.0  # kinds of event; OPEN: of an unloaded contact
+# kinds of event; GAIN: the gain that is watched is 0; OPEN: of an unloaded contact
+TOUCH, RELEASE, GAIN, OPEN = 0.0, 1.0, 2.0, 3.0
 
 _STEP = 0.4  # the error allowed in one step, over rtol
 _SLOW = 1e-5  # of the impact speed: slower contacts are left to the general engine
@@ -28,6 +29,7 @@ _STEADY = 0.4  # of the mean rate up to an event: the least rate at which a step
 _ODD = 0.1  # of a way: the least by which it is odd
 _FIRST = 0.9  # of the root of a typical compression: the first step by a root, for an error of 1
 _FIRST_ROOT = 24  # it falls with this root of the error
+_ROUNDS = 12  # of Newton's method
 _COARSE = 2.0  # the largest estimate of order 3, for an error of 1; it falls with its cube root
 
 
@@ -50,7 +52,7 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
     """
     x = space.floats
     x[lane.TOLERANCE], x[lane.COARSE] = _STEP * rtol, _COARSE * power(rtol, 1.0 / 3.0)
-    x[lane.GENERAL] = 0.0
+    x[lane.GENERAL] = x[lane.CREEPS] = 0.0
     first = _FIRST * near_root(rtol, _FIRST_ROOT)
     rows = len(out.status)
     left, row = rows, 0
@@ -80,6 +82,7 @@ def _idle(x: Floats, i: int) -> None:
     x[lane.STATUS + i], x[lane.ROW + i], x[lane.V0 + i], x[lane.STEPS + i] = ASK, -1.0, 1.0, 0.0
     for k in (i, LANES + i):
         x[lane.PRESSING + k], x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = 0.0, -1.0, 0.0
+        x[lane.Y + lane.S + k], x[lane.MU_NOW + k], x[lane.NU + k] = 0.0, 0.0, 0.0
     _go_by(x, i, TIME, 1.0)
 
 
@@ -95,18 +98,30 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
         k = b * LANES + i
         form, stiffness = drops.form[row, b], drops.first[row, b]
         p, loss = drops.second[row, b], drops.third[row, b]
-        pure, slope = 1.0, 0.0  # a and b of the gain
+        pure, slope, mu, nu, unloading = 1.0, 0.0, 0.0, 0.0, 0.0  # pure and slope: a and b
         if form == DASHPOT:
             p, loss, pure, slope = 1.0, loss / stiffness, 0.0, 1.0
         elif form == VISCOELASTIC:
             p, loss, pure, slope = 1.5, 1.5 * loss, 0.0, 1.0
-        elif form == POWER:
+        elif form == RELAXING and loss > 0.0:
+            stiffness *= 1.0 + loss
+            nu = 1.0 / ((1.0 + loss) * drops.fourth[row, b])
+            p, mu, x[lane.CREEPS] = 1.0, loss * nu, 1.0
+        elif form == HYSTERETIC and loss > p:
+            unloading = loss - 1.0
+        if form in (POWER, RELAXING, HYSTERETIC):
             loss = 0.0
         x[lane.A + k], x[lane.B + k], x[lane.D + k] = pure, slope, loss
-        x[lane.STIFFNESS + k], x[lane.POWER + k] = stiffness, p - 1.0
-        if p not in (1.0, 1.5):
+        ends = unloading > 0.0  # at a peak
+        x[lane.END_A + k], x[lane.END_B + k] = (0.0, 0.0) if ends else (pure, slope)
+        x[lane.END_D + k], x[lane.UNLOADING + k] = 1.0 if ends else loss, unloading
+        x[lane.STIFFNESS + k], x[lane.LOADING + k] = stiffness, p - 1.0
+        x[lane.POWER + k], x[lane.OVER_PEAK + k] = p - 1.0, 1.0
+        x[lane.MU + k], x[lane.NU + k], x[lane.DRIFT + k] = mu, nu, 0.0
+        if p not in (1.0, 1.5) or unloading not in (0.0, 0.5):
             x[lane.GENERAL] = 1.0
         x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = -drops.gap[row, b], 0.0
+        x[lane.Y + lane.S + k] = 0.0
         x[lane.COUNT + k], x[lane.FIRST + k], x[lane.LAST + k] = 0.0, math.nan, math.nan
         _open(x, k)
         # k c^(p + 1) is about m v^2
@@ -125,9 +140,9 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
 def _write_outcome(drops: Drops, out: Outcomes, x: Floats, i: int, row: int) -> None:
     """Write the outcome of the drop in lane i."""
     out.status[row] = int(x[lane.STATUS + i])
-    lower = -x[lane.Y + lane.R + i]
+    lower = -_free_rate(x, i)
     out.velocity[row, 0] = lower
-    out.velocity[row, 1] = lower - x[lane.Y + lane.R + LANES + i]
+    out.velocity[row, 1] = lower - _free_rate(x, LANES + i)
     for b in range(2):
         k = b * LANES + i
         out.collisions[row, b] = int(x[lane.COUNT + k])
@@ -169,6 +184,8 @@ def _least_rate(x: Floats, i: int) -> float:
 def _press(x: Floats, i: int, k: int) -> None:
     """Let contact k press from now on."""
     x[lane.PRESSING + k], x[lane.SIGN + k], x[lane.GAIN_SIGN + k] = x[lane.STIFFNESS + k], 1.0, 1.0
+    x[lane.POWER + k], x[lane.OVER_PEAK + k] = x[lane.LOADING + k], 1.0
+    x[lane.MU_NOW + k] = x[lane.MU + k]
     if x[lane.COUNT + k] == 0.0:
         x[lane.FIRST + k] = x[lane.Y + lane.T + i]
     x[lane.COUNT + k] += 1.0
@@ -178,6 +195,16 @@ def _press(x: Floats, i: int, k: int) -> None:
 def _open(x: Floats, k: int) -> None:
     """Let contact k be open from now on."""
     x[lane.PRESSING + k], x[lane.SIGN + k], x[lane.GAIN_SIGN + k] = 0.0, -1.0, 0.0
+    x[lane.MU_NOW + k] = 0.0
+
+
+@kernel
+def _unload(x: Floats, k: int) -> None:
+    """Let contact k follow its unloading curve from its peak, which is now."""
+    peak = x[lane.Y + lane.C + k]
+    x[lane.PRESSING + k] = x[lane.STIFFNESS + k] * power(peak, x[lane.LOADING + k])
+    x[lane.POWER + k], x[lane.OVER_PEAK + k] = x[lane.UNLOADING + k], 1.0 / peak
+    x[lane.Y + lane.R + k], x[lane.GAIN_SIGN + k] = 0.0, -1.0
 
 
 @kernel
@@ -194,14 +221,48 @@ def _touch(x: Floats, i: int, k: int) -> None:
 
 
 @kernel
+def _free_rate(x: Floats, k: int) -> float:
+    """Return the rate at which the gap of contact k closes, without its surface's own rate."""
+    return x[lane.Y + lane.R + k] - x[lane.NU + k] * x[lane.Y + lane.S + k]
+
+
+@kernel
+def _advance(x: Floats, k: int, wait: float) -> None:
+    """Let both sides of contact k fly freely for a time, while its surface recovers."""
+    r, surface = _free_rate(x, k), x[lane.Y + lane.S + k]
+    x[lane.Y + lane.C + k] += wait * r
+    if surface != 0.0:
+        left = surface * exp(-x[lane.NU + k] * wait)
+        x[lane.Y + lane.C + k] += surface - left
+        x[lane.Y + lane.S + k], x[lane.Y + lane.R + k] = left, r + x[lane.NU + k] * left
+
+
+@kernel
+def _flight_time(x: Floats, k: int) -> float:
+    """Return how long contact k flies until it touches: c + r t + s (1 - e^(-nu t)) = 0.
+
+    The sum grows ever more slowly, so that Newton's method comes to the root from below.
+    """
+    c, r, nu, surface = x[lane.Y + lane.C + k], _free_rate(x, k), x[lane.NU + k], 0.0
+    time = -c / x[lane.Y + lane.R + k]
+    surface = x[lane.Y + lane.S + k]
+    if surface != 0.0:
+        for _ in range(_ROUNDS):
+            left = surface * exp(-nu * time)
+            time -= (c + r * time + surface - left) / (r + nu * left)
+    return time
+
+
+@kernel
 def _fly(x: Floats, i: int) -> None:
     """Let both balls fly freely until a contact touches, or end the drop."""
     first, contact, least = math.inf, -1, _least_rate(x, i)
     for k in (i, LANES + i):
-        c, r = x[lane.Y + lane.C + k], x[lane.Y + lane.R + k]
-        wait = -c / r if c < 0.0 and r > 0.0 else math.inf
+        c, r = x[lane.Y + lane.C + k], _free_rate(x, k)
+        touches = r > least
+        wait = _flight_time(x, k) if touches and c < 0.0 else math.inf
         close = abs(wait - first) < _TOGETHER * wait
-        if abs(r) < least or close or (c > 0.0 and r > 0.0):
+        if not (touches or x[lane.Y + lane.R + k] < -least) or close or (touches and c > 0.0):
             x[lane.STATUS + i] = ASK
             return
         if wait < first:
@@ -210,7 +271,7 @@ def _fly(x: Floats, i: int) -> None:
         x[lane.STATUS + i] = FINISHED
         return
     for k in (i, LANES + i):
-        x[lane.Y + lane.C + k] += first * x[lane.Y + lane.R + k]
+        _advance(x, k, first)
         if x[lane.Y + lane.C + k] <= 0.0:
             _open(x, k)
     x[lane.Y + lane.T + i] += first
@@ -264,10 +325,10 @@ def _take(x: Floats, i: int) -> None:
             wait = 2.0 * abs(c) / (abs(r) + math.sqrt(square)) if square > 0.0 else abs(c / r)
             if wait < first:
                 first, contact, kind = wait, k, _kind(x, k)
-        gain = x[lane.A + k] + x[lane.B + k] * c + x[lane.D + k] * r
-        slope = x[lane.B + k] * r + x[lane.D + k] * acc
+        gain = x[lane.END_A + k] + x[lane.END_B + k] * c + x[lane.END_D + k] * r
+        slope = x[lane.END_B + k] * r + x[lane.END_D + k] * acc
         if x[lane.GAIN_SIGN + k] > 0.0 and gain < -slope * first:
-            first, contact, kind = -gain / slope, k, CLIP
+            first, contact, kind = -gain / slope, k, GAIN
     ahead = first / x[lane.NEXT + i]
     if ahead < 1.5 and not (ahead < _NEAR and _aim(x, i, contact, kind, first, lane.ACC_NEW)):
         x[lane.H + i] = min(x[lane.H + i], _PART * first)
@@ -277,7 +338,7 @@ def _take(x: Floats, i: int) -> None:
 def _kind(x: Floats, k: int) -> float:
     """Return the kind of event that comes when the compression of contact k is 0."""
     if x[lane.PRESSING + k] > 0.0:  # the gain of a damped contact with a = 0 ends before
-        return CLIP if x[lane.B + k] * x[lane.D + k] > 0.0 else RELEASE
+        return GAIN if x[lane.B + k] * x[lane.D + k] > 0.0 else RELEASE
     return OPEN if x[lane.SIGN + k] > 0.0 else TOUCH
 
 
@@ -287,10 +348,10 @@ def _aim(x: Floats, i: int, k: int, kind: float, wait: float, acc: int) -> bool:
 
     It can where the way to the event is steady. ``acc`` is the slot of the present acceleration.
     """
-    c, r, b, d = x[lane.Y + lane.C + k], x[lane.Y + lane.R + k], x[lane.B + k], x[lane.D + k]
+    c, r, b, d = x[lane.Y + lane.C + k], x[lane.Y + lane.R + k], x[lane.END_B + k], x[lane.END_D + k]
     left, slope = c, r
-    if kind == CLIP:
-        left, slope = x[lane.A + k] + b * c + d * r, b * r + d * x[acc + k]
+    if kind == GAIN:
+        left, slope = x[lane.END_A + k] + b * c + d * r, b * r + d * x[acc + k]
     if not (left * slope < 0.0 and abs(slope) * wait > _STEADY * abs(left)):
         return False
     x[lane.CONTACT + i], x[lane.KIND + i], x[lane.WAIT + i] = k, kind, wait
@@ -299,7 +360,7 @@ def _aim(x: Floats, i: int, k: int, kind: float, wait: float, acc: int) -> bool:
         _go_by_root(x, i, k, EVENT, root, -root)
     else:
         _go_by_contact(x, i, k, EVENT, -left)
-        if kind == CLIP:
+        if kind == GAIN:
             x[lane.BY_R + k], x[lane.BY_A + k] = b, d
     return True
 
@@ -321,14 +382,15 @@ def _retry(x: Floats, i: int) -> bool:
             wait = dt * c / (c - c_new) if c * r < 0.0 else 0.9 * dt
             if wait < first:
                 first, contact, kind = wait, k, _kind(x, k)
-        a, b, d, sign = x[lane.A + k], x[lane.B + k], x[lane.D + k], x[lane.GAIN_SIGN + k]
+        a, b, d = x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k]
+        sign = x[lane.GAIN_SIGN + k]
         gain, gain_new = a + b * c + d * r, a + b * c_new + d * r_new
         if sign * gain_new < 0.0:
             if sign < 0.0:  # it would press again
                 x[lane.STATUS + i] = ASK
             wait = dt * gain / (gain - gain_new)
             if wait < first:
-                first, contact, kind = wait, k, CLIP
+                first, contact, kind = wait, k, GAIN
     if contact < 0:
         return x[lane.STATUS + i] != 0.0
     if x[lane.MODE + i] == ROOT:
@@ -371,9 +433,13 @@ def _apply_event(x: Floats, i: int) -> None:
     if kind == TOUCH:
         _touch(x, i, k)
         return
+    if kind == GAIN and x[lane.UNLOADING + k] > 0.0:
+        _unload(x, k)
+        _go_by(x, i, TIME, x[lane.BY_TIME + i])
+        return
     if kind != OPEN:
         x[lane.LAST + k] = x[lane.Y + lane.T + i]
-    if kind == CLIP:
+    if kind == GAIN:
         x[lane.PRESSING + k], x[lane.GAIN_SIGN + k] = 0.0, -1.0
     else:
         x[lane.Y + lane.C + k] = 0.0

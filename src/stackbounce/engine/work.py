@@ -25,6 +25,3 @@ STANDSTILL = 1000  # for an event since the last of which no time has passed: mo
 CREST = 12  # to find the largest compression or force in a step, times the order of the series
 CYCLE = 6  # for each cycle that a contact remembers, and each of its pieces, at a change of curve
 COLLISION = 30  # of two rigid balls
-LANE_EVENTS = (
-    10_000  # an event limit that no drop reaches to which an engine in lanes gives an answer
-)

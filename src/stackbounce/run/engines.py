@@ -20,7 +20,15 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from stackbounce.engine import native
-from stackbounce.engine.codes import DASHPOT, HUNT_CROSSLEY, POWER, VISCOELASTIC
+from stackbounce.engine.codes import (
+    DASHPOT,
+    HUNT_CROSSLEY,
+    HYSTERETIC,
+    POWER,
+    RELAXING,
+    RIGID as RIGID_FORM,
+    VISCOELASTIC,
+)
 from stackbounce.engine.memory import FINITE, RIGID, Engine
 from stackbounce.engine.work import LANE_EVENTS
 from stackbounce.errors import InvalidType, InvalidValue, shown
@@ -31,7 +39,7 @@ from stackbounce.run.options import Options
 if TYPE_CHECKING:
     from stackbounce.run.paths import Number
 
-_PAIRS = {POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY}  # forms of force
+_PAIRS = {POWER, HYSTERETIC, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY, RELAXING}  # forms of force
 _PAIRS_RTOL = 1e-13  # the least tolerance: round-off accumulates over some 100 steps
 
 
@@ -76,6 +84,8 @@ def choose_lanes(drop: Drop, numbers: "Iterable[Number]", options: Options) -> s
     whole = options.until == math.inf and options.event_limit >= LANE_EVENTS
     if len(contacts) != 2 or drop.gravity != 0.0 or free or not (together and whole):
         return None
+    if {form for form, _ in contacts} == {RIGID_FORM}:
+        return "run_two_rigid"
     if set(contacts) == {(POWER, 1.0)} and all(n.field != "exponent" for n in numbers):
         return "run_two_springs"
     known = all(form in _PAIRS for form, _ in contacts) and options.rtol >= _PAIRS_RTOL
