@@ -46,7 +46,7 @@ STATE = T + LANES
 # and those of earlier stages.
 Y, NEW = 0, STATE
 NOW, OUT, K1, K3, K4, K5, K6, K7, K8, K9, K10, K11 = (2 * STATE + k * T for k in range(12))
-# Slots for each contact: the base (c/C)^(p - 1) and then the force; the acceleration r' at both ends
+# Slots for each contact: the base c^(p - 1) and then the force; the acceleration r' at both ends
 # of the step; stiffness, 0 where it does not press; stiffness, p - 1, and a, b, d of its gain; the
 # sign that its compression has while no event comes, and that of its watched gain; 1 if the step
 # goes by it, and the weights by_r and by_a.
@@ -58,15 +58,18 @@ A, B, D, SIGN, GAIN_SIGN, OWN, BY_R, BY_A = (_EACH + k * BOTH for k in range(6, 
 # next.
 SCALE, COUNT, FIRST, LAST, DOUBT, SOON = (_EACH + k * BOTH for k in range(14, 20))
 DT, MARGIN, NEXT, TAKEN = (_EACH + k * BOTH for k in range(20, 24))  # the same for both contacts
-# a, b, d of the gain that is watched; 1/C; p - 1 of loading and of unloading, 0 if that is the same;
-# the rates mu and nu of its surface, and mu while it presses; the part of r' that is the surface's.
-END_A, END_B, END_D, OVER_PEAK, LOADING, UNLOADING = (_EACH + k * BOTH for k in range(24, 30))
-MU, NU, MU_NOW, DRIFT = (_EACH + k * BOTH for k in range(30, 34))
+# a, b, d of the gain that is watched, and the compression that is; the rates mu and nu of the
+# surface, mu while it presses, and the part of r' that is the surface's.
+END_A, END_B, END_D, LEVEL, MU, NU, MU_NOW, DRIFT = (_EACH + k * BOTH for k in range(24, 32))
+# Of hysteresis: M, 0 without; 1/C; the four numbers of the force; its curve, C, and where it was
+# compressed again.
+LOSS, OVER_PEAK, ADDED, KEPT, HELD, OFFSET = (_EACH + k * BOTH for k in range(32, 38))
+CURVE, PEAK, TURN = (_EACH + k * BOTH for k in range(38, 41))
 # Slots for each lane: 1/m1, 1/m2; the step in s, s where it begins, and the weights m, n, q; how
 # the step goes; impact speed, row, status; 1 if `pairs` must decide how the lane goes on; steps so
 # far; the allowed error over that of the step, and the factor for the next step; the last step by
 # time.
-_LANE = _EACH + 34 * BOTH
+_LANE = _EACH + 41 * BOTH
 OVER_1, OVER_2, H, START, M, N, Q, MODE = (_LANE + k * LANES for k in range(8))
 V0, ROW, STATUS, ASKS, STEPS, OVER_ERROR, GROW, BY_TIME = (_LANE + k * LANES for k in range(8, 16))
 # The event that a step is to end at: its contact, its kind, and the time to it.
@@ -75,8 +78,8 @@ STAGE_DT = _LANE + 19 * LANES  # dt of a whole step at the rates of a stage
 TOLERANCE = _LANE + 20 * LANES  # the error allowed in a step, over the impact speed
 COARSE = TOLERANCE + 1  # the largest estimate of order 3 with which the others can be trusted
 GENERAL = TOLERANCE + 2  # 1 if some exponent is neither 1 nor 1.5
-CREEPS = TOLERANCE + 3  # 1 if some contact creeps
-SLOTS = TOLERANCE + 4
+CREEPS, REMEMBERS = TOLERANCE + 3, TOLERANCE + 4  # 1 if some contact creeps, or has hysteresis
+SLOTS = TOLERANCE + 5
 
 TIME, ROOT, EVENT = 0.0, 1.0, 2.0  # modes: by time, by a root from a touch on, up to an event
 
@@ -127,7 +130,7 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
             x[F + i] = root if x[POWER + i] > 0.0 else 1.0
     else:
         for i in range(BOTH):
-            c, p = x[NOW + C + i] * x[OVER_PEAK + i], x[POWER + i]
+            c, p = x[NOW + C + i], x[POWER + i]
             root, base = math.sqrt(max(c, 0.0)), swift_power(c, p)
             base = root if p == 0.5 else base
             x[F + i] = base if p > 0.0 else 1.0
@@ -135,6 +138,11 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
         c, a, b = max(x[NOW + C + i], 0.0), x[A + i], x[B + i]
         gain = a + b * c + x[D + i] * x[NOW + R + i]
         x[F + i] = max(x[PRESSING + i] * x[F + i] * gain * (b + a * c), 0.0)
+    if x[REMEMBERS] > 0.0:
+        for i in range(BOTH):
+            rest = swift_power(x[NOW + C + i] * x[OVER_PEAK + i], x[LOSS + i])
+            force = x[F + i] * (x[ADDED + i] + x[KEPT + i] * rest)
+            x[F + i] = max(force + x[HELD + i] * rest + x[OFFSET + i], 0.0)
     if x[CREEPS] > 0.0:
         for i in range(BOTH):
             mu, nu = x[MU_NOW + i], x[NU + i]
@@ -301,15 +309,16 @@ def _look_for_events(x: Floats) -> None:
     """
     for i in range(BOTH):
         dt, sign, gain_sign = x[DT + i], x[SIGN + i], x[GAIN_SIGN + i]
-        c, r, acc = x[Y + C + i], x[Y + R + i], x[ACC + i]
+        c, r, acc, level = x[Y + C + i], x[Y + R + i], x[ACC + i], x[LEVEL + i]
         c_new, r_new, acc_new = x[NEW + C + i], x[NEW + R + i], x[ACC_NEW + i]
+        a, b, d, third = x[END_A + i], x[END_B + i], x[END_D + i], 0.3333333333333333 * dt
+        gain, gain_new = a + b * c + d * r, a + b * c_new + d * r_new
+        c, c_new = c - level, c_new - level
         fifth, bend = 0.2 * dt, 0.05 * dt * dt
         low = min(sign * (c + fifth * r), sign * (c + 2.0 * fifth * r + bend * acc))
         low = min(low, sign * (c_new - 2.0 * fifth * r_new + bend * acc_new))
         low = min(low, sign * (c_new - fifth * r_new))
         low = min(low, sign * c_new)
-        a, b, d, third = x[END_A + i], x[END_B + i], x[END_D + i], 0.3333333333333333 * dt
-        gain, gain_new = a + b * c + d * r, a + b * c_new + d * r_new
         slope, slope_new = b * r + d * acc, b * r_new + d * acc_new
         least = min(gain_sign * (gain + third * slope), gain_sign * (gain_new - third * slope_new))
         least = min(least, gain_sign * gain_new)

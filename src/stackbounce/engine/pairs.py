@@ -10,15 +10,26 @@ another.
 import math
 
 from stackbounce.engine import pair_step as lane
-from stackbounce.engine.codes import ASK, DASHPOT, FINISHED, HYSTERETIC, POWER, RELAXING, VISCOELASTIC
+from stackbounce.engine.codes import (
+    ASK,
+    DASHPOT,
+    FINISHED,
+    HYSTERETIC,
+    POWER,
+    RELAXING,
+    VISCOELASTIC,
+)
 from stackbounce.engine.elementary import exp, near_root, power
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.pair_step import EVENT, LANES, ROOT, TIME, judge_step, take_step
 from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import Drops, Outcomes, Workspace
 
-# kinds of event; GAIN: the gain that is watched is 0; OPEN: of an unloaded contact
-TOUCH, RELEASE, GAIN, OPEN = 0.0, 1.0, 2.0, 3.0
+# kinds of event; GAIN: the gain that is watched is 0; OPEN: of an unloaded contact; RETURN: the
+# compression comes back to a turning point
+TOUCH, RELEASE, GAIN, OPEN, RETURN = 0.0, 1.0, 2.0, 3.0, 4.0
+# curves of a contact with hysteresis: loading, out from the peak, in again, and out from there
+IN, OUT, IN_AGAIN, OUT_AGAIN = 0.0, 1.0, 2.0, 3.0
 
 _STEP = 0.4  # the error allowed in one step, over rtol
 _SLOW = 1e-5  # of the impact speed: slower contacts are left to the general engine
@@ -52,7 +63,7 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
     """
     x = space.floats
     x[lane.TOLERANCE], x[lane.COARSE] = _STEP * rtol, _COARSE * power(rtol, 1.0 / 3.0)
-    x[lane.GENERAL] = x[lane.CREEPS] = 0.0
+    x[lane.GENERAL] = x[lane.CREEPS] = x[lane.REMEMBERS] = 0.0
     first = _FIRST * near_root(rtol, _FIRST_ROOT)
     rows = len(out.status)
     left, row = rows, 0
@@ -98,7 +109,7 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
         k = b * LANES + i
         form, stiffness = drops.form[row, b], drops.first[row, b]
         p, loss = drops.second[row, b], drops.third[row, b]
-        pure, slope, mu, nu, unloading = 1.0, 0.0, 0.0, 0.0, 0.0  # pure and slope: a and b
+        pure, slope, mu, nu, held = 1.0, 0.0, 0.0, 0.0, 0.0  # pure and slope: a and b
         if form == DASHPOT:
             p, loss, pure, slope = 1.0, loss / stiffness, 0.0, 1.0
         elif form == VISCOELASTIC:
@@ -108,22 +119,22 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
             nu = 1.0 / ((1.0 + loss) * drops.fourth[row, b])
             p, mu, x[lane.CREEPS] = 1.0, loss * nu, 1.0
         elif form == HYSTERETIC and loss > p:
-            unloading = loss - 1.0
+            held, x[lane.REMEMBERS] = loss - p, 1.0
         if form in (POWER, RELAXING, HYSTERETIC):
             loss = 0.0
         x[lane.A + k], x[lane.B + k], x[lane.D + k] = pure, slope, loss
-        ends = unloading > 0.0  # at a peak
-        x[lane.END_A + k], x[lane.END_B + k] = (0.0, 0.0) if ends else (pure, slope)
-        x[lane.END_D + k], x[lane.UNLOADING + k] = 1.0 if ends else loss, unloading
-        x[lane.STIFFNESS + k], x[lane.LOADING + k] = stiffness, p - 1.0
-        x[lane.POWER + k], x[lane.OVER_PEAK + k] = p - 1.0, 1.0
+        watched = (0.0, 0.0, 1.0) if held > 0.0 else (pure, slope, loss)
+        x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k] = watched
+        x[lane.STIFFNESS + k], x[lane.POWER + k] = stiffness, p - 1.0
+        x[lane.LOSS + k], x[lane.PEAK + k], x[lane.TURN + k] = held, 1.0, 0.0
         x[lane.MU + k], x[lane.NU + k], x[lane.DRIFT + k] = mu, nu, 0.0
-        if p not in (1.0, 1.5) or unloading not in (0.0, 0.5):
+        if p not in (1.0, 1.5):
             x[lane.GENERAL] = 1.0
         x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = -drops.gap[row, b], 0.0
         x[lane.Y + lane.S + k] = 0.0
         x[lane.COUNT + k], x[lane.FIRST + k], x[lane.LAST + k] = 0.0, math.nan, math.nan
         _open(x, k)
+        _follow(x, k, IN)
         # k c^(p + 1) is about m v^2
         over_mass += x[lane.OVER_1 + b * LANES + i]
         energy = speed * speed / (stiffness * over_mass)
@@ -184,8 +195,9 @@ def _least_rate(x: Floats, i: int) -> float:
 def _press(x: Floats, i: int, k: int) -> None:
     """Let contact k press from now on."""
     x[lane.PRESSING + k], x[lane.SIGN + k], x[lane.GAIN_SIGN + k] = x[lane.STIFFNESS + k], 1.0, 1.0
-    x[lane.POWER + k], x[lane.OVER_PEAK + k] = x[lane.LOADING + k], 1.0
     x[lane.MU_NOW + k] = x[lane.MU + k]
+    if x[lane.LOSS + k] > 0.0:
+        _follow(x, k, IN)
     if x[lane.COUNT + k] == 0.0:
         x[lane.FIRST + k] = x[lane.Y + lane.T + i]
     x[lane.COUNT + k] += 1.0
@@ -199,12 +211,43 @@ def _open(x: Floats, k: int) -> None:
 
 
 @kernel
-def _unload(x: Floats, k: int) -> None:
-    """Let contact k follow its unloading curve from its peak, which is now."""
-    peak = x[lane.Y + lane.C + k]
-    x[lane.PRESSING + k] = x[lane.STIFFNESS + k] * power(peak, x[lane.LOADING + k])
-    x[lane.POWER + k], x[lane.OVER_PEAK + k] = x[lane.UNLOADING + k], 1.0 / peak
-    x[lane.Y + lane.R + k], x[lane.GAIN_SIGN + k] = 0.0, -1.0
+def _follow(x: Floats, k: int, curve: float) -> None:
+    """Let contact k follow one of its curves: all but IN have hysteresis (see `cycles`).
+
+    The elements that touched before it was compressed again remember the peak C, the others a peak
+    that is now.
+    """
+    c, peak, loads = x[lane.Y + lane.C + k], x[lane.PEAK + k], curve in (IN, IN_AGAIN)
+    turn = x[lane.TURN + k] if curve >= IN_AGAIN else 0.0
+    held = x[lane.STIFFNESS + k] * power(turn, x[lane.POWER + k] + 1.0)
+    kept = 0.0 if loads else 1.0
+    if curve == OUT_AGAIN:
+        kept = power(peak / c, x[lane.LOSS + k])
+    x[lane.CURVE + k], x[lane.OVER_PEAK + k] = curve, 1.0 / peak
+    x[lane.ADDED + k], x[lane.KEPT + k] = 1.0 if loads else 0.0, kept
+    x[lane.HELD + k], x[lane.OFFSET + k] = held * (1.0 - kept), -held if loads else 0.0
+    x[lane.LEVEL + k] = peak if curve == IN_AGAIN else turn
+
+
+@kernel
+def _turn_or_return(x: Floats, i: int, k: int, kind: float) -> None:
+    """Let contact k with hysteresis go over to another curve: at rest, or where a cycle closes."""
+    curve = x[lane.CURVE + k]
+    if kind == RETURN:
+        curve -= 2.0
+    elif curve == OUT_AGAIN:  # a cycle inside a cycle
+        x[lane.STATUS + i] = ASK
+    else:
+        if curve == IN:
+            x[lane.PEAK + k] = x[lane.Y + lane.C + k]
+        elif curve == OUT:
+            x[lane.TURN + k] = x[lane.Y + lane.C + k]
+        x[lane.Y + lane.R + k] = 0.0
+        curve += 1.0
+    x[lane.SIGN + k] = -1.0 if curve == IN_AGAIN else 1.0
+    x[lane.GAIN_SIGN + k] = 1.0 if curve in (IN, IN_AGAIN) else -1.0
+    _follow(x, k, curve)
+    _go_by(x, i, TIME, x[lane.BY_TIME + i])
 
 
 @kernel
@@ -320,14 +363,16 @@ def _take(x: Floats, i: int) -> None:
     first, contact, kind = math.inf, -1, TOUCH
     for k in (i, LANES + i):
         c, r, acc = x[lane.Y + lane.C + k], x[lane.Y + lane.R + k], x[lane.ACC_NEW + k]
-        if c * r < 0.0:
-            square = r * r - 2.0 * acc * c
-            wait = 2.0 * abs(c) / (abs(r) + math.sqrt(square)) if square > 0.0 else abs(c / r)
+        left = c - x[lane.LEVEL + k]
+        if left * r < 0.0:
+            square = r * r - 2.0 * acc * left
+            wait = 2.0 * abs(left) / (abs(r) + math.sqrt(square)) if square > 0.0 else abs(left / r)
             if wait < first:
                 first, contact, kind = wait, k, _kind(x, k)
         gain = x[lane.END_A + k] + x[lane.END_B + k] * c + x[lane.END_D + k] * r
         slope = x[lane.END_B + k] * r + x[lane.END_D + k] * acc
-        if x[lane.GAIN_SIGN + k] > 0.0 and gain < -slope * first:
+        sign = x[lane.GAIN_SIGN + k]
+        if (sign > 0.0 or _turns(x, k)) and sign * gain < -sign * slope * first:
             first, contact, kind = -gain / slope, k, GAIN
     ahead = first / x[lane.NEXT + i]
     if ahead < 1.5 and not (ahead < _NEAR and _aim(x, i, contact, kind, first, lane.ACC_NEW)):
@@ -337,9 +382,17 @@ def _take(x: Floats, i: int) -> None:
 @kernel
 def _kind(x: Floats, k: int) -> float:
     """Return the kind of event that comes when the compression of contact k is 0."""
+    if x[lane.LEVEL + k] > 0.0:
+        return RETURN
     if x[lane.PRESSING + k] > 0.0:  # the gain of a damped contact with a = 0 ends before
         return GAIN if x[lane.B + k] * x[lane.D + k] > 0.0 else RELEASE
     return OPEN if x[lane.SIGN + k] > 0.0 else TOUCH
+
+
+@kernel
+def _turns(x: Floats, k: int) -> bool:
+    """Return whether contact k has hysteresis and presses, so that it turns where it is at rest."""
+    return x[lane.LOSS + k] > 0.0 and x[lane.PRESSING + k] > 0.0
 
 
 @kernel
@@ -348,8 +401,13 @@ def _aim(x: Floats, i: int, k: int, kind: float, wait: float, acc: int) -> bool:
 
     It can where the way to the event is steady. ``acc`` is the slot of the present acceleration.
     """
-    c, r, b, d = x[lane.Y + lane.C + k], x[lane.Y + lane.R + k], x[lane.END_B + k], x[lane.END_D + k]
-    left, slope = c, r
+    c, r, b, d = (
+        x[lane.Y + lane.C + k],
+        x[lane.Y + lane.R + k],
+        x[lane.END_B + k],
+        x[lane.END_D + k],
+    )
+    left, slope = c - x[lane.LEVEL + k], r
     if kind == GAIN:
         left, slope = x[lane.END_A + k] + b * c + d * r, b * r + d * x[acc + k]
     if not (left * slope < 0.0 and abs(slope) * wait > _STEADY * abs(left)):
@@ -377,18 +435,19 @@ def _retry(x: Floats, i: int) -> bool:
             x[lane.H + i] *= 0.5
             return True
         c, c_new = x[lane.Y + lane.C + k], x[lane.NEW + lane.C + k]
+        left = c - x[lane.LEVEL + k]
         r, r_new = x[lane.Y + lane.R + k], x[lane.NEW + lane.R + k]
         if changes == 1:
-            wait = dt * c / (c - c_new) if c * r < 0.0 else 0.9 * dt
+            wait = dt * left / (c - c_new) if left * r < 0.0 else 0.9 * dt
             if wait < first:
                 first, contact, kind = wait, k, _kind(x, k)
         a, b, d = x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k]
         sign = x[lane.GAIN_SIGN + k]
         gain, gain_new = a + b * c + d * r, a + b * c_new + d * r_new
         if sign * gain_new < 0.0:
-            if sign < 0.0:  # it would press again
+            if sign < 0.0 and not _turns(x, k):  # it would press again
                 x[lane.STATUS + i] = ASK
-            wait = dt * gain / (gain - gain_new)
+            wait = dt * gain / (gain - gain_new) if sign * gain > 0.0 else 0.9 * dt
             if wait < first:
                 first, contact, kind = wait, k, GAIN
     if contact < 0:
@@ -408,8 +467,8 @@ def _changes(x: Floats, i: int, k: int) -> int:
     comes so near 0 that this is not sure, the lane ends with the status ASK.
     """
     dt, sign = x[lane.DT + i], x[lane.SIGN + k]
-    c, r, acc = x[lane.Y + lane.C + k], x[lane.Y + lane.R + k], x[lane.ACC + k]
-    c_new, r_new = x[lane.NEW + lane.C + k], x[lane.NEW + lane.R + k]
+    c, r, acc = x[lane.Y + lane.C + k] - x[lane.LEVEL + k], x[lane.Y + lane.R + k], x[lane.ACC + k]
+    c_new, r_new = x[lane.NEW + lane.C + k] - x[lane.LEVEL + k], x[lane.NEW + lane.R + k]
     fifth, bend = 0.2 * dt, 0.05 * dt * dt
     second = c + 2.0 * fifth * r + bend * acc
     third = c_new - 2.0 * fifth * r_new + bend * x[lane.ACC_NEW + k]
@@ -433,9 +492,8 @@ def _apply_event(x: Floats, i: int) -> None:
     if kind == TOUCH:
         _touch(x, i, k)
         return
-    if kind == GAIN and x[lane.UNLOADING + k] > 0.0:
-        _unload(x, k)
-        _go_by(x, i, TIME, x[lane.BY_TIME + i])
+    if kind in (GAIN, RETURN) and _turns(x, k):
+        _turn_or_return(x, i, k, kind)
         return
     if kind != OPEN:
         x[lane.LAST + k] = x[lane.Y + lane.T + i]

@@ -26,8 +26,10 @@ from stackbounce.engine.codes import (
     HYSTERETIC,
     POWER,
     RELAXING,
-    RIGID as RIGID_FORM,
     VISCOELASTIC,
+)
+from stackbounce.engine.codes import (
+    RIGID as RIGID_FORM,
 )
 from stackbounce.engine.memory import FINITE, RIGID, Engine
 from stackbounce.engine.work import LANE_EVENTS
