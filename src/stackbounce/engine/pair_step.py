@@ -64,12 +64,12 @@ END_A, END_B, END_D, LEVEL, MU, NU, MU_NOW, DRIFT = (_EACH + k * BOTH for k in r
 # Of hysteresis: M, 0 without; 1/C; the four numbers of the force; its curve, C, and where it was
 # compressed again.
 LOSS, OVER_PEAK, ADDED, KEPT, HELD, OFFSET = (_EACH + k * BOTH for k in range(32, 38))
-CURVE, PEAK, TURN = (_EACH + k * BOTH for k in range(38, 41))
+CURVE, PEAK, TURN, BASE, EXPONENT = (_EACH + k * BOTH for k in range(38, 43))
 # Slots for each lane: 1/m1, 1/m2; the step in s, s where it begins, and the weights m, n, q; how
 # the step goes; impact speed, row, status; 1 if `pairs` must decide how the lane goes on; steps so
 # far; the allowed error over that of the step, and the factor for the next step; the last step by
 # time.
-_LANE = _EACH + 41 * BOTH
+_LANE = _EACH + 43 * BOTH
 OVER_1, OVER_2, H, START, M, N, Q, MODE = (_LANE + k * LANES for k in range(8))
 V0, ROW, STATUS, ASKS, STEPS, OVER_ERROR, GROW, BY_TIME = (_LANE + k * LANES for k in range(8, 16))
 # The event that a step is to end at: its contact, its kind, and the time to it.
@@ -130,9 +130,11 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
             x[F + i] = root if x[POWER + i] > 0.0 else 1.0
     else:
         for i in range(BOTH):
-            c, p = x[NOW + C + i], x[POWER + i]
-            root, base = math.sqrt(max(c, 0.0)), swift_power(c, p)
-            base = root if p == 0.5 else base
+            x[BASE + i], x[EXPONENT + i] = x[NOW + C + i], x[POWER + i]
+        _find_powers(x)
+        for i in range(BOTH):
+            p, base = x[POWER + i], x[BASE + i]
+            base = math.sqrt(max(x[NOW + C + i], 0.0)) if p == 0.5 else base
             x[F + i] = base if p > 0.0 else 1.0
     for i in range(BOTH):
         c, a, b = max(x[NOW + C + i], 0.0), x[A + i], x[B + i]
@@ -140,7 +142,11 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
         x[F + i] = max(x[PRESSING + i] * x[F + i] * gain * (b + a * c), 0.0)
     if x[REMEMBERS] > 0.0:
         for i in range(BOTH):
-            rest = swift_power(x[NOW + C + i] * x[OVER_PEAK + i], x[LOSS + i])
+            ratio, exponent = x[NOW + C + i] * x[OVER_PEAK + i], x[LOSS + i]
+            x[BASE + i], x[EXPONENT + i] = ratio, exponent
+        _find_powers(x)
+        for i in range(BOTH):
+            rest = x[BASE + i]
             force = x[F + i] * (x[ADDED + i] + x[KEPT + i] * rest)
             x[F + i] = max(force + x[HELD + i] * rest + x[OFFSET + i], 0.0)
     if x[CREEPS] > 0.0:
@@ -170,6 +176,14 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
                 dt * x[OUT + S + i],
                 dt * x[OUT + S + LANES + i],
             )
+
+
+@kernel
+def _find_powers(x: Floats) -> None:
+    """Raise all numbers in BASE to their EXPONENT."""
+    for i in range(BOTH):
+        base, exponent = x[BASE + i], x[EXPONENT + i]
+        x[BASE + i] = swift_power(base, exponent)
 
 
 @kernel
