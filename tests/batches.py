@@ -8,7 +8,10 @@ from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
 from stackbounce.run.batch import new_outcomes
 
-_FORMS = (codes.POWER, codes.DASHPOT, codes.VISCOELASTIC, codes.HUNT_CROSSLEY)
+_FORMS = (
+    *(codes.POWER, codes.HYSTERETIC, codes.DASHPOT),
+    *(codes.VISCOELASTIC, codes.HUNT_CROSSLEY, codes.RELAXING),
+)
 
 
 def bits(values):
@@ -51,19 +54,22 @@ def pairs(count, seed, reach=3.0):
     speed = np.repeat(10.0 ** random.uniform(-1.0, 1.0, (count, 1)), 2, axis=1)
     exponent = random.choice([1.5, 1.5, 1.0, 2.2], (count, 2))
     exponent[form == codes.VISCOELASTIC] = 1.5
-    exponent[form == codes.DASHPOT] = 1.0
+    exponent[(form == codes.DASHPOT) | (form == codes.RELAXING)] = 1.0
     depth = (mass * speed**2 / stiffness) ** (1.0 / (exponent + 1.0))
     # a loss in the unit of its form
     unit = np.select(
         [form == codes.DASHPOT, form == codes.VISCOELASTIC, form == codes.HUNT_CROSSLEY],
         [np.sqrt(stiffness * mass), depth / speed, 1.0 / speed],
+        1.0,
     )
     loss = unit * 10.0 ** random.uniform(-3.0, 0.0, (count, 2))
+    loss[form == codes.RELAXING] *= 10.0
+    loss[form == codes.HYSTERETIC] = (exponent + 10.0 * loss)[form == codes.HYSTERETIC]
+    relaxing = depth / speed * 10.0 ** random.uniform(-1.0, 1.0, (count, 2))  # its time
     gap = depth * 10.0 ** random.uniform(-6.0, 1.0, (count, 2))
     gap[random.random(count) < 1.0 / 3.0] = 0.0
     gap[:, 0] = 0.0
-    nothing = np.zeros((count, 2))
-    return Drops(mass, form, stiffness, exponent, loss, nothing, gap, -speed, np.zeros(count))
+    return Drops(mass, form, stiffness, exponent, loss, relaxing, gap, -speed, np.zeros(count))
 
 
 def _room(drops):

@@ -260,9 +260,9 @@ def swift_power(x: float, y: float) -> float:
     """Return x^y for y > 0, with a relative error of about 1e-16 (2 + |y ln x|), without branches.
 
     The exponential is a polynomial. It can be computed for many numbers at the same time; x below
-    1e-300 counts as 1e-300, and results are from 1e-304 to 1e304.
+    1e-300, or not a number, counts as 1e-300, and results are from 1e-304 to 1e304.
     """
-    m, e = math.frexp(max(x, 1e-300))
+    m, e = math.frexp(min(x, 1e300) if x > 1e-300 else 1e-300)
     high = 1.0 if m > 0.5 * _ROOT_TWO else 0.0
     f = m * (2.0 - high) - 1.0
     s = f / (2.0 + f)

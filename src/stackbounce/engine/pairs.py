@@ -340,9 +340,13 @@ def _look_after(x: Floats, i: int) -> None:
 def _is_steady(x: Floats, i: int) -> bool:
     """Return whether the compression of the contact of an event moved as its derivatives say.
 
-    If the rate comes near 0 on the way, neither the step nor its error can be trusted.
+    If the rate comes near 0 on the way, neither the step nor its error can be trusted. A contact
+    that comes to rest must not have opened before.
     """
     k, dt = int(x[lane.CONTACT + i]), x[lane.DT + i]
+    left = x[lane.NEW + lane.C + k] - x[lane.LEVEL + k]
+    if x[lane.KIND + i] == GAIN and not x[lane.SIGN + k] * left > 0.0:
+        return False
     mean = 0.5 * (x[lane.Y + lane.R + k] + x[lane.NEW + lane.R + k])
     mean += dt * (x[lane.ACC + k] - x[lane.ACC_NEW + k]) / 12.0
     moved = x[lane.NEW + lane.C + k] - x[lane.Y + lane.C + k]
