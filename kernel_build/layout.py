@@ -74,7 +74,8 @@ def layout() -> dict[str, Any]:
         "statuses": _numbered(_STATUSES),
         "causes": _numbered("ENDLESS STIFF EXTREME"),
         "events": _numbered(_EVENTS),
-        "forms": _numbered("ABSENT POWER DASHPOT VISCOELASTIC HUNT_CROSSLEY"),
+        "forms": _numbered("ABSENT POWER"),
+        "pair_forms": codes.PAIR_FORMS,
     }
 
 

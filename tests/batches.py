@@ -72,5 +72,24 @@ def pairs(count, seed, reach=3.0):
     return Drops(mass, form, stiffness, exponent, loss, relaxing, gap, -speed, np.zeros(count))
 
 
+def rigid_pairs(count, seed, reach=3.0, least=0.0):
+    """Return drops of two rigid balls, a third of which touch and a fifth of which are elastic.
+
+    Some mass ratios are those at which balls end with one velocity, or a ball at rest.
+    """
+    random = np.random.default_rng(seed)
+    mass = 10.0 ** random.uniform(-0.5 * reach, 0.5 * reach, (count, 2))
+    some = random.random(count) < 0.1
+    mass[some, 1] = mass[some, 0] * random.choice([1 / 3, 0.5, 1.0, 2.0, 3.0], some.sum())
+    e = random.uniform(least, 1.0, (count, 2))
+    e[random.random(count) < 0.2] = 1.0
+    gap = 10.0 ** random.uniform(-6.0, 1.0, (count, 2))
+    gap[random.random(count) < 1.0 / 3.0] = 0.0
+    gap[:, 0] = 0.0
+    speed = np.repeat(10.0 ** random.uniform(-1.0, 1.0, (count, 1)), 2, axis=1)
+    form, nothing = np.full((count, 2), codes.RIGID), np.zeros((count, 2))
+    return Drops(mass, form, nothing, nothing, e, nothing, gap, -speed, np.zeros(count))
+
+
 def _room(drops):
     return Outcomes._make(map(np.zeros_like, new_outcomes(*drops.mass.shape)))

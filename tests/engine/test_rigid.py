@@ -9,10 +9,41 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 import stackbounce as sb
+from batches import bits, in_lanes, rigid_pairs, swept
 from drops import assert_collisions, exact, precise, rigid
 from reference import rigid as reference
+from stackbounce.engine import codes
+from stackbounce.engine.memory import RIGID
+from stackbounce.engine.work import LANE_EVENTS
+from stackbounce.run.options import Options
 
 PRECISION = 1e-11
+
+
+@pytest.mark.parametrize(
+    ("reach", "least", "known"), [(1.0, 0.7, 1.0), (3.0, 0.0, 0.7), (8.0, 0.0, 0.6)]
+)
+def test_many_pairs_have_the_bits_of_the_general_engine(reach, least, known):
+    drops = rigid_pairs(5000, 1, reach, least)
+    out = in_lanes("run_two_rigid", drops, LANE_EVENTS)
+    general = swept(RIGID, drops, Options(np.inf, 1e-12, 1_000_000))
+    done = out.status == codes.FINISHED
+    assert done.mean() >= known
+    assert (out.status[~done] == codes.ASK).all()
+    for name in set(out._fields) - {"work"}:
+        assert bits(getattr(out, name)[done]) == bits(getattr(general, name)[done])
+
+
+@pytest.mark.parametrize("scale", [1e-300, 1e-150, 1e150, 1e300])
+@pytest.mark.parametrize("name", ["mass", "velocity", "gap"])
+def test_extreme_pairs_are_right_or_left_to_the_general_engine(name, scale):
+    drops = rigid_pairs(60, 2, least=0.7)
+    factor = np.array([1.0, scale]) if name == "mass" else scale
+    drops = drops._replace(**{name: getattr(drops, name) * factor})
+    out = in_lanes("run_two_rigid", drops, LANE_EVENTS)
+    done = out.status == codes.FINISHED
+    assert (out.status[~done] == codes.ASK).all()
+    assert np.isfinite(out.rebound_ratio[done]).all()
 
 
 @pytest.mark.parametrize("e", [1.0, 0.92, 0.9, 0.88, 0.8, 0.5])

@@ -12,7 +12,16 @@ The force of a pressing contact is
 
 where a is 1 and b is 0, or the other way round (see `forces`): a Hertz contact has p = 1.5, a = 1
 and d = 0; that of Hunt and Crossley a = 1; a dashpot p = 1 and b = 1; a viscoelastic one p = 1.5
-and b = 1.
+and b = 1. Two forms have more numbers:
+
+- With hysteresis, F becomes F (ADDED + KEPT s) + HELD s + OFFSET, with the share s = (c/C)^M that
+  is left of the force at the peak C (see `cycles`). One cycle is followed, none inside it.
+- A contact that creeps counts c from its surface, whose compression is S. There its force
+  k (1 + z) c has the simplest form, and with w as in `forces`
+
+      S' = mu c - nu S,    mu = z nu,    nu = 1/((1 + z) w),
+
+  where mu is 0 while it is open. Its rate r = c' is that of the balls less S'.
 
 The independent variable s of a step is chosen so that the motion is smooth in it and the step ends
 exactly at an event (M. Henon, Physica D 5, 412, 1982). With weights,
@@ -27,6 +36,8 @@ the compression of an open contact  c      m = 1, by_r = 1: ends where the conta
 its root, of a pressing contact     c^0.5  n = 1, by_r = 1: begins where it touches, or ends where
                                            it opens; there the force is smooth in this root only
 the gain of a damped contact        g      m = 1, by_r = b, by_a = d: ends where it stops pressing
+the rate, with hysteresis           r      m = 1, by_a = 1: ends where the compression turns
+a compression, with hysteresis      c      m = 1, by_r = 1: ends where a cycle closes
 =================================== ====== =========================================================
 """
 

@@ -1,4 +1,4 @@
-"""Many drops of two balls on contacts with a nonlinear or damped force, without gravity, in lanes.
+"""Many drops of two balls on contacts with a nonlinear or lossy force, without gravity, in lanes.
 
 All lanes step together (`pair_step`). Between steps, lanes that meet an event are looked after one
 by one: a step is aimed at the event, the event is applied, the balls fly freely until they touch
@@ -51,7 +51,8 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
     Parameters
     ----------
     drops : Drops
-        The parameters of n drops, of the forms POWER, DASHPOT, VISCOELASTIC and HUNT_CROSSLEY.
+        The parameters of n drops, of the forms POWER, HYSTERETIC, DASHPOT, VISCOELASTIC,
+        HUNT_CROSSLEY and RELAXING.
         Both balls come with the lower one's velocity.
     rtol : float
         The error of the velocities that is aimed at, over the impact speed.
@@ -231,11 +232,14 @@ def _follow(x: Floats, k: int, curve: float) -> None:
 
 @kernel
 def _turn_or_return(x: Floats, i: int, k: int, kind: float) -> None:
-    """Let contact k with hysteresis go over to another curve: at rest, or where a cycle closes."""
-    curve = x[lane.CURVE + k]
+    """Let contact k with hysteresis go over to another curve: at rest, or where a cycle closes.
+
+    The general engine follows a cycle inside a cycle, and one that turns close to where it ends.
+    """
+    curve, near = x[lane.CURVE + k], _least_rate(x, i) * x[lane.BY_TIME + i]
     if kind == RETURN:
         curve -= 2.0
-    elif curve == OUT_AGAIN:  # a cycle inside a cycle
+    elif curve == OUT_AGAIN or abs(x[lane.Y + lane.C + k] - x[lane.LEVEL + k]) < near:
         x[lane.STATUS + i] = ASK
     else:
         if curve == IN:

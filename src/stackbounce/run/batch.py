@@ -23,6 +23,7 @@ from stackbounce.engine import codes
 from stackbounce.engine.memory import (
     FINITE,
     OUT_OF_RANGE,
+    RIGID,
     Engine,
     kernel_named,
     lane_workspace,
@@ -32,11 +33,7 @@ from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
 from stackbounce.engine.work import LANE_EVENTS
 from stackbounce.model import Drop
-from stackbounce.run.engines import (
-    choose_compiled,
-    choose_engine,
-    choose_lanes,
-)
+from stackbounce.run.engines import choose_compiled, choose_engine, choose_lanes
 from stackbounce.run.options import Options, check_room
 from stackbounce.run.paths import Rows, base_rows, drop_pieces, fill
 
@@ -198,7 +195,8 @@ def _run_lanes(
     if len(asked):
         some = Drops._make(array[asked] for array in drops)
         answers = Outcomes._make(array[asked] for array in out)
-        _run_rows(FINITE, (), some, answers, options, compiled, pause)
+        engine = RIGID if lanes == "run_two_rigid" else FINITE
+        _run_rows(engine, (), some, answers, options, compiled, pause)
         for array, answer in zip(out, answers, strict=True):
             array[asked] = answer
 

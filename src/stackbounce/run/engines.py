@@ -5,11 +5,12 @@ engine        solves
 ============= ==========================================================================
 `RIGID`       sequences of instantaneous collisions (eqs 1 to 4)
 `FINITE`      simultaneous contacts of finite duration (eqs 5, 6 and section V)
+two rigid     batches of two rigid balls (`engine.two_rigid`)
 two springs   batches of two balls on springs, many at a time (`engine.two_springs`)
 pairs         batches of two balls under other laws, many at a time (`engine.pairs`)
 ============= ==========================================================================
 
-The last two pass drops on to `FINITE` that are near the limits of their accuracy.
+The last three pass drops on to the general engine that are near the limits of their accuracy.
 
 Compiled code is used wherever there is some for this machine (`engine.native`). Plain Python gives
 the same bits, about a hundred times slower.
@@ -19,18 +20,7 @@ import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from stackbounce.engine import native
-from stackbounce.engine.codes import (
-    DASHPOT,
-    HUNT_CROSSLEY,
-    HYSTERETIC,
-    POWER,
-    RELAXING,
-    VISCOELASTIC,
-)
-from stackbounce.engine.codes import (
-    RIGID as RIGID_FORM,
-)
+from stackbounce.engine import codes, native
 from stackbounce.engine.memory import FINITE, RIGID, Engine
 from stackbounce.engine.work import LANE_EVENTS
 from stackbounce.errors import InvalidType, InvalidValue, shown
@@ -41,7 +31,6 @@ from stackbounce.run.options import Options
 if TYPE_CHECKING:
     from stackbounce.run.paths import Number
 
-_PAIRS = {POWER, HYSTERETIC, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY, RELAXING}  # forms of force
 _PAIRS_RTOL = 1e-13  # the least tolerance: round-off accumulates over some 100 steps
 
 
@@ -86,9 +75,9 @@ def choose_lanes(drop: Drop, numbers: "Iterable[Number]", options: Options) -> s
     whole = options.until == math.inf and options.event_limit >= LANE_EVENTS
     if len(contacts) != 2 or drop.gravity != 0.0 or free or not (together and whole):
         return None
-    if {form for form, _ in contacts} == {RIGID_FORM}:
+    if all(form == codes.RIGID for form, _ in contacts):
         return "run_two_rigid"
-    if set(contacts) == {(POWER, 1.0)} and all(n.field != "exponent" for n in numbers):
+    if set(contacts) == {(codes.POWER, 1.0)} and all(n.field != "exponent" for n in numbers):
         return "run_two_springs"
-    known = all(form in _PAIRS for form, _ in contacts) and options.rtol >= _PAIRS_RTOL
+    known = all(form in codes.PAIR_FORMS for form, _ in contacts) and options.rtol >= _PAIRS_RTOL
     return "run_pairs" if known else None

@@ -87,14 +87,14 @@ export class Points {
   /** Return the name of the engine in lanes that can run all drops, if there is one. */
   chooseLanes() {
     const { base, drop, varied } = this;
-    const { POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY } = theEngine().forms;
+    const { forms, layout } = theEngine();
     const together = new Set(base.velocity).size === 1 && base.velocity[0] < 0;
     const free = varied.some(({ number }) => number.part === "velocities" || number.field === "gravity");
-    const few = known.limits.events < theEngine().layout.limits.lanes; // a drop in lanes counts no events
+    const few = known.limits.events < layout.limits.lanes; // a drop in lanes counts no events
     if (drop.balls.length !== 2 || drop.gravity !== 0 || !together || free || few) return null;
-    const linear = base.form.every((form, i) => form === POWER && base.second[i] === 1);
+    const linear = base.form.every((form, i) => form === forms.POWER && base.second[i] === 1);
     if (linear && varied.every(({ number }) => number.field !== "exponent")) return "run_two_springs";
-    return base.form.every((form) => [POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY].includes(form)) ? "run_pairs" : null;
+    return base.form.every((form) => layout.pair_forms.includes(form)) ? "run_pairs" : null;
   }
 
   /** Run so many drops, in the order of rows; return `Outcomes` of them. */
