@@ -12,9 +12,8 @@ import numpy as np
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.library_types import DataArray, Dataset, UFloat
 from stackbounce.model import Drop
-from stackbounce.prediction.draws import Slopes, budget, carry
+from stackbounce.prediction.draws import Slopes, budget, carry, fit_slopes, linear_shares
 from stackbounce.prediction.inputs import Inputs, error_of_deviation, of_draws
-from stackbounce.prediction.sensitivity import fit_slopes, linear_shares
 from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options
 from stackbounce.run.paths import identifier

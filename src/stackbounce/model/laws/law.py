@@ -277,15 +277,10 @@ class ContactLaw(Shown):
         varied : mapping of str to ndarray, optional
             Fields that vary, with one value for each of many drops.
         """
-        first = getattr(self, "stiffness", 1.0)
-        second = getattr(self, "exponent", 1.0)
-        third = getattr(self, self.third_number) if self.third_number else 0.0
-        fourth = getattr(self, self.fourth_number) if self.fourth_number else 0.0
-        if varied:
-            first = varied.get("stiffness", first)
-            second = varied.get("exponent", second)
-            third = varied.get(self.third_number, third)
-            fourth = varied.get(self.fourth_number, fourth)
+        names = ("stiffness", "exponent", self.third_number, self.fourth_number)
+        own = zip(names, (1.0, 1.0, 0.0, 0.0), strict=True)
+        numbers = [varied.get(name, getattr(self, name, usual)) for name, usual in own]
+        first, second, third, fourth = numbers
         return self.form, first, second, third, fourth
 
     def values(self, varied: Mapping[str, Any]) -> list[Any]:
@@ -329,8 +324,7 @@ class ContactLaw(Shown):
 
     def _is_elastic(self) -> bool:
         """Return whether nothing is lost, and the force is a power of the compression."""
-        lossy = self.loss and (self.loss == "restitution" or getattr(self, self.loss) > 0.0)
-        return not lossy
+        return not (self.loss and (self.loss == "restitution" or getattr(self, self.loss) > 0.0))
 
     def _bounce(self, mass: float, speed: float) -> tuple[float, float]:
         """Return restitution and contact time in s by a simulation."""
