@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from numbers import Real
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, TypeVar, get_type_hints
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, TypeVar
 
 from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, between, positive
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import rising_root
 from stackbounce.shown import Shown, Table, call_of
-from stackbounce.units import WORDS, Unit, in_unit, unit_of
+from stackbounce.units import WORDS, Unit, in_unit, units_of
 
 STEEPEST = 1e6
 """The largest exponent of a loading or unloading curve; above it the curve is almost a step."""
@@ -426,10 +426,8 @@ class ContactLaw(Shown):
 
 
 @functools.cache
-def _quantities(kind: type[ContactLaw]) -> Mapping[str, Quantity]:
-    hints = get_type_hints(kind, include_extras=True)
-    found = {name: unit_of(hint) for name, hint in hints.items()}
-    return {name: value for name, value in found.items() if isinstance(value, Quantity)}
+def _quantities(kind: Any) -> Mapping[str, Quantity]:
+    return {name: one for name, one in units_of(kind).items() if isinstance(one, Quantity)}
 
 
 def _found(cls: type[_Law], numbers: dict[str, float], given: Given) -> _Law:
