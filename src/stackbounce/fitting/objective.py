@@ -252,8 +252,7 @@ class Objective:
         if status not in _DONE:
             self.unsolved[status.name] += 1
             forces[:] = np.nan
-        ends = np.cumsum([len(wave.times) for wave in waves])[:-1]
-        places = np.split(where, ends)
+        places = np.split(where, np.cumsum([len(wave.times) for wave in waves])[:-1])
         return [forces[wave.index, at] for wave, at in zip(waves, places, strict=True)]
 
     def residuals(self, x: Array) -> Array:
