@@ -151,14 +151,11 @@ class Prediction(Shown):
     @functools.cached_property
     def _results(self) -> list[Result]:
         """Single runs, for what a batch does not give: of some draws, or of `Inputs.neighbours`."""
-        few = self.drawn[: min(_RUNS, self._affordable(3))]
+        # Three times as many cost no more than all draws may.
+        most = budget(self.options, self.asked) * len(self.drawn)
+        few = self.drawn[: min(_RUNS, most // max(1, 3 * int(np.sum(self.solved.work))))]
         rows = few if self.reason else self.inputs.neighbours
         return [solve_one(self.inputs.drop_at(x), self.options) for x in rows]
-
-    def _affordable(self, each: int) -> int:
-        """Return how often so many runs cost no more than all draws may; see `budget`."""
-        most = budget(self.options, self.asked) * len(self.drawn)
-        return most // max(1, each * int(np.sum(self.solved.work)))
 
     def __getitem__(self, name: str) -> UFloat:
         """Return a value with its error, such as ``rebound_speeds.1``, in SI units."""

@@ -156,15 +156,13 @@ def best_masses(
 
     def lost(logs: NDArray[np.float64]) -> NDArray[np.float64]:
         stacks = [_replace_masses(drop, np.exp(row), contacts) for row in logs.T]
-        ds = solve_drops(stacks)
-        ratio = ds.rebound_ratio.values[:, -1]
+        ratio = solve_drops(stacks).rebound_ratio.values[:, -1]
         return -np.where(np.isfinite(ratio), ratio, -np.inf)
 
-    between = len(drop.balls) - 2
     search: Any = {"updating": "deferred", "vectorized": True, "polish": False, "seed": _SEED}
     found = differential_evolution(
         lost,
-        [tuple(ends)] * between,
+        [tuple(ends)] * (len(drop.balls) - 2),
         popsize=_STARTS,
         maxiter=_GENERATIONS,
         tol=0.0,
