@@ -307,19 +307,9 @@ def _all_move(drop: Drop, rows: Rows) -> bool:
 
 def drop_numbers(drop: Drop) -> Drops:
     """Return the parameters of a drop in the form that `prepare` takes, as lists."""
-    rows = zip(*map(contact_numbers, drop.contacts), strict=True)
-    form, first, second, third, fourth = map(list, rows)
-    return Drops(
-        mass=[ball.mass for ball in drop.balls],
-        form=form,
-        first=first,
-        second=second,
-        third=third,
-        fourth=fourth,
-        gap=[0.0, *drop.gaps],
-        velocity=list(drop.start_velocities),
-        gravity=drop.gravity,
-    )
+    form_and_four = map(list, zip(*map(contact_numbers, drop.contacts), strict=True))
+    mass, gap = [ball.mass for ball in drop.balls], [0.0, *drop.gaps]
+    return Drops._make([mass, *form_and_four, gap, list(drop.start_velocities), drop.gravity])
 
 
 def drop_pieces(drop: Drop) -> list[list[float]]:
