@@ -38,8 +38,7 @@ def shipped(package: str, name: str) -> str:
     >>> shipped("stackbounce", "attributes.toml").partition(",")[0]
     '# Attributes that people try and that are not there'
     """
-    folders = package.split(".")[1:]
-    return Path(__file__).parent.joinpath(*folders, name).read_text("utf-8")
+    return Path(__file__).parent.joinpath(*package.split(".")[1:], name).read_text("utf-8")
 
 
 def shipped_table(package: str, name: str) -> dict[str, Any]:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from numbers import Real
-from typing import Annotated, Any, get_args, get_origin
+from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from stackbounce.errors import InvalidType, UnitError, finite, shown
 from stackbounce.library_types import UnitRegistry
@@ -95,6 +95,13 @@ def unit_of(hint: Any) -> Unit | None:
     if get_origin(hint) is Annotated:
         return next((note for note in hint.__metadata__ if isinstance(note, Unit)), None)
     return next((unit for unit in map(unit_of, get_args(hint)) if unit is not None), None)
+
+
+@functools.cache
+def units_of(kind: Any) -> dict[str, Unit]:
+    """Return the units of a class's fields, by field; those without one are left out."""
+    hints = get_type_hints(kind, include_extras=True)
+    return {name: unit for name, hint in hints.items() if (unit := unit_of(hint))}
 
 
 def quantity(value: object, unit: str, name: str = "value") -> float:

@@ -86,7 +86,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     os.environ["MPLBACKEND"] = "agg"  # nothing is shown, and matplotlib refuses an unknown name
     try:
         with warnings.catch_warnings():
-            warnings.showwarning = _warn
+            warnings.showwarning = lambda message, *_, **__: _say(str(message))
             try:
                 code = app(arguments, prog_name="stackbounce", standalone_mode=False)
             except Unsolved as error:
@@ -131,11 +131,6 @@ def _command(arguments: Sequence[str] | None) -> str:
 def _failed(message: str, code: int = 2) -> int:
     _say(f"error: {message}")
     return code
-
-
-def _warn(message: Warning | str, *_: Any, **__: Any) -> None:
-    """Show a warning as the command line shows an error, without the line of code."""
-    _say(str(message))
 
 
 def _say(message: str) -> None:

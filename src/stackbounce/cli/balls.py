@@ -66,8 +66,8 @@ def _sources(entry: "CatalogueBall") -> str:
 
 def summary() -> dict[str, object]:
     """Return what ``stackbounce balls --json`` prints."""
-    from stackbounce.model.catalogue import BALLS, CLASS_BALLS, PAIRS
+    from stackbounce.model.catalogue import ENTRIES, PAIRS
     from stackbounce.version import __version__
 
-    rows = [entry.to_mapping() for entry in (*BALLS, *CLASS_BALLS)]
+    rows = [entry.to_mapping() for entry in ENTRIES.values()]
     return {"stackbounce": __version__, "balls": rows, "pairs": PAIRS}

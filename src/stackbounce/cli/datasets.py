@@ -33,8 +33,7 @@ def _print_list(console: Console, found: "Sequence[Description]") -> None:
 
     table = new_table("Published measurements", ["name", "title", "read"], ["rows"])
     for about in found:
-        rows = len(about.columns[0].values)
-        table.add_row(about.name, about.title, about.seen, str(rows))
+        table.add_row(about.name, about.title, about.seen, str(len(about.columns[0].values)))
     console.print(table)
     console.print("\nNow: stackbounce datasets NAME")
 

@@ -1,5 +1,6 @@
 """The command ``stackbounce app``: the explorer in the browser, as one file, or as a folder."""
 
+import dataclasses
 import os
 from collections.abc import Sequence
 from pathlib import Path
@@ -8,6 +9,9 @@ from typing import TYPE_CHECKING
 import typer
 
 from stackbounce.cli.output import print_json
+from stackbounce.errors import InvalidValue, whole
+from stackbounce.explorer.framing import frame_rule, read_origin
+from stackbounce.version import __version__
 
 if TYPE_CHECKING:
     from stackbounce.explorer.addresses import Place
@@ -24,19 +28,13 @@ def run(
     as_json: bool,
 ) -> None:
     """Open the explorer in the browser: the bounce in slow motion."""
-    from stackbounce.explorer.framing import read_origin
-
     framed_by = [read_origin(origin) for origin in embed or ()]
     if export is not None:
         _write(export, framed_by, overwrite, as_json)
         return
-    import dataclasses
-
-    from stackbounce.errors import whole
     from stackbounce.explorer import LIMITS
     from stackbounce.explorer.serve import serve
     from stackbounce.extras import is_installed
-    from stackbounce.version import __version__
 
     measures = is_installed("app")
 
@@ -63,11 +61,8 @@ def run(
 
 def _write(path: str, framed_by: list[str], overwrite: bool, as_json: bool) -> None:
     """Write the explorer as one file or as a folder, and tell its size and who may frame it."""
-    from stackbounce.errors import InvalidValue
-    from stackbounce.explorer.framing import frame_rule
     from stackbounce.explorer.made import folder_files, one_file
     from stackbounce.files import check_own, check_place, prepare_folder, write_file, write_folder
-    from stackbounce.version import __version__
 
     if not path:  # Path("") is the current folder
         raise InvalidValue("--export must name a file that ends in .html, or a folder, got ''")

@@ -20,16 +20,16 @@ def read_parts_of(
 ) -> Parts:
     """Return the parts of a fit problem: from a table, a data set, a file, or a drop alone."""
     if stack is not None:
-        drops = {key: scenario.change(drop, **changes) for key, drop in stack.drops.items()}
-        return Parts(drops, dict(stack.data), {}, {})
-    if len(what) == 1 and what[0].startswith(PREFIX) and not Path(what[0]).exists():
+        parts = Parts(stack.drops, dict(stack.data), {}, {})
+    elif len(what) == 1 and what[0].startswith(PREFIX) and not Path(what[0]).exists():
         drop, data, vary, _ = load_dataset(what[0])
-        return Parts({"": scenario.change(drop, **changes)}, {"": data}, vary, {})
-    if len(what) == 1 and scenario.is_file(what[0]):
+        parts = Parts({"": drop}, {"": data}, vary, {})
+    elif len(what) == 1 and scenario.is_file(what[0]):
         parts = read_parts(what[0])
-        drops = {key: scenario.change(drop, **changes) for key, drop in parts.drops.items()}
-        return parts._replace(drops=drops)
-    return Parts({"": scenario.read(what, **changes).drop}, {}, {}, {})
+    else:
+        return Parts({"": scenario.read(what, **changes).drop}, {}, {}, {})
+    drops = {key: scenario.change(drop, **changes) for key, drop in parts.drops.items()}
+    return parts._replace(drops=drops)
 
 
 def check_save(

@@ -115,8 +115,7 @@ def _tabulate_parameters(done: Fitted) -> Table:
 
 
 def _tabulate_residuals(found: Fit) -> Table:
-    headings = ("\nvalue", "\nerror", "\nfitted", "off by\nerrors")
-    table = new_table(None, ["\nMeasured"], headings)
+    table = new_table(None, ["\nMeasured"], ("\nvalue", "\nerror", "\nfitted", "off by\nerrors"))
     table.add_column("\nunit")
     most: dict[str, float] = {}
     for row in found.residuals:

@@ -9,6 +9,8 @@ from typing import Any
 from stackbounce.cli import output
 from stackbounce.errors import InvalidValue, positive, shown
 from stackbounce.files import write_file
+from stackbounce.model import STANDARD_GRAVITY, Drop, law_named
+from stackbounce.units import quantity
 
 
 def run(
@@ -23,10 +25,7 @@ def run(
     from stackbounce import highest
     from stackbounce.cli.scenario import is_file, read
     from stackbounce.cli.stack_tables import print_stacks, summary
-    from stackbounce.model import Drop
-    from stackbounce.model.laws import law_named
     from stackbounce.run.result import Status
-    from stackbounce.units import quantity
 
     what = what or []
     output.check_picture(plot, overwrite)
@@ -57,8 +56,6 @@ def run(
 
 def _limits(text: str) -> tuple[float, ...]:
     """Return the smallest and the largest mass in kg of ``--within``."""
-    from stackbounce.units import quantity
-
     ends = text.split(":")
     if len(ends) != 2:
         raise InvalidValue(f"--within must be MASS:MASS, such as 10g:1kg, got {shown(text)}")
@@ -68,7 +65,6 @@ def _limits(text: str) -> tuple[float, ...]:
 def _impact_speed(height: str | None, speed: str | None) -> float | None:
     """Return the impact speed in m/s of ``--height`` or ``--speed``."""
     from stackbounce.cli.drop_options import read_fall
-    from stackbounce.model import STANDARD_GRAVITY
 
     fall = read_fall(height, speed)
     if "height" in fall:

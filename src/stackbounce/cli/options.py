@@ -83,9 +83,9 @@ def _read() -> dict[str, Any]:
 
 def _balls() -> list[str]:
     """Return the balls of the catalogue as they are typed."""
-    from stackbounce.model.catalogue import BALLS, CLASS_BALLS
+    from stackbounce.model.catalogue import ENTRIES
 
-    return [str(entry.ball.name).replace(" ", "-") for entry in (*BALLS, *CLASS_BALLS)]
+    return [name.replace(" ", "-") for name in ENTRIES]
 
 
 def _datasets() -> Sequence[str]:

@@ -6,12 +6,10 @@ import typer
 
 from stackbounce.cli.output import console, print_json
 from stackbounce.errors import InvalidValue
-from stackbounce.extras import MEASURING, need
 
 
 def run(out: str, as_json: bool) -> None:
     """Recompute the paper: its figures, its tables, and an audit of every number in it."""
-    need("stackbounce paper", *MEASURING, "jinja2", "matplotlib")
     from stackbounce import cross2007
 
     if not out:  # Path("") is the current folder

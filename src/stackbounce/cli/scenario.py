@@ -130,8 +130,7 @@ def _with(scenario: Scenario, changes: dict[str, Any]) -> Scenario:
     for key, option in (("height", "--height"), ("impact_speed", "--speed")):
         if key in changes:
             sources["speed_source"] = option
-            others = dict.fromkeys(("height", "impact_speed", "velocities"))
-            changes = others | changes
+            changes = dict.fromkeys(("height", "impact_speed", "velocities")) | changes
     errors = {
         path: text
         for path, text in scenario.errors.items()

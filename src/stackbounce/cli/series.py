@@ -24,6 +24,7 @@ _OF_DROPS = (
     "data", "measured", "vary", "tie", "height", "speed", "gap", "gravity", "interval", "sample",
     "starts", "draws", "save", "corner",
 )  # fmt: skip
+_BALL = {"mass": "kg", "diameter": "m"}
 _ALONE = "Rigid"  # the law without --compare and --contact: one restitution
 
 
@@ -59,18 +60,15 @@ def fit_series(
             raise InvalidValue(f"--{name} is of a drop; {what} is a table of bounces")
     if given["out"] == "":
         raise InvalidValue("--out must name a folder, got ''")
-    mass, diameter = (
-        None if given[name] is None else quantity(given[name], unit, f"--{name}")
-        for name, unit in (("mass", "kg"), ("diameter", "m"))
-    )
+    units = {name: unit for name, unit in _BALL.items() if given[name] is not None}
+    ball = {name: quantity(given[name], unit, f"--{name}") for name, unit in units.items()}
     every = what == f"{PREFIX}all"
     try:
         done = series.fit_series(
             what,
             laws=tuple(LAWS) if given["compare"] else given["contact"] or [_ALONE],
             errors=given["error"] or (),
-            mass=mass,
-            diameter=diameter,
+            **ball,
             progress=functools.partial(typer.echo, err=True) if every else lambda _: None,
         )
     except (FileError, InvalidValue) as error:

@@ -94,8 +94,7 @@ class Sideways:
             shown = range(len(self.names))[-_COLUMNS:]
             title = "How far off a ball alone may lie, in mm, for each to leave within"
             console.print(f"\n{title} {self.within:g}°", style="bold")
-            headings = [f"\n{self.names[i]}" for i in shown]
-            table = new_table(None, ["\nball that is off"], headings)
+            table = new_table(None, ["\nball that is off"], [f"\n{self.names[i]}" for i in shown])
             for name, row in zip(self.names[1:], answers["straight"], strict=True):
                 table.add_row(name, *(number(1e3 * row["most"][i]) for i in shown))
             console.print(table)

@@ -235,5 +235,4 @@ def _verdict(computed: float, number: float, tolerance: float, error: float) -> 
     if distance <= tolerance * (1.0 + 1e-9):
         return AGREES
     # with an error as large as the number itself, every value would pass
-    telling = error < abs(number)
-    return WITHIN_ERROR if telling and distance <= tolerance + error else DIFFERS
+    return WITHIN_ERROR if error < abs(number) and distance <= tolerance + error else DIFFERS

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, NamedTuple
 
-from stackbounce.cross2007.bench import PAPER
+from stackbounce.cross2007.bench import PAPER, Bench
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.errors import InvalidValue, nearest
 from stackbounce.model import Ball, ContactLaw, Drop, Hysteretic, Spring
@@ -30,6 +30,9 @@ _TIMES = {  # what the text states of a pair
     "B1_on_B3": {"first_touch.1": "superballs.late_delay"},
     "B1_on_B1": {"durations.0": "superballs.twin_duration"},
 }
+
+
+_value = Bench(PAPER)  # the printed value of a key
 
 
 class DataSet(NamedTuple):
@@ -158,10 +161,6 @@ def _ball(name: str, *, heavier: bool = False) -> Ball:
 
 def _restitution(name: str) -> tuple[float, float]:
     return _known("B1.restitution") if name == "B1" else _SMALLER
-
-
-def _value(key: str) -> float:
-    return PAPER[key].value
 
 
 def _known(key: str) -> tuple[float, float]:

@@ -4,22 +4,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from stackbounce.cross2007 import stacks
+from stackbounce.cross2007 import stacks, style
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.drops import Array, force_above, peak_times
 from stackbounce.cross2007.figures_models import sample_forces
-from stackbounce.cross2007.style import (
-    BLACK,
-    FLOOR,
-    GREY,
-    UPPER,
-    Picture,
-    beside,
-    bracket,
-    describe,
-    make_axes,
-    note,
-)
 from stackbounce.library_types import Axes, Figure
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import HollowBall, Spring
@@ -35,9 +23,10 @@ def draw_two_panels(
 ) -> Result:
     """Draw both forces of a drop in two panels, the floor's above; return the drop's result."""
     curves, result = sample_forces(bench, drop, times)
-    style, width = ("--", 1.0) if dashed else ("-", 1.25)
-    for ax, curve, color, label in zip(panels, curves, (FLOOR, UPPER), _LABELS, strict=True):
-        ax.plot(1e3 * times, curve, style, color=color, lw=width)
+    stroke, width = ("--", 1.0) if dashed else ("-", 1.25)
+    colors = (style.FLOOR, style.UPPER)
+    for ax, curve, color, label in zip(panels, curves, colors, _LABELS, strict=True):
+        ax.plot(1e3 * times, curve, stroke, color=color, lw=width)
         if not dashed:
             ax.set(ylabel=r"$F$ (N)", xlim=(0, 1e3 * times[-1]), ylim=(0, 1.5 * curve.max()))
             ax.text(0.98, 0.95, label, transform=ax.transAxes, color=color, ha="right", va="top")
@@ -52,12 +41,12 @@ def draw_one_panel(
     (floor, between), result = sample_forces(bench, drop, times)
     ms = 1e3 * times
     for curve, color, at, text, side, by in (
-        (floor, FLOOR, labels[0], "$F_1$, floor", "right", -6),
-        (between, UPPER, labels[1], "$F_2$, ball-ball", "left", 6),
+        (floor, style.FLOOR, labels[0], "$F_1$, floor", "right", -6),
+        (between, style.UPPER, labels[1], "$F_2$, ball-ball", "left", 6),
     ):
         ax.plot(ms, curve, color=color)
         point = (at, float(np.interp(at, ms, curve)))
-        beside(ax, text, point, (by, 1), color=color, ha=side)
+        style.beside(ax, text, point, (by, 1), color=color, ha=side)
     ax.set(xlabel=r"$t$ (ms)", ylabel=r"$F$ (N)", xlim=(0, ms[-1]), ylim=(0, 1.15 * floor.max()))
     return result
 
@@ -68,20 +57,20 @@ def number_contacts(panels: list[Axes], result: Result) -> None:
         ax = panels[int(row["contact"])]
         middle = 5e2 * (row["start"] + row["end"])
         if middle < ax.get_xlim()[1]:
-            look = {"ha": "center", "color": GREY, "fontsize": 9}
-            beside(ax, str(number), (middle, row["peak_force"]), (0, 2.5), **look)
+            look = {"ha": "center", "color": style.GREY, "fontsize": 9}
+            style.beside(ax, str(number), (middle, row["peak_force"]), (0, 2.5), **look)
 
 
-def draw_figure_7(bench: Bench) -> Picture:
+def draw_figure_7(bench: Bench) -> style.Picture:
     """Draw force against compression, from the points that the text gives."""
     import xarray as xr
 
-    figure, (ax,) = make_axes()
+    figure, (ax,) = style.make_axes()
     force, points = bench("static.force"), {}
     for key, text, color, place in (
-        ("static.tennis", "tennis ball", UPPER, (0.4, 29.0)),
-        ("static.basketball", "basketball", FLOOR, (-5.9, 29.4)),
-        ("static.both", "tennis ball\non basketball", BLACK, (-6.0, 18.0)),
+        ("static.tennis", "tennis ball", style.UPPER, (0.4, 29.0)),
+        ("static.basketball", "basketball", style.FLOOR, (-5.9, 29.4)),
+        ("static.both", "tennis ball\non basketball", style.BLACK, (-6.0, 18.0)),
     ):
         points[text.replace("\n", " ")] = bench(key)
         compression = 1e3 * bench(key)
@@ -93,15 +82,15 @@ def draw_figure_7(bench: Bench) -> Picture:
     curves = {"force": forces, "compression": ("load", list(points.values()), {"units": "m"})}
     bench.curves.append(xr.Dataset(curves, {"load": list(points)}))
     stiffness = force / bench("static.tennis")
-    return describe("7", figure, stiffness=1e-4 * stiffness)
+    return style.describe("7", figure, stiffness=1e-4 * stiffness)
 
 
-def draw_figure_8(bench: Bench) -> Picture:
+def draw_figure_8(bench: Bench) -> style.Picture:
     """Draw the forces of tennis ball and basketball dropped from 30 cm."""
-    figure, panels = make_axes(4.2, 2)
+    figure, panels = style.make_axes(4.2, 2)
     result, late = _draw_record(bench, panels, stacks.spring_record)
-    note(panels[0], "solid: touching\ndashed: 2 mm apart")
-    return describe(
+    style.note(panels[0], "solid: touching\ndashed: 2 mm apart")
+    return style.describe(
         "8",
         figure,
         end=1e3 * result.last_release[0],
@@ -110,21 +99,21 @@ def draw_figure_8(bench: Bench) -> Picture:
     )
 
 
-def draw_figure_8_hollow(bench: Bench) -> Picture:
+def draw_figure_8_hollow(bench: Bench) -> style.Picture:
     """Draw the forces of Fig. 8 with a hollow ball at the floor, and those on springs in grey."""
-    figure, panels = make_axes(4.2, 2)
+    figure, panels = style.make_axes(4.2, 2)
     result, late = _draw_record(bench, panels, stacks.hollow_record)
     on_springs, springs = sample_forces(bench, stacks.spring_record(bench), _TIMES)
     for ax, curve in zip(panels, on_springs, strict=True):
-        ax.plot(1e3 * _TIMES, curve, color=GREY, lw=0.8)
+        ax.plot(1e3 * _TIMES, curve, color=style.GREY, lw=0.8)
         ax.set(ylim=(0.0, 1.6 * curve.max()))
-    note(panels[0], "solid: touching\ndashed: 2 mm apart\ngrey: springs")
+    style.note(panels[0], "solid: touching\ndashed: 2 mm apart\ngrey: springs")
     film = stacks.hollow_pair(bench)
     lower, upper = bench.simulate(film).rebound_ratios
     floor, spring = film.contacts
     assert isinstance(floor, HollowBall)
     assert isinstance(spring, Spring)
-    return describe(
+    return style.describe(
         "8-hollow",
         figure,
         own=1e3 * floor.contact_time_at(film.balls[0].mass, film.reference_speed),
@@ -150,17 +139,17 @@ def _draw_record(
     touching = draw_two_panels(bench, panels, record(bench, 0.0), _TIMES)
     apart = draw_two_panels(bench, panels, record(bench, bench("stack.gap")), _TIMES, dashed=True)
     duration, quiet = 1e3 * bench("stack.duration"), 1e3 * bench("stack.delay")
-    bracket(panels[0], duration, f"measured: {duration:.0f} ms on the floor")
-    bracket(panels[1], quiet, f"measured: no force for {quiet:.0f} ms")
+    style.bracket(panels[0], duration, f"measured: {duration:.0f} ms on the floor")
+    style.bracket(panels[1], quiet, f"measured: no force for {quiet:.0f} ms")
     return touching, apart
 
 
-def draw_figure_9(bench: Bench) -> Picture:
+def draw_figure_9(bench: Bench) -> style.Picture:
     """Draw the two-spring solution that the paper sets beside Fig. 8."""
-    figure, (ax,) = make_axes()
+    figure, (ax,) = style.make_axes()
     result = draw_one_panel(bench, ax, stacks.better_fit(bench), _TIMES, (7.5, 28.5))
     lower, upper = result.rebound_speeds
-    return describe(
+    return style.describe(
         "9",
         figure,
         lower=lower,
@@ -170,21 +159,21 @@ def draw_figure_9(bench: Bench) -> Picture:
     )
 
 
-def draw_figure_10a(bench: Bench) -> Picture:
+def draw_figure_10a(bench: Bench) -> style.Picture:
     """Draw the forces of B2 on B1."""
     drop = stacks.small_fit(bench, stacks.heavier_b1(bench))
     figure, panels, result = _draw_pair(bench, drop, 0.008)
     _mark_duration(bench, panels[0], "B2_on_B1.duration")
     end = 1e3 * max(result.last_release)
-    return describe("10a", figure, touch=1e3 * result.first_touch[1], end=end)
+    return style.describe("10a", figure, touch=1e3 * result.first_touch[1], end=end)
 
 
-def draw_figure_10b(bench: Bench) -> Picture:
+def draw_figure_10b(bench: Bench) -> style.Picture:
     """Draw the forces of B1 on B2."""
     drop = stacks.reversed_pair(bench, bench("superballs.gap"))
     figure, panels, result = _draw_pair(bench, drop, 0.014)
     _mark_duration(bench, panels[0], "B1_on_B2.duration")
-    return describe(
+    return style.describe(
         "10b",
         figure,
         touch=1e3 * result.first_touch[1],
@@ -195,14 +184,14 @@ def draw_figure_10b(bench: Bench) -> Picture:
     )
 
 
-def draw_figure_11a(bench: Bench) -> Picture:
+def draw_figure_11a(bench: Bench) -> style.Picture:
     """Draw the forces of B3 on B1."""
     drop = stacks.smallest_fit(bench, stacks.heavier_b1(bench))
     figure, _, result = _draw_pair(bench, drop, 0.008)
-    return describe("11a", figure, touch=1e3 * result.first_touch[1])
+    return style.describe("11a", figure, touch=1e3 * result.first_touch[1])
 
 
-def draw_figure_11b(bench: Bench) -> Picture:
+def draw_figure_11b(bench: Bench) -> style.Picture:
     """Draw the forces of B1 on B3."""
     drop = stacks.late_pair(bench)
     figure, panels, result = _draw_pair(bench, drop, 0.034, "superballs.late_delay", 2 * _POINTS)
@@ -211,7 +200,7 @@ def draw_figure_11b(bench: Bench) -> Picture:
     met = np.flatnonzero(rows["contact"] == 1)
     early = bench.simulate(stacks.early_pair(bench))
     merged = early.intervals[early.intervals["contact"] == 1]
-    return describe(
+    return style.describe(
         "11b",
         figure,
         gap=1e3 * drop.gaps[0],
@@ -226,20 +215,20 @@ def draw_figure_11b(bench: Bench) -> Picture:
     )
 
 
-def draw_figure_12(bench: Bench) -> Picture:
+def draw_figure_12(bench: Bench) -> style.Picture:
     """Draw the forces of two large balls, and whether they are in contact."""
-    figure, panels = make_axes(5.0, 3, ratios=(3, 3, 1.4))
+    figure, panels = style.make_axes(5.0, 3, ratios=(3, 3, 1.4))
     times = np.linspace(0.0, 0.014, _POINTS)
     late = draw_two_panels(bench, panels[:2], stacks.late_twins(bench), times)
     early = draw_two_panels(bench, panels[:2], stacks.early_twins(bench), times, dashed=True)
     panels[1].set(xlabel="")
     duration = 1e3 * bench("superballs.twin_duration")
-    bracket(panels[0], duration, f"measured: impact lasts {duration:.0f} ms")
-    note(panels[1], "dashed: touching\nafter 1 ms")
+    style.bracket(panels[0], duration, f"measured: impact lasts {duration:.0f} ms")
+    style.note(panels[1], "dashed: touching\nafter 1 ms")
     _contact(panels[2], late, times)
     parted = bench.simulate(stacks.parted_twins(bench))
     peaks = len(peak_times(late, 0, late.end_time))
-    return describe(
+    return style.describe(
         "12",
         figure,
         late_gap=1e3 * late.drop.gaps[0],
@@ -256,29 +245,29 @@ def draw_figure_12(bench: Bench) -> Picture:
     )
 
 
-def draw_figure_13(bench: Bench) -> Picture:
+def draw_figure_13(bench: Bench) -> style.Picture:
     """Draw section V's calculation for B2 on B1."""
-    figure, (ax,) = make_axes()
+    figure, (ax,) = style.make_axes()
     drop = stacks.small_fit(bench, stacks.heavier_b1(bench))
     result = draw_one_panel(bench, ax, drop, np.linspace(0.0, 0.007, _POINTS), (1.45, 4.7))
     lower, upper = result.rebound_ratios
-    return describe("13", figure, lower=lower, upper=upper, touch=1e3 * result.first_touch[1])
+    return style.describe("13", figure, lower=lower, upper=upper, touch=1e3 * result.first_touch[1])
 
 
 def _draw_pair(
     bench: Bench, drop: Drop, end: float, delay: str = "superballs.delay", points: int = _POINTS
 ) -> tuple[Figure, list[Axes], Result]:
     """Draw the forces of a drop in two panels, up to `end` s, with the measured delay."""
-    figure, panels = make_axes(4.2, 2)
+    figure, panels = style.make_axes(4.2, 2)
     result = draw_two_panels(bench, panels, drop, np.linspace(0.0, end, points))
     measured = 1e3 * bench(delay)
-    bracket(panels[1], measured, f"measured: {measured:.0f} ms delay")
+    style.bracket(panels[1], measured, f"measured: {measured:.0f} ms delay")
     return figure, panels, result
 
 
 def _mark_duration(bench: Bench, ax: Axes, key: str) -> None:
     duration = 1e3 * bench(key)
-    bracket(ax, duration, f"measured: impact lasts {duration:.1f} ms")
+    style.bracket(ax, duration, f"measured: impact lasts {duration:.1f} ms")
 
 
 def _contact(ax: Axes, result: Result, times: Array) -> None:
@@ -286,7 +275,7 @@ def _contact(ax: Axes, result: Result, times: Array) -> None:
     closed = np.zeros_like(times)
     for row in result.intervals[result.intervals["contact"] == 1]:
         closed[(times >= row["start"]) & (times <= row["end"])] = 1.0
-    ax.step(1e3 * times, closed, color=BLACK)
+    ax.step(1e3 * times, closed, color=style.BLACK)
     ax.set(xlabel=r"$t$ (ms)", ylabel="balls", ylim=(-0.25, 1.25), yticks=(0, 1))
     ax.set_yticklabels(("apart", "touch"))
     ax.tick_params(axis="y", which="minor", left=False, right=False)

@@ -199,8 +199,7 @@ def make_table_two(bench: Bench) -> Table:
 
 
 def _as_table(name: str, title: str, rows: list[dict[str, str]], notes: tuple[str, ...]) -> Table:
-    cells = tuple(tuple(row.values()) for row in rows)
-    return Table(name, title, tuple(rows[0]), cells, notes)
+    return Table(name, title, tuple(rows[0]), tuple(tuple(row.values()) for row in rows), notes)
 
 
 def _text(value: UFloat) -> str:

@@ -226,8 +226,7 @@ def _variables(column: Column) -> dict[str, Any]:
     import numpy as np
 
     unit = si_unit(column)
-    repeated = isinstance(column.values[0], tuple)
-    dims = ("row", f"{column.name}_reading") if repeated else ("row",)
+    dims = ("row", f"{column.name}_reading") if isinstance(column.values[0], tuple) else ("row",)
     attributes: dict[str, Any] = {"long_name": column.meaning} | ({"units": unit} if unit else {})
     if column.assumed_error:
         error = _in_si(column.assumed_error, column.unit, unit)

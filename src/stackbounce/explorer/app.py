@@ -93,10 +93,6 @@ def create_app(limits: Limits, others: Sequence[Place] = (), framed_by: Sequence
     return app
 
 
-def _json(text: str) -> Response:
-    return Response(text, media_type="application/json")
-
-
 def _add_jobs(app: FastAPI, workers: Workers, seconds: float) -> None:
     """Add the addresses whose answers are computed by a worker process."""
 
@@ -109,7 +105,8 @@ def _add_jobs(app: FastAPI, workers: Workers, seconds: float) -> None:
             yield
 
     async def compute(answer: Callable[..., str], *arguments: Any) -> Response:
-        return _json(await workers.run(answer, *arguments, seconds=seconds))
+        text = await workers.run(answer, *arguments, seconds=seconds)
+        return Response(text, media_type="application/json")
 
     @app.post("/api/predict")
     async def predict_drop(request: Request, asked: schema.Uncertain) -> Response:

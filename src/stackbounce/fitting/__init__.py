@@ -7,10 +7,9 @@ quantities    what can be measured of a drop, and how it follows from a run
 waveforms     force records as data
 measurements  what was measured of a drop, with errors
 formula       the formulas of ties
-course        what a search costs, and the best trial so far
 parameters    what is varied, with bounds and priors
 ties          what follows from what is varied
-objective     residuals and chi squared of many trials at once
+objective     residuals and chi squared of many trials at once, and the best trial so far
 covariance    directions that the data determine, and the covariance matrix
 least_squares the search for the minima of chi squared
 residuals     what was measured beside what was fitted

@@ -1,8 +1,9 @@
 """Trial values of the varied numbers -> residuals, for many trials at once."""
 
+import contextlib
 import math
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -10,12 +11,12 @@ import numpy as np
 
 from stackbounce.engine.work import WORK_LIMIT
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.fitting.course import Course
 from stackbounce.fitting.measurements import Measured
 from stackbounce.fitting.parameters import Drops, Parameter, find_numbers
 from stackbounce.fitting.ties import Tie, evaluate_ties
 from stackbounce.fitting.waveforms import Waveform
 from stackbounce.model import Drop
+from stackbounce.prediction.draws import Progress
 from stackbounce.run.driver import forces_at
 from stackbounce.run.options import Options
 from stackbounce.run.paths import Number, Rows, check, drop_at, numbers_of, value_in
@@ -29,6 +30,37 @@ _STEP = 1e-5  # of the width of the bounds: the step of a numerical derivative
 _EVENTS = 10_000  # limit for one trial; no measurement has so many
 _WORK, _FEW = WORK_LIMIT // 100, 10  # what it may cost for each ball, and at least as for so many
 _DONE = (Status.FINISHED, Status.SETTLED, Status.COLLAPSED)
+
+
+@dataclass
+class Course:
+    """The trials so far: their number, and the best one with its chi squared."""
+
+    trials: int = 0
+    best: Array | None = None
+    chi_squared: float = math.inf
+    progress: Progress | None = None
+    expected: int = 0
+
+    def add(self, x: Array, chi_squared: Array) -> None:
+        """Count trials (n, parameters), whose chi squared (n,) is known now."""
+        least = int(np.argmin(chi_squared))
+        if chi_squared[least] < self.chi_squared:
+            self.best, self.chi_squared = x[least].copy(), float(chi_squared[least])
+        self.trials += len(x)
+        if self.progress is not None:
+            self.progress(self.trials, max(self.trials, self.expected))
+
+    @contextlib.contextmanager
+    def reported(self, progress: Progress | None, expected: int) -> Iterator[None]:
+        """Report the progress of about so many trials that follow."""
+        self.progress, self.expected = progress, self.trials + expected
+        try:
+            yield
+            if progress is not None:
+                progress(self.trials, self.trials)
+        finally:
+            self.progress = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -220,8 +252,7 @@ class Objective:
         if status not in _DONE:
             self.unsolved[status.name] += 1
             forces[:] = np.nan
-        ends = np.cumsum([len(wave.times) for wave in waves])[:-1]
-        places = np.split(where, ends)
+        places = np.split(where, np.cumsum([len(wave.times) for wave in waves])[:-1])
         return [forces[wave.index, at] for wave, at in zip(waves, places, strict=True)]
 
     def residuals(self, x: Array) -> Array:

@@ -246,8 +246,7 @@ def _default(drops: Drops, at: Places, name: str) -> tuple[float, float]:
     if own == 0.0 or math.isnan(own):
         what = "not given" if math.isnan(own) else "0"
         raise InvalidValue(f"{name} is {what} in the drop and needs bounds, such as {name}=0.1:10")
-    ends = sorted((own / _WIDE, own * _WIDE))
-    return _legal(drops, at, own, *ends)
+    return _legal(drops, at, own, *sorted((own / _WIDE, own * _WIDE)))
 
 
 def _legal(drops: Drops, at: Places, own: float, low: float, high: float) -> tuple[float, float]:

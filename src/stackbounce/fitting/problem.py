@@ -298,8 +298,7 @@ def fit(
     >>> print(f"{found['contacts.1.stiffness']:.1u} N/m")
     (1.48+/-0.06)e+03 N/m
     """
-    problem = FitProblem(drop, data, vary, tie, rtol)
-    return problem.fit(starts=starts, rng=rng, progress=progress)
+    return FitProblem(drop, data, vary, tie, rtol).fit(starts=starts, rng=rng, progress=progress)
 
 
 def _read_drops(drops: object) -> dict[str, Drop]:

@@ -108,6 +108,5 @@ def list_records(objective: Objective, x: Array) -> list[Record]:
         waves, forces = objective.measured[key].waveforms, objective.forces(key, x)
         for wave, force in zip(waves, forces, strict=True):
             curves = (wave.times - touch, wave.force, wave.curve(force))
-            unit = "" if wave.scaled else "N"
-            found.append(Record(key, wave.name, *curves, wave.error, unit))
+            found.append(Record(key, wave.name, *curves, wave.error, "" if wave.scaled else "N"))
     return found

@@ -146,8 +146,7 @@ def _tie(
     drop: Drop, key: str, number: Number, parameters: Sequence[Parameter], formula: object
 ) -> Tie:
     if callable(formula):
-        name = getattr(formula, "__name__", "a function")
-        return Tie(key, number, formula, name, None)
+        return Tie(key, number, formula, getattr(formula, "__name__", "a function"), None)
     known = {parameter.name for parameter in parameters} | set(numbers_of(drop))
     run, uses = read_formula(formula, known, number.path)
     return Tie(key, number, run, str(formula), uses)

@@ -123,8 +123,7 @@ def read_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
     sigma = found.noise if error is None else positive(f"{path}'s error", error)
     if not sigma > 0.0:
         raise InvalidValue(f"{path} must have the error of a sample: its own scatter is 0")
-    begins = _begins(found, index)
-    return Waveform(name, index, found.times, found.force, sigma, scaled, begins)
+    return Waveform(name, index, found.times, found.force, sigma, scaled, _begins(found, index))
 
 
 def _begins(found: Analysed, index: int) -> tuple[float, float]:

@@ -221,8 +221,7 @@ class Air:
                     "together, and their drag is that of the body"
                 )
         g, drags = drop.gravity or STANDARD_GRAVITY, self._drags(drop.balls)
-        masses = [ball.mass for ball in drop.balls]
-        rates = _falling_together(masses, drags, drop.gaps)
+        rates = _falling_together([ball.mass for ball in drop.balls], drags, drop.gaps)
         time = drag.fall_time(rates[0], drop.height, g)
         ways = {k: (drag.fallen(k, time, g), drag.speed_after(k, time, g)) for k in rates}
         ways[rates[0]] = drop.height, drag.fallen_speed(rates[0], drop.height, g)

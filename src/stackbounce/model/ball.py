@@ -1,12 +1,12 @@
 """A ball: its mass and, where needed, its diameter, elastic constants and name."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Annotated
 
 from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown
 from stackbounce.shown import Shown, Table, call_of
-from stackbounce.units import Unit, checked, handy_text, unit_of
+from stackbounce.units import Unit, checked, handy_text, units_of
 
 _POSITIVE = (("mass", "kilograms"), ("diameter", "metres"), ("young_modulus", "pascals"))
 
@@ -66,9 +66,9 @@ class Ball(Shown):
 
     def _tables(self) -> Sequence[Table]:
         rows = [
-            (field.name.replace("_", " "), handy_text(getattr(self, field.name), unit.symbol))
-            for field in fields(self)
-            if (unit := unit_of(field.type)) and getattr(self, field.name) is not None
+            (name.replace("_", " "), handy_text(getattr(self, name), unit.symbol))
+            for name, unit in units_of(Ball).items()
+            if getattr(self, name) is not None
         ]
         return (Table(self.name or "Ball", ("", ""), rows),)
 

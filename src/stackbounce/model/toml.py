@@ -5,20 +5,19 @@ keys are the fields of the dataclasses, and the units are those of their ``Unit`
 dataclasses validate the values. Reading only adds the path to their error messages.
 """
 
-import functools
 import json
 import os
 import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, fields
-from typing import Any, TypeVar, get_type_hints
+from typing import Any, TypeVar
 
 from stackbounce.errors import InvalidValue, ScenarioError, between, nearest, placed, shown
 from stackbounce.files import content_of
 from stackbounce.model.ball import Ball
 from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw, law_named
-from stackbounce.units import Unit, quantity, unit_of
+from stackbounce.units import Unit, quantity, units_of
 
 NO_FLOOR = "none"
 """The ``law`` of the lowest contact where there is no floor."""
@@ -115,7 +114,7 @@ def _each(read: Any, values: object, path: str) -> list[Any]:
 
 
 def _value(kind: type, key: str, value: object, path: str, exponent: float = 1.0) -> Any:
-    unit = _units(kind)[key]
+    unit = units_of(kind).get(key)
     if unit is None:
         return value
     if "exponent" in unit.symbol:
@@ -131,11 +130,6 @@ def _value(kind: type, key: str, value: object, path: str, exponent: float = 1.0
 
 def _quantity(value: object, unit: Unit, path: str) -> float:
     return _raised("", quantity, value, unit.symbol, path)
-
-
-@functools.cache
-def _units(kind: type) -> dict[str, Unit | None]:
-    return {key: unit_of(hint) for key, hint in get_type_hints(kind, include_extras=True).items()}
 
 
 def _raised(path: str, make: Callable[..., _T], *arguments: object, **values: Any) -> _T:

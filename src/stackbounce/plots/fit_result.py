@@ -46,11 +46,9 @@ def draw_profile(axes: Axes, fit: Any, k: int) -> None:
         more = minimum.chi_squared - fit.chi_squared
         look: Any = {"color": _BEST if j == 0 else _OTHER, "markeredgecolor": "black"}
         axes.plot(parameter.value(minimum.x[k]), more, "o", zorder=4, clip_on=False, **look)
-    axes.set_xlim(values[0], values[-1])
-    axes.set_ylim(0.0, _TOP)
+    axes.set(xlim=(values[0], values[-1]), ylim=(0.0, _TOP), ylabel="chi squared above its minimum")
     log = parameter.logarithmic and values[-1] > 3.0 * values[0]
     label(axes, "x", parameter.name, Scale(values, log, parameter.unit))
-    axes.set_ylabel("chi squared above its minimum")
 
 
 def _extent(fit: Any, k: int) -> tuple[float, float]:
@@ -180,9 +178,8 @@ def _draw_record(axes: Axes, record: Any) -> None:
     look: Any = {"color": _MEASURED, "markersize": 2.4, "label": "measured"}
     axes.plot(factor * times, record.measured[shown], ".", **look)
     axes.plot(factor * times, record.fitted[shown], color=_FITTED, label="fitted")
-    axes.set_xlim(factor * times[0], factor * times[-1])
+    axes.set(xlim=factor * times[[0, -1]], ylabel="force (N)" if record.unit else "signal")
     axes.set_xlabel(f"time since the first touch ({'ms' if factor > 1.0 else 's'})")
-    axes.set_ylabel("force (N)" if record.unit else "signal")
     name = f"{record.drop}  {record.name}".strip()
     text = f"{name}: the samples scatter by {record.scatter:.3g} of their error"
     axes.set_title(text, loc="left", fontsize=10)
@@ -259,11 +256,8 @@ def corner(posterior: Any, *, axes: Any = None) -> Figure:
             range=[_SHOWN] * count,
         )
         for k, values in enumerate(draws):
-            _draw_title(figure.axes[k * (count + 1)], values)
+            low, middle, high = np.quantile(values, (0.159, 0.5, 0.841))
+            apart = (high - middle, middle - low)
+            title = "${}^{{+{}}}_{{-{}}}$".format(*rounded((middle, *apart), min(apart)))
+            figure.axes[k * (count + 1)].set_title(title, fontsize=10)
     return figure
-
-
-def _draw_title(axes: Any, own: Any) -> None:
-    low, middle, high = np.quantile(own, (0.159, 0.5, 0.841))
-    texts = rounded((middle, high - middle, middle - low), min(high - middle, middle - low))
-    axes.set_title("${}^{{+{}}}_{{-{}}}$".format(*texts), fontsize=10)

@@ -70,7 +70,8 @@ def label(axes: Axes, which: str, name: str, scale: Scale) -> None:
     if scale.log:
         getattr(axes, f"set_{which}scale")("log")
     unit, _ = show_in_handy_unit(axis, scale.places, scale.unit, scale.log)
-    axis.set_label_text(_with_unit(name, unit))
+    raised = re.sub(r"\*\*(-?[\d.]+)", r"$^{\1}$", unit)
+    axis.set_label_text(f"{name} ({raised})" if unit else name)
 
 
 def show_in_handy_unit(
@@ -104,8 +105,3 @@ def is_flat(values: NDArray[Any]) -> bool:
     """
     finite = values[np.isfinite(values)]
     return not finite.size or bool(np.ptp(finite) <= _ROUND_OFF * np.abs(finite).max())
-
-
-def _with_unit(name: str, unit: str) -> str:
-    raised = re.sub(r"\*\*(-?[\d.]+)", r"$^{\1}$", unit)
-    return f"{name} ({raised})" if unit else name

@@ -2,8 +2,8 @@
 
 =========== =====================================================================
 inputs      the numbers with errors, and draws of them
-draws       runs of draws, whose work is limited, and derivatives; single runs
-sensitivity which number makes how much of the variance
+draws       runs of draws, whose work is limited, and derivatives; single runs;
+            which number makes how much of the variance
 result      `Prediction`: the result, with all of these
 prediction  `predict`: from the arguments to the result
 =========== =====================================================================

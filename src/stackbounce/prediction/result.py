@@ -12,9 +12,8 @@ import numpy as np
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.library_types import DataArray, Dataset, UFloat
 from stackbounce.model import Drop
-from stackbounce.prediction.draws import Slopes, budget, carry
+from stackbounce.prediction.draws import Slopes, budget, carry, fit_slopes, linear_shares
 from stackbounce.prediction.inputs import Inputs, error_of_deviation, of_draws
-from stackbounce.prediction.sensitivity import fit_slopes, linear_shares
 from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options
 from stackbounce.run.paths import identifier
@@ -152,14 +151,11 @@ class Prediction(Shown):
     @functools.cached_property
     def _results(self) -> list[Result]:
         """Single runs, for what a batch does not give: of some draws, or of `Inputs.neighbours`."""
-        few = self.drawn[: min(_RUNS, self._affordable(3))]
+        # Three times as many cost no more than all draws may.
+        most = budget(self.options, self.asked) * len(self.drawn)
+        few = self.drawn[: min(_RUNS, most // max(1, 3 * int(np.sum(self.solved.work))))]
         rows = few if self.reason else self.inputs.neighbours
         return [solve_one(self.inputs.drop_at(x), self.options) for x in rows]
-
-    def _affordable(self, each: int) -> int:
-        """Return how often so many runs cost no more than all draws may; see `budget`."""
-        most = budget(self.options, self.asked) * len(self.drawn)
-        return most // max(1, each * int(np.sum(self.solved.work)))
 
     def __getitem__(self, name: str) -> UFloat:
         """Return a value with its error, such as ``rebound_speeds.1``, in SI units."""

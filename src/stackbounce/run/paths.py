@@ -8,7 +8,7 @@ import itertools
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, TypeAlias, get_type_hints
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from stackbounce.engine.records import Drops
 from stackbounce.errors import InvalidType, InvalidValue, nearest, placed, shown
 from stackbounce.model import STANDARD_GRAVITY, Ball, ContactLaw, Drop
 from stackbounce.model.laws import contact_numbers
-from stackbounce.units import unit_of
+from stackbounce.units import units_of
 
 _SEVERAL = ("balls", "contacts", "gaps", "velocities")  # fields of a drop with many numbers
 _WORDS = {"height": "drop height", "impact_speed": "impact speed"}
@@ -181,21 +181,17 @@ def drop_at(drop: Drop, values: Mapping[Number, float]) -> Drop:
         else:
             parts[number.part][number.index] = value
     for (part, index), chosen in within.items():
-        parts[part][index] = _changed(parts[part][index], chosen, f"{part}.{index}")
+        with placed(f"{part}.{index}."):
+            own = parts[part][index]
+            law = isinstance(own, ContactLaw)
+            parts[part][index] = own.replaced(chosen) if law else replace(own, **chosen)
     return replace(drop, **parts, **changes)
-
-
-def _changed(part: Any, chosen: Mapping[str, float], path: str) -> Any:
-    with placed(f"{path}."):
-        return part.replaced(chosen) if isinstance(part, ContactLaw) else replace(part, **chosen)
 
 
 @functools.cache
 def _units(kind: Any) -> dict[str, str]:
     """Return the SI units of those fields of a class that are single numbers, by field."""
-    hints = get_type_hints(kind, include_extras=True)
-    found = {name: unit_of(hint) for name, hint in hints.items() if name not in _SEVERAL}
-    return {name: unit.symbol for name, unit in found.items() if unit is not None}
+    return {name: unit.symbol for name, unit in units_of(kind).items() if name not in _SEVERAL}
 
 
 def base_rows(drop: Drop, count: int) -> Drops:
@@ -311,19 +307,9 @@ def _all_move(drop: Drop, rows: Rows) -> bool:
 
 def drop_numbers(drop: Drop) -> Drops:
     """Return the parameters of a drop in the form that `prepare` takes, as lists."""
-    rows = zip(*map(contact_numbers, drop.contacts), strict=True)
-    form, first, second, third, fourth = map(list, rows)
-    return Drops(
-        mass=[ball.mass for ball in drop.balls],
-        form=form,
-        first=first,
-        second=second,
-        third=third,
-        fourth=fourth,
-        gap=[0.0, *drop.gaps],
-        velocity=list(drop.start_velocities),
-        gravity=drop.gravity,
-    )
+    form_and_four = map(list, zip(*map(contact_numbers, drop.contacts), strict=True))
+    mass, gap = [ball.mass for ball in drop.balls], [0.0, *drop.gaps]
+    return Drops._make([mass, *form_and_four, gap, list(drop.start_velocities), drop.gravity])
 
 
 def drop_pieces(drop: Drop) -> list[list[float]]:

@@ -55,7 +55,8 @@ def solve_drops(drops: Sequence[Drop], gaps: Sequence[float] | None = None) -> D
 
     kinds: dict[Any, list[int]] = {}
     for i, drop in enumerate(drops):
-        kinds.setdefault(_kind(drop), []).append(i)
+        kind = tuple((type(law), contact_numbers(law)[0]) for law in drop.contacts)
+        kinds.setdefault(kind, []).append(i)
     parts = []
     for places in kinds.values():
         own = [drops[i] for i in places]
@@ -67,11 +68,6 @@ def solve_drops(drops: Sequence[Drop], gaps: Sequence[float] | None = None) -> D
         parts.append(swept.assign_coords(stack=places))
     how: Any = {"data_vars": "all", "coords": "minimal", "compat": "override", "join": "outer"}
     return xr.concat(parts, "stack", **how).sortby("stack")
-
-
-def _kind(drop: Drop) -> tuple[Any, ...]:
-    """Return a key of a drop's contact laws: one sweep solves only drops with equal keys."""
-    return tuple((type(law), contact_numbers(law)[0]) for law in drop.contacts)
 
 
 def _varied(drops: Sequence[Drop]) -> dict[str, NDArray[np.float64]]:
@@ -160,15 +156,13 @@ def best_masses(
 
     def lost(logs: NDArray[np.float64]) -> NDArray[np.float64]:
         stacks = [_replace_masses(drop, np.exp(row), contacts) for row in logs.T]
-        ds = solve_drops(stacks)
-        ratio = ds.rebound_ratio.values[:, -1]
+        ratio = solve_drops(stacks).rebound_ratio.values[:, -1]
         return -np.where(np.isfinite(ratio), ratio, -np.inf)
 
-    between = len(drop.balls) - 2
     search: Any = {"updating": "deferred", "vectorized": True, "polish": False, "seed": _SEED}
     found = differential_evolution(
         lost,
-        [tuple(ends)] * between,
+        [tuple(ends)] * (len(drop.balls) - 2),
         popsize=_STARTS,
         maxiter=_GENERATIONS,
         tol=0.0,

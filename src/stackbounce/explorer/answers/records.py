@@ -222,5 +222,4 @@ def _align(record: Record, drop: Drop) -> _Series:
         intervals = run_drop(drop, None).intervals
         peak = float(np.max(intervals["peak_force"][intervals["contact"] == index], initial=0.0))
         values, unit = values * (peak / float(np.max(record.fitted))), "N"
-    curve = _thin(record.name, "force", record.times, values)
-    return curve | {"index": index, "unit": unit}
+    return _thin(record.name, "force", record.times, values) | {"index": index, "unit": unit}

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from stackbounce.files import shipped_table
 from stackbounce.measure.reading.roles import heading
-from stackbounce.model.catalogue import BALLS, CLASS_BALLS
+from stackbounce.model.catalogue import ENTRIES
 from stackbounce.units import in_si
 
 _KNOWN = shipped_table(__package__, "columns.toml")
@@ -102,9 +102,8 @@ def columns_of(headings: list[str]) -> list[Column]:
 
 def _ball(name: str) -> str:
     """Return the ball of the catalogue that a name begins with; empty if there is none."""
-    balls = [str(entry.ball.name) for entry in (*BALLS, *CLASS_BALLS)]
     plain = name.replace("-", " ")
-    named = (ball for ball in balls if re.match(rf"{re.escape(ball.casefold())}\b", plain))
+    named = (ball for ball in ENTRIES if re.match(rf"{re.escape(ball.casefold())}\b", plain))
     return max(named, key=len, default="")
 
 

@@ -309,8 +309,7 @@ def _interpolated(family: Family, series: Series) -> Callable[[float], Array]:
 
     low, high = _reach(series)
     nodes = 0.5 * (low + high + (high - low) * np.polynomial.chebyshev.chebpts1(_NODES))
-    starts = _unscaled(nodes).tolist()
-    through = [_scaled(family.at(start, series.speeds)) for start in starts]
+    through = [_scaled(family.at(start, series.speeds)) for start in _unscaled(nodes).tolist()]
     scaled = KroghInterpolator(nodes, through)
     return lambda start: _unscaled(scaled(start))
 

@@ -238,8 +238,7 @@ def _page(done: SeriesFit, figures: dict[str, bytes]) -> str:
 
     from stackbounce.cross2007.pages import data_uri, make_environment
 
-    own = jinja2.PackageLoader("stackbounce.fitting.series")
-    pages = make_environment().overlay(loader=own)
+    pages = make_environment().overlay(loader=jinja2.PackageLoader("stackbounce.fitting.series"))
     pages.filters["p"] = lambda value: "–" if value is None else format_p(value)
     return pages.get_template("laws.html.j2").render(
         done=done,

@@ -209,10 +209,6 @@ def _apexes(drag: float, given: dict[str, Array]) -> _Points:
     return _rebounds(drag, {"drop_height": heights[:-1], "rebound_height": heights[1:]})
 
 
-def _at_speeds(_: float, given: dict[str, Array]) -> _Points:
-    return given["impact_speed"], given["restitution"]
-
-
 def _speed_ratios(_: float, given: dict[str, Array]) -> _Points:
     return given["impact_speed"], given["rebound_speed"] / given["impact_speed"]
 
@@ -236,7 +232,7 @@ _FORMULAS: dict[tuple[str, ...], _Transform] = {
     ("drop_height", "rebound_height"): _rebounds,
     ("drop_height", "knock_time"): _knocks,
     ("drop_height", "restitution"): _ratios,
-    ("impact_speed", "restitution"): _at_speeds,
+    ("impact_speed", "restitution"): lambda _, given: (given["impact_speed"], given["restitution"]),
     ("impact_speed", "rebound_speed"): _speed_ratios,
     ("apex_height",): _apexes,
     ("start", "end", "flights"): _blocks,

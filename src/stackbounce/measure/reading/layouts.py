@@ -153,8 +153,7 @@ def columns_of(
 
 def line_of(text: Text, name: str) -> int:
     """Return the first line that a name begins which has more cells; 0 where there is none."""
-    lines = enumerate(text.head)
-    return next((k for k, row in lines if row[:1] == [name] and len(row) > 1), 0)
+    return next((k for k, row in enumerate(text.head) if row[:1] == [name] and len(row) > 1), 0)
 
 
 def keys_above(text: Text, until: int) -> dict[str, list[str]]:

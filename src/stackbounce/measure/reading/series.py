@@ -110,7 +110,9 @@ def _epoch(column: Column, times: Array) -> str:
 
 def _by_steps(kind: Kind, column: Column, times: Array) -> tuple[Column, list[str]]:
     """Return a column of times, in the longest unit whose steps are not too long for the kind."""
-    step = _usual_step(times[np.isfinite(times)])
+    steps = np.abs(np.diff(times[np.isfinite(times)]))
+    # rounded times that repeat are counted too
+    step = (float(np.median(steps)) or float(np.mean(steps))) if steps.size else 0.0
     fitting = [unit for unit in _UNITS if _UNITS[unit][0] * step <= kind.longest_step]
     if column.unit or column.heading.unit or not fitting or fitting[0] == "s":
         return column, []
@@ -122,13 +124,6 @@ def _by_steps(kind: Kind, column: Column, times: Array) -> tuple[Column, list[st
         " tells another",
     )
     return replace(column, factor=_UNITS[fitting[0]][0], unit="s"), [doubt]
-
-
-def _usual_step(times: Array) -> float:
-    """Return the usual step of times: rounded ones that repeat are counted too."""
-    steps = np.abs(np.diff(times))
-    usual = float(np.median(steps)) if steps.size else 0.0
-    return usual or (float(np.mean(steps)) if steps.size else 0.0)
 
 
 def in_time(

@@ -369,8 +369,7 @@ def _logger_pro(tree: Element) -> Tables:
     length = max(map(len, columns))
     padded = [column + [""] * (length - len(column)) for column in columns]
     why = "its XML is Logger Pro's"
-    members = {"data": as_text([names, *zip(*padded, strict=True)])}
-    return Tables(members, "Logger Pro", why, ".")
+    return Tables({"data": as_text([names, *zip(*padded, strict=True)])}, "Logger Pro", why, ".")
 
 
 def _objects(tree: Element, of: str) -> Iterator[Element]:

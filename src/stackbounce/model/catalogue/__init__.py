@@ -18,13 +18,14 @@ measurement: a ball on a ball is taken to give way as it does on the floor.
 
 from stackbounce.model.catalogue.balls import BALLS as BALLS
 from stackbounce.model.catalogue.balls import CLASS_BALLS as CLASS_BALLS
+from stackbounce.model.catalogue.balls import ENTRIES as ENTRIES
 from stackbounce.model.catalogue.balls import KINDS as KINDS
 from stackbounce.model.catalogue.balls import PAIRS as PAIRS
 from stackbounce.model.catalogue.balls import CatalogueBall as CatalogueBall
 from stackbounce.model.catalogue.balls import Pair as Pair
-from stackbounce.model.catalogue.listing import Balls as Balls
-from stackbounce.model.catalogue.listing import balls as balls
 from stackbounce.model.catalogue.stacking import DEFAULT_HEIGHT as DEFAULT_HEIGHT
+from stackbounce.model.catalogue.stacking import Balls as Balls
+from stackbounce.model.catalogue.stacking import balls as balls
 from stackbounce.model.catalogue.stacking import catalogue_ball as catalogue_ball
 from stackbounce.model.catalogue.stacking import stack as stack
 from stackbounce.model.catalogue.stacking import stacked as stacked

@@ -152,6 +152,9 @@ BALLS = tuple(_read_balls("paper"))
 CLASS_BALLS = tuple(_read_balls("class"))
 """The balls that a class owns; their contacts lose energy as measured."""
 
+ENTRIES = {str(entry.ball.name): entry for entry in (*BALLS, *CLASS_BALLS)}
+"""All entries by the names of their balls."""
+
 
 @dataclass(frozen=True)
 class Pair:

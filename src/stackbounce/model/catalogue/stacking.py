@@ -1,23 +1,25 @@
 """Balls of the catalogue by name, and their contacts and gaps in a stack."""
 
 import itertools
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import cast
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple, cast
 
 from stackbounce.errors import InvalidValue, UnknownName, nearest, shown
 from stackbounce.model.ball import Ball
-from stackbounce.model.catalogue.balls import BALLS, CLASS_BALLS, PAIRS, CatalogueBall, Pair
+from stackbounce.model.catalogue.balls import ENTRIES, PAIRS, UNITS, CatalogueBall, Pair
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw, Spring
 from stackbounce.model.laws.series import between
+from stackbounce.shown import Shown, Table
+from stackbounce.units import handy_text
 
 DEFAULT_HEIGHT = 1.0
 """In m: the height of a fall of which nothing is said."""
 
+_FIGURES = ("mass", "diameter", "restitution", "contact_time", "stiffness")
 
-@dataclass(frozen=True)
-class Stack:
+
+class Stack(NamedTuple):
     """A stack of balls of the catalogue: the arguments of a `Drop`, and their sources.
 
     Parameters
@@ -72,12 +74,11 @@ def catalogue_ball(name: str) -> CatalogueBall:
     >>> catalogue_ball("ping-pong-ball").restitution
     0.88
     """
-    entries = {str(entry.ball.name): entry for entry in (*BALLS, *CLASS_BALLS)}
     asked = _plain(str(name))
-    for known, entry in entries.items():
+    for known, entry in ENTRIES.items():
         if asked == _plain(known):
             return entry
-    names = [known.replace(" ", "-") for known in entries]
+    names = [known.replace(" ", "-") for known in ENTRIES]
     raise UnknownName(
         f"ball must be one of the catalogue, got {shown(name)}; {nearest(name, names)}"
     )
@@ -171,16 +172,12 @@ def stacked(names: Sequence[str]) -> Stack:
     lowest = _pair(*entries[:2]) if len(entries) > 1 else None
     contacts = [_floor(entries[0], lowest)]
     contacts += [_between(a, b) for a, b in itertools.pairwise(entries)]
-    gaps = [(0.0, "no gap given")] * (len(entries) - 1)
+    laws, sources = zip(*contacts, strict=True)
+    many = len(entries) - 1
+    gaps, told = [0.0] * many, ["no gap given"] * many
     if lowest is not None and lowest.gap > 0.0:
-        gaps[0] = (lowest.gap, lowest.source)
-    return Stack(
-        balls=tuple(entry.ball for entry in entries),
-        contacts=tuple(law for law, _ in contacts),
-        gaps=tuple(gap for gap, _ in gaps),
-        contact_sources=tuple(source for _, source in contacts),
-        gap_sources=tuple(source for _, source in gaps),
-    )
+        gaps[0], told[0] = lowest.gap, lowest.source
+    return Stack(tuple(entry.ball for entry in entries), laws, tuple(gaps), sources, tuple(told))
 
 
 def _pair(lower: CatalogueBall, upper: CatalogueBall) -> Pair | None:
@@ -200,3 +197,39 @@ def _between(lower: CatalogueBall, upper: CatalogueBall) -> tuple[ContactLaw, st
         return Spring(pair.stiffness), pair.source
     source = f"{lower.ball.name} and {upper.ball.name} in series"
     return between(lower.contact, upper.contact), source
+
+
+class Balls(Shown, Mapping[str, Ball]):
+    """The balls of the catalogue by name; `stackbounce.balls` is the one there is.
+
+    Names are read as by `stack`. What is not there raises a `KeyError` that is an `InvalidValue`.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> sb.balls["tennis"].mass, "golf ball" in sb.balls
+    (0.057, True)
+    """
+
+    def __getitem__(self, name: str) -> Ball:
+        return catalogue_ball(name).ball
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(ENTRIES)
+
+    def __len__(self) -> int:
+        return len(ENTRIES)
+
+    def _tables(self) -> Sequence[Table]:
+        rows = []
+        for name, entry in ENTRIES.items():
+            numbers = entry.to_mapping()
+            known = (numbers.get(figure) for figure in _FIGURES)
+            cells = zip(known, (UNITS[figure] for figure in _FIGURES), strict=True)
+            rows.append((name, *("" if x is None else handy_text(x, unit, 4) for x, unit in cells)))
+        columns = ("", *(figure.replace("_", " ") for figure in _FIGURES))
+        return (Table("Balls of the catalogue", columns, rows),)
+
+
+balls = Balls()
+"""The balls of the catalogue by name."""

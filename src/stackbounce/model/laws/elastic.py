@@ -9,6 +9,7 @@ from stackbounce.model.ball import Ball
 from stackbounce.model.laws.law import EXPONENT, ContactLaw, Flank, stiffness_in
 from stackbounce.model.laws.registry import register
 
+_ELASTIC = ("diameter", "young_modulus", "poisson_ratio")  # what Hertz's law needs of a ball
 _STEEPEST_FLANK = 2.5  # the largest exponent that a force record of an unknown power law may have
 
 
@@ -160,19 +161,13 @@ class Hertz(ElasticLaw):
 def _shares(name: str, ball: object) -> tuple[float, float]:
     """Return a ball's shares in 1/E* and 1/R*."""
     ball = instance(name, ball, Ball)
-    missing = [
-        field
-        for field in ("diameter", "young_modulus", "poisson_ratio")
-        if getattr(ball, field) is None
-    ]
-    if missing:
+    numbers = [getattr(ball, field) for field in _ELASTIC]
+    if None in numbers:
+        missing = (f for f, number in zip(_ELASTIC, numbers, strict=True) if number is None)
         listed = ", ".join(f"{name}.{field}" for field in missing)
         raise InvalidValue(f"{listed} must be given for a Hertz contact, got None")
-    assert ball.diameter is not None
-    assert ball.young_modulus is not None
-    assert ball.poisson_ratio is not None
-    share = (1.0 - ball.poisson_ratio) * (1.0 + ball.poisson_ratio) / ball.young_modulus
-    return share, 2.0 / ball.diameter
+    diameter, modulus, ratio = numbers
+    return (1.0 - ratio) * (1.0 + ratio) / modulus, 2.0 / diameter
 
 
 @register

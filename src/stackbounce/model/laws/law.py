@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from numbers import Real
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, TypeVar, get_type_hints
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, TypeVar
 
 from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, between, positive
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import rising_root
 from stackbounce.shown import Shown, Table, call_of
-from stackbounce.units import WORDS, Unit, in_unit, unit_of
+from stackbounce.units import WORDS, Unit, in_unit, units_of
 
 STEEPEST = 1e6
 """The largest exponent of a loading or unloading curve; above it the curve is almost a step."""
@@ -277,15 +277,10 @@ class ContactLaw(Shown):
         varied : mapping of str to ndarray, optional
             Fields that vary, with one value for each of many drops.
         """
-        first = getattr(self, "stiffness", 1.0)
-        second = getattr(self, "exponent", 1.0)
-        third = getattr(self, self.third_number) if self.third_number else 0.0
-        fourth = getattr(self, self.fourth_number) if self.fourth_number else 0.0
-        if varied:
-            first = varied.get("stiffness", first)
-            second = varied.get("exponent", second)
-            third = varied.get(self.third_number, third)
-            fourth = varied.get(self.fourth_number, fourth)
+        names = ("stiffness", "exponent", self.third_number, self.fourth_number)
+        own = zip(names, (1.0, 1.0, 0.0, 0.0), strict=True)
+        numbers = [varied.get(name, getattr(self, name, usual)) for name, usual in own]
+        first, second, third, fourth = numbers
         return self.form, first, second, third, fourth
 
     def values(self, varied: Mapping[str, Any]) -> list[Any]:
@@ -329,8 +324,7 @@ class ContactLaw(Shown):
 
     def _is_elastic(self) -> bool:
         """Return whether nothing is lost, and the force is a power of the compression."""
-        lossy = self.loss and (self.loss == "restitution" or getattr(self, self.loss) > 0.0)
-        return not lossy
+        return not (self.loss and (self.loss == "restitution" or getattr(self, self.loss) > 0.0))
 
     def _bounce(self, mass: float, speed: float) -> tuple[float, float]:
         """Return restitution and contact time in s by a simulation."""
@@ -432,10 +426,8 @@ class ContactLaw(Shown):
 
 
 @functools.cache
-def _quantities(kind: type[ContactLaw]) -> Mapping[str, Quantity]:
-    hints = get_type_hints(kind, include_extras=True)
-    found = {name: unit_of(hint) for name, hint in hints.items()}
-    return {name: value for name, value in found.items() if isinstance(value, Quantity)}
+def _quantities(kind: Any) -> Mapping[str, Quantity]:
+    return {name: one for name, one in units_of(kind).items() if isinstance(one, Quantity)}
 
 
 def _found(cls: type[_Law], numbers: dict[str, float], given: Given) -> _Law:

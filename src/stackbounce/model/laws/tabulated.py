@@ -127,11 +127,11 @@ class Tabulated(ContactLaw):
 
     def to_mapping(self) -> dict[str, Any]:
         """Return the law as plain values, with lists of points."""
-        plain = {
+        return {
             name: list(value) if isinstance(value, tuple) else value
             for name, value in super().to_mapping().items()
+            if value is not None
         }
-        return {name: value for name, value in plain.items() if value is not None}
 
     def described(self) -> str:
         """Return a description of the law for users."""

@@ -51,6 +51,5 @@ def draw(data: Any, found: Any, axes: Any = None) -> Figure:  # noqa: ARG001
         axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
         axes.minorticks_off()
         axes.set_ylim(-1.0, 8.0 * np.maximum(top, 20.0))
-        axes.set_xlabel("time (s)")
-        axes.set_ylabel("magnitude of the acceleration (m/s²)")
+        axes.set(xlabel="time (s)", ylabel="magnitude of the acceleration (m/s²)")
     return figure

@@ -48,9 +48,8 @@ def draw(data: Any, found: Any, axes: Any = None) -> Figure:  # noqa: ARG001
         axes.errorbar(speeds, kept, label=f"each bounce{mean}", **marks, **bars)
         for k, number in enumerate(found.numbers[:_FIRST_NUMBERS]):
             annotate(axes, f"{number}", (speeds[k], kept[k]), COLORS[0], xytext=(7, 6))
-        axes.set_xlabel("impact speed (m/s)")
-        axes.set_ylabel("restitution")
-        axes.set_xlim(0.0, 1.08 * float(speeds.max()))
+        fastest = 1.08 * float(speeds.max())
+        axes.set(xlabel="impact speed (m/s)", ylabel="restitution", xlim=(0.0, fastest))
         middle, half = 0.5 * (kept.max() + kept.min()), 0.5 * float(np.ptp(kept))
         reach = max(0.05, 1.6 * half + 1.2 * float(np.median(errors)))
         axes.set_ylim(middle - reach, middle + reach)

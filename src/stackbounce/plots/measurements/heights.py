@@ -54,8 +54,7 @@ def draw(data: Any, found: Any, axes: Any = None) -> Figure:  # noqa: ARG001
         after = "bounce" if found.repeated else "after bounce"
         axes.set_xticks(at, ["drop", *(f"{after} {k}" for k in at[:-1])])
         axes.set_ylim(0.0, 1.12 * float(values.max()))
-        axes.set_xlim(-0.3, at[-1] + 0.6)
-        axes.set_ylabel("height of the lowest point (m)")
+        axes.set(xlim=(-0.3, at[-1] + 0.6), ylabel="height of the lowest point (m)")
         axes.legend(frameon=False, loc="upper right")
     return figure
 

@@ -35,8 +35,7 @@ def draw(data: Any, found: Any, axes: Any = None) -> Figure:
         _draw_sound(above, data, found, times)
         _draw_flights(below, found, times)
         pad = _MARGIN * max(float(np.ptp(times)), 0.1)
-        below.set_xlim(times[0] - 2.0 * pad, times[-1] + 2.0 * pad)
-        below.set_xlabel("time (s)")
+        below.set(xlim=(times[0] - 2.0 * pad, times[-1] + 2.0 * pad), xlabel="time (s)")
     return figure
 
 
@@ -59,8 +58,7 @@ def _draw_sound(axes: Axes, data: Any, found: Any, times: NDArray[np.float64]) -
         label = f"{len(left)} left out ({_words(found)})"
         cross: Any = {"color": _RED, "markersize": 5, "markeredgewidth": 1.4, "clip_on": False}
         axes.plot(left, np.full(len(left), top), "x", label=label, **cross)
-    axes.set_ylim(-top, top)
-    axes.set_ylabel("sound (full scale 1)")
+    axes.set(ylim=(-top, top), ylabel="sound (full scale 1)")
     axes.legend(loc="lower right", frameon=True, framealpha=0.9, edgecolor="none", ncols=2)
 
 

@@ -78,8 +78,7 @@ def _draw_panel(
         axes.set_ylim(1.15 * least, (1.22 if few else 1.08) * top)
         if few:
             _label_contacts(axes, contacts, factor)
-    axes.set_xlim(factor * low, factor * high)
-    axes.set_xlabel(f"time ({unit})")
+    axes.set(xlim=(factor * low, factor * high), xlabel=f"time ({unit})")
     axes.set_ylabel(FORCES.get(found.unit, "signal") + ("" if found.sign > 0 else ", turned over"))
 
 

@@ -330,8 +330,7 @@ def _with_scatter(
     meant = scatter_of(found.speeds, found.kept)
     notes.extend(meaning_of(scatter, meant))
     if scatter and meant.cause != "floor or spin":
-        times = [ufloat(time.n, meant.factor * time.s) for time in found.moments]
-        found = found_at(times)
+        found = found_at([ufloat(time.n, meant.factor * time.s) for time in found.moments])
         if meant.cause == "timing":
             mean, laws, scatter = laws_of(found.speeds, found.kept, most=0.0)
     return found, mean, laws, scatter

@@ -58,8 +58,9 @@ def fit_line(
     """
     from uncertainties import umath
 
-    if degree:
-        _differ(speeds)
+    known = [nominal(speed) for speed in speeds]
+    if degree and max(known) - min(known) < _ALIKE * max(known):  # no line has a slope
+        raise InvalidValue(f"impact speeds must differ, got {len(known)} of {known[0]:.4g} m/s")
     x = [umath.log(speed) for speed in speeds] if power else list(speeds)
     y = [umath.log(restitution) for restitution in kept] if power else list(kept)
     design = np.vander([nominal(speed) for speed in x], degree + 1, increasing=True)
@@ -70,13 +71,6 @@ def fit_line(
         slope = float(fit_with_excess_scatter(design, values, rough, most)[0].values[1])
     residuals = [b - slope * a for a, b in zip(x, y, strict=True)]
     return fit_with_excess_scatter(design, values, covariance_of(residuals), most)
-
-
-def _differ(speeds: Sequence[Any]) -> None:
-    """Refuse speeds of which a line has no slope."""
-    known = [nominal(speed) for speed in speeds]
-    if max(known) - min(known) < _ALIKE * max(known):
-        raise InvalidValue(f"impact speeds must differ, got {len(known)} of {known[0]:.4g} m/s")
 
 
 def laws_of(

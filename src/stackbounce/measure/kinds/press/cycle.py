@@ -237,8 +237,7 @@ def _curve(label: str, branch: _Points, law: _Law, contact: float, peak: float) 
     off, rest = (float(np.sqrt(np.mean(part**2))) for part in (smooth, law.residual - smooth))
     share = off / peak if peak > 0.0 else np.inf
     fits = share < _SMALL_MISFIT or off < _CLEAR_MISFIT * rest / np.sqrt(width)
-    fit = branch.y - law.residual
-    return Branch(label, branch.x - contact, branch.y, fit, share, fits)
+    return Branch(label, branch.x - contact, branch.y, branch.y - law.residual, share, fits)
 
 
 def _power(ratio: Array, exponent: float) -> Array:

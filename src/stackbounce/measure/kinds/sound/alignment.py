@@ -87,7 +87,8 @@ def band_powers(
     """
     if values.min() >= 0.0:
         return _amplitudes(values, rate, about, start, stop)
-    edges = _edges(rate)
+    top, low = _HIGHEST_SHARE * rate, min(_LOWEST_HERTZ, rate / 16.0)
+    edges = np.geomspace(low, top, max(2, round(math.log2(top / low))) + 1)  # Hz, about octaves
     widths = 0.5 * np.diff(edges)  # Hz, standard deviations
     lasts = 1.0 / (2.0 * math.pi * widths)
     finer = 2 ** max(0, math.ceil(math.log2(1.0 / (rate * _LONGEST_STEP))))
@@ -112,13 +113,6 @@ def band_powers(
     correlation = np.maximum(math.sqrt(2.0 * math.pi) * lasts / step, 1.0)
     quiet = floor[:, None] + faint * power.max(axis=2, keepdims=True)
     return Bands(np.log(power + quiet), first * step, step, correlation)
-
-
-def _edges(rate: float) -> Array:
-    """Return the edges of bands of about an octave, in Hz."""
-    top = _HIGHEST_SHARE * rate
-    low = min(_LOWEST_HERTZ, rate / 16.0)
-    return np.geomspace(low, top, max(2, round(math.log2(top / low))) + 1)
 
 
 def _windows(values: Samples, rate: float, about: Array, before: int, after: int) -> Pair:

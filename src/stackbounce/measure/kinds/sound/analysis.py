@@ -209,8 +209,7 @@ def _recording(data: Any, rate: float | None) -> tuple[_Recording, float]:
 
 def _notes_on(samples: Samples) -> list[str]:
     """Return a note on a recording that is clipped."""
-    top = np.abs(samples) >= 0.999 * np.abs(samples).max()
-    first, last = runs(top)
+    first, last = runs(np.abs(samples) >= 0.999 * np.abs(samples).max())
     if (last - first + 1 >= _CLIPPED).any():
         return ["The recording is clipped: loudness is wrong there, times are hardly touched."]
     return []

@@ -79,7 +79,9 @@ def _against_flights(chain: Chain, rises: Rises, longest: float) -> str:
         return f"the first interval, {flights[0]:.3g} s, is longer than a flight of {longest:.3g} s"
     if len(at) < 3:
         return ""
-    if not _shrinking(single, len(flights) - 1 + sum(chain.missed)):
+    logs, steps = np.diff(np.log(single)), len(flights) - 1 + sum(chain.missed)
+    # flights become shorter, and by more than they vary
+    if not -logs.sum() > max(_SHRINK * steps, _SHRINK_SIGMAS * float(np.std(logs))):
         return (
             f"{len(at)} sounds at equal intervals of {np.median(single):.3g} s, or nearly so, as "
             "of a metronome, of steps or claps"
@@ -96,12 +98,6 @@ def _against_flights(chain: Chain, rises: Rises, longest: float) -> str:
             f"restitutions would fall from {kept[0]:.3g} to {kept[-1]:.3g} as the ball slows down"
         )
     return ""
-
-
-def _shrinking(flights: Array, steps: int) -> bool:
-    """Return whether flights become shorter, and by more than they vary."""
-    logs = np.diff(np.log(flights))
-    return bool(-logs.sum() > max(_SHRINK * steps, _SHRINK_SIGMAS * float(np.std(logs))))
 
 
 def _against_loudness(amplitudes: Array) -> str:

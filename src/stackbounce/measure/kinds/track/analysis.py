@@ -10,19 +10,12 @@ import numpy as np
 from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.drag import Drag, with_difference, with_error_of_drag
 from stackbounce.measure.finding import no_gain
-from stackbounce.measure.kinds.track import motion
+from stackbounce.measure.kinds.track import motion, steadiness
 from stackbounce.measure.kinds.track.free_flight import no_flight, what_is_seen
 from stackbounce.measure.kinds.track.motion import shape_of
 from stackbounce.measure.kinds.track.parabolas import Parabolas
 from stackbounce.measure.kinds.track.paths import Columns, Upward, flights_of, positions_of, upward
 from stackbounce.measure.kinds.track.result import Track, Tracks, notes_of, stays_long
-from stackbounce.measure.kinds.track.steadiness import (
-    Turn,
-    acceleration_angle,
-    floor_angle,
-    sway_of,
-    turn_of,
-)
 from stackbounce.measure.kinds.track.time_base import SI, TrackUnits, check_time_base, units_of
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Array, known_to, nominal
@@ -177,7 +170,7 @@ def track(
     return Tracks(tuple(balls), ratios, base, upwards, up.tilt, tuple(notes), units, drag)
 
 
-def _turn(flown: list[_Flown], up: Upward) -> Turn | None:
+def _turn(flown: list[_Flown], up: Upward) -> steadiness.Turn | None:
     """Return the turn of the camera that the lowest ball and its floor show, None for none."""
     side = "x" if up.axis == "y" else "y"
     ball = min(flown, key=lambda ball: float(ball.fit.heights.min()))
@@ -189,10 +182,10 @@ def _turn(flown: list[_Flown], up: Upward) -> Turn | None:
         return None
     seen = _track(ball, None, SI, alone=False)
     times, moments = ball.fit.times[known], [nominal(moment) for moment in seen.impact_times]
-    floor = floor_angle(seen.levels, np.interp(moments, times, across[known]))
+    floor = steadiness.floor_angle(seen.levels, np.interp(moments, times, across[known]))
     speed = float(np.polyfit(times, across[known], 1)[0])
-    slow = acceleration_angle(ball.fit, across)
-    return turn_of(slow, floor, speed / nominal(seen.impact_speeds[0]), up.axis)
+    slow = steadiness.acceleration_angle(ball.fit, across)
+    return steadiness.turn_of(slow, floor, speed / nominal(seen.impact_speeds[0]), up.axis)
 
 
 def _bouncing(found: Columns, up: Upward, gravity: float, units: TrackUnits) -> list[_Flown]:
@@ -273,7 +266,7 @@ def _track(
     size, sway = 0.0, 0.0
     if alone and floor is None:
         gaps = fit.times[fit.firsts[1:]] - fit.times[fit.lasts[:-1] - 1]
-        size, sway = sway_of(moments, levels, impacts, float(gaps[bounces].max()))
+        size, sway = steadiness.sway_of(moments, levels, impacts, float(gaps[bounces].max()))
     if sway > 0.0:
         off = [ufloat(0.0, sway) for _ in bounces]  # the camera's speed at each
         impacts = tuple(speed - sways for speed, sways in zip(impacts, off, strict=True))

@@ -166,7 +166,6 @@ def undrooped(times: Array, values: Array, time_constant: float) -> Array:
     >>> float(np.abs(undrooped(times, leaked, 0.5) - 1.0).max().round(5))
     0.0
     """
-    rc = positive("time_constant", time_constant, "seconds")
-    share = np.diff(times) / rc
+    share = np.diff(times) / positive("time_constant", time_constant, "seconds")
     changes = (values[1:] - np.exp(-share) * values[:-1]) * share / -np.expm1(-share)
     return np.cumsum(np.concatenate([values[:1], changes]))

@@ -101,8 +101,7 @@ class Shape:
         if self.kind == "power":
             return np.zeros_like(logs), _slowing(np.exp(logs), level)
         forward = _FORWARD[self.kind] * np.exp(0.5 * logs) * (level / _FITTED_LEVEL) ** _LEVEL_POWER
-        bulk = np.full_like(logs, _BULK[self.kind])
-        return -forward, _slowing(bulk, level) + forward
+        return -forward, _slowing(np.full_like(logs, _BULK[self.kind]), level) + forward
 
     def rows(self, u: Array, unknown: Array, *, averaged: bool) -> Array:
         """Return the columns of the linear model: the lead, both corrections and 1.
