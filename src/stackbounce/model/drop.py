@@ -19,7 +19,6 @@ from stackbounce.errors import (
 from stackbounce.model.ball import Ball
 from stackbounce.model.drawing import draw_stack, label
 from stackbounce.model.laws import LAWS, ContactLaw
-from stackbounce.model.toml import read_mapping, read_toml, write_mapping, write_toml
 from stackbounce.shown import Shown, Table
 from stackbounce.units import Unit, checked, handy_text, in_unit
 
@@ -261,6 +260,8 @@ class Drop(Shown):
         >>> drop.balls[0].mass, drop.contacts[0].stiffness
         (0.057, 22500.0)
         """
+        from stackbounce.model.toml import read_mapping
+
         return read_mapping(cls, mapping)
 
     @classmethod
@@ -292,6 +293,8 @@ class Drop(Shown):
             ...
         stackbounce.errors.FileError: no-such-file.toml cannot be read: No such file or directory
         """
+        from stackbounce.model.toml import read_toml
+
         return read_toml(cls, path)
 
     def to_mapping(self) -> dict[str, Any]:
@@ -303,6 +306,8 @@ class Drop(Shown):
         >>> Drop([Ball(0.057)], [Spring(22500)], impact_speed=1).to_mapping()["contacts"]
         [{'law': 'Spring', 'stiffness': 22500.0}]
         """
+        from stackbounce.model.toml import write_mapping
+
         return write_mapping(self)
 
     def to_toml(self) -> str:
@@ -324,6 +329,8 @@ class Drop(Shown):
         stiffness = 22500.0
         <BLANKLINE>
         """
+        from stackbounce.model.toml import write_toml
+
         return write_toml(self.to_mapping())
 
     def explore(self, *, height: int = 640) -> "ExplorerFrame":

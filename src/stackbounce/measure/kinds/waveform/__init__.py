@@ -5,7 +5,7 @@ from stackbounce.measure.kind import Kind
 WAVEFORM = Kind(
     "waveform",
     "contacts, contact times, peaks, impulse, stiffness, gaps",
-    f"{__name__}.gap",
+    f"{__name__}.kind",
     options=(
         *("mass", "contact_time", "law", "exponent", "height", "measured_to"),
         *("diameter", "speed", "time_constant", "gravity"),

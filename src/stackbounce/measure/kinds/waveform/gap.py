@@ -1,6 +1,4 @@
-"""Force against time as a kind of measurement, and the gap between two balls in it.
-
-The gap follows from the delay between floor contact and ball contact.
+"""The gap between two falling balls, from the delay between floor contact and ball contact.
 
 When the lower ball touches the floor the upper one is a gap above it and falls on at the impact
 speed. They touch when the gap is closed by its fall and the lower ball's displacement:
@@ -12,7 +10,6 @@ where q is the lower ball's displacement, up-positive, as it bounces alone: on a
 """
 
 import math
-from contextlib import suppress
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -21,7 +18,6 @@ from stackbounce.measure.finding import Finding, Listed, force_channels
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.result import Waveform
 from stackbounce.measure.quantities import Number, measured, propagate
-from stackbounce.measure.setup import Setup
 from stackbounce.model import Ball, Drop
 from stackbounce.model.laws import ContactLaw
 from stackbounce.run.driver import simulate
@@ -204,15 +200,6 @@ def sensor_gap(data: Any, *, impact_speed: Any = None, contact_time: Any = None)
         return SensorGap(None, later, (said, f"the gap needs the {missing} too"))
     gap = gap_from_delay(later, impact_speed, contact_time=contact_time)
     return SensorGap(gap, later, (said,))
-
-
-def analyse(data: Any, setup: Setup) -> tuple[Finding, ...]:
-    """Analyse a force, and the gap between two balls where there is a second channel."""
-    known = setup.only("mass", "time_constant", "law", "exponent")
-    force = waveform(data, impact_speed=setup.speed, **known)
-    with suppress(InvalidValue):  # there is one channel, or the second is no sensor of balls
-        return sensor_gap(data, **setup.only("impact_speed", "contact_time")), force
-    return (force,)
 
 
 def _spring_gap(t: float, v: float, tau: float) -> float:
