@@ -10,7 +10,7 @@ from stackbounce.errors import InvalidValue
 from stackbounce.prediction import draws, result
 
 BALLS = [sb.Ball(0.6), sb.Ball(0.06)]
-LOSSY = sb.Hysteretic(2e7, exponent=1.5, restitution=0.95)  # its work is counted
+LOSSY = sb.HollowBall(3e4, 0.01, 0.5, 0.95)  # its work is counted
 DROP = sb.Drop(BALLS, [LOSSY, sb.Hertz(1e7)], [1e-3], height=0.63)
 ERRORS = {"gaps.0": (1e-3, 0.5e-3), "balls.1.mass": (0.06, 0.001)}  # not all are possible
 
