@@ -9,7 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from benchmarks.growth import LAWS, SHAPES, Cost
-from benchmarks.laws import Entry as LawEntry
+from benchmarks.pairs import LAWS as PAIR_LAWS
+from benchmarks.pairs import Entry as PairEntry
 from benchmarks.race import PEERS, Entry
 from benchmarks.startup import Start
 from benchmarks.work_precision import DROPS, FAMILIES, TOLERANCES, Spread, Work
@@ -31,6 +32,14 @@ STYLES = {
     "stackbounce, compiled": (UPPER, "o", "-"),
     "stackbounce, plain Python": (FLOOR, "s", "-"),
     "scipy, DOP853": (BLACK, "D", "--"),
+}
+WAYS = {
+    "sweep": (UPPER, "o", "-"),
+    "drop by drop": (FLOOR, "s", "-"),
+    "loop by hand": (BLACK, "D", "-"),
+    "CyRK": (GREEN, "^", "--"),
+    "CVODE": (PURPLE, "v", "--"),
+    "SciPy": (GREY, "X", "--"),
 }
 LINEUP = dict(
     zip(
@@ -56,7 +65,7 @@ def growth(costs: list[Cost]) -> Figure:
                 if law != "rigid":
                     size.loglog(balls, [c.cluster for c in row], **look)
         for ax in (time, size):
-            ax.set_xlim(6.5, 1250)
+            ax.set_xlim(6.5, 2500)
             ax.set_xticks([10, 100, 1000], ["10", "100", "1000"])
             ax.set_xlabel("balls")
         time.set_ylim(0.5, 500)
@@ -158,23 +167,29 @@ def work(runs: list[Work]) -> Figure:
     return figure
 
 
-def laws(entries: list[LawEntry]) -> Figure:
-    """Draw how much faster a sweep is than `solve_ivp`, against the error of that."""
+def pairs(entries: list[PairEntry]) -> Figure:
+    """Draw error against time of all ways to solve random drops, a panel for each law."""
+    laws = [law for law in dict.fromkeys(one.law for one in entries) if law in PAIR_LAWS]
     with use_style():
-        figure = Figure(figsize=(0.6 * WIDE, 3.3))
-        ax = figure.subplots()
-        for law, (mark, color) in zip(
-            dict.fromkeys(one.law for one in entries), MARKS.values(), strict=False
-        ):
-            row = [one for one in entries if one.law == law]
-            ratios = [one.seconds / one.our_seconds for one in row]
-            ax.semilogx([one.error for one in row], ratios, color=color, marker=mark, label=law)
-        ax.set_xlabel("median error of solve_ivp / $v_0$")
-        ax.set_ylabel("its time / time of a sweep no less exact")
-        ax.invert_xaxis()
-        ax.set_ylim(0.0, 1.3 * ax.get_ylim()[1])
-        ax.legend(loc="upper left", ncols=2)
-        figure.subplots_adjust(left=0.16, right=0.97, top=0.96, bottom=0.15)
+        figure = Figure(figsize=(WIDE, 5.0))
+        panels = figure.subplots(2, 4, sharex=True, sharey=True)
+        for ax, law in zip(panels.flat, laws, strict=False):
+            for way, (color, mark, stroke) in WAYS.items():
+                row = [one for one in entries if (one.law, one.way) == (law, way)]
+                look = {"color": color, "marker": mark, "linestyle": stroke, "markersize": 4}
+                times = [1e6 * one.seconds for one in row]
+                ax.loglog(times, _seen(one.median for one in row), label=way, **look)
+            ax.text(0.96, 0.95, law, transform=ax.transAxes, ha="right", va="top", fontsize=9)
+        for ax in list(panels.flat)[len(laws) :]:
+            ax.axis("off")
+        for ax in panels[1]:
+            ax.set_xlabel("time per drop (µs)")
+        for ax in panels[:, 0]:
+            ax.set_ylabel("median error / $v_0$")
+        _name_all(figure, *panels[0, 0].get_legend_handles_labels(), columnspacing=1.0)
+        figure.subplots_adjust(
+            left=0.09, right=0.985, top=0.92, bottom=0.1, wspace=0.08, hspace=0.1
+        )
     return figure
 
 

@@ -1,4 +1,4 @@
-"""What a contact interval costs, from two balls to a thousand.
+"""What a contact interval costs, from two balls to two thousand.
 
 Two kinds of stack, each rigid, on springs and on Hertz's contacts:
 
@@ -26,7 +26,7 @@ LAWS: dict[str, sb.Rigid | sb.Spring | sb.Hertz] = {
     "Hertz": sb.Hertz(1e5),
 }
 SHAPES = ("chain", "gapped")
-SIZES = (2, 4, 8, 16, 32, 64, 128, 256, 512, 1000)
+SIZES = (2, 4, 8, 16, 32, 64, 128, 256, 512, 1000, 2000)
 EVENTS = 10_000  # a gapped stack has O(N²) collisions: of a tall one the first ones will do
 AT_ONCE = 1e-200  # s, when a run is stopped to time what it needs to begin
 LOOKS = 100

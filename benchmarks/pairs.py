@@ -1,42 +1,71 @@
-"""Time against error of sweeps of two balls: in lanes, drop by drop, and by a loop by hand.
+"""Time against error of sweeps of two balls: ours, a loop by hand, and general solvers.
 
-The loop is what an engineer would write instead: the classical Runge-Kutta method with a fixed
-step, a part of the shorter contact time, compiled by numba. The drops are random: masses of 0.05
-to 0.5 kg and 0.02 to 0.2 kg, stiffnesses over two decades, gaps of 0, 1 and 3 mm, 1 to 5 m/s. An
-error is the larger one of both balls' velocities over the impact speed; times are the shortest of
-some rounds on one thread, without compilation. Run `python -m benchmarks.pairs`.
+The drops are random: masses of 0.05 to 0.5 kg and 0.02 to 0.2 kg, stiffnesses over two decades,
+gaps of 0, 1 and 3 mm, 1 to 5 m/s. An error is the larger one of both balls' velocities over the
+impact speed. Times are processor times of one thread without compilation, the shortest of some
+rounds in which all ways take turns. A slow solver gets the first drops only. Run
+`python -m benchmarks.pairs`.
 """
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from time import process_time
 from typing import Any
 
-import numba
 import numpy as np
 from rich.console import Console
 from rich.table import Table as Printed
 
 import stackbounce as sb
+from benchmarks.by_scipy import rebound
+from benchmarks.peers import by_cvode, by_cyrk, by_scipy
+from benchmarks.peers.by_hand import FORCES, loop_of, solve_rigid
+from benchmarks.random_drops import PairDrops
 from stackbounce.engine import native
-from stackbounce.engine.memory import FINITE, lane_workspace, memory
-from stackbounce.engine.records import Drops, Outcomes
+from stackbounce.engine.codes import ASK
+from stackbounce.engine.memory import FINITE, RIGID, Engine, lane_workspace, memory
+from stackbounce.engine.records import Drops
 from stackbounce.engine.tables import Table
+from stackbounce.engine.work import LANE_EVENTS
 from stackbounce.model.laws import ContactLaw, contact_numbers
 from stackbounce.run.batch import new_outcomes
 
 LAWS = {
     "Hertz": sb.Hertz(1e6),
-    "PowerLaw 2.2": sb.PowerLaw(1e6, 2.2),
+    "PowerLaw": sb.PowerLaw(1e6, 2.2),
     "Viscoelastic": sb.Viscoelastic(1e6, 1e-5),
     "HuntCrossley": sb.HuntCrossley(1e6, 1.5, 0.1),
     "Dashpot": sb.Dashpot(1e4, 1.0),
+    "StandardLinearSolid": sb.StandardLinearSolid(1e4, 0.5, 2e-3),
+    "Hysteretic": sb.Hysteretic(1e4, restitution=0.8),
 }
+LANES, DROPS, LOOP, RIGID_BALLS = "sweep", "drop by drop", "loop by hand", "Rigid"
 STEPS = (10, 20, 40, 80, 160)  # of the loop, in the shorter contact time
 TOLERANCES = (1e-3, 1e-4, 1e-6, 1e-9, 1e-12)
+THEIRS = (1e-4, 1e-6, 1e-9, 1e-12)
 TRUTH = 1e-13
-COUNT = 4000
+COUNT, RIGID_COUNT = 4000, 100_000
+LEAST, SECONDS = 10, 0.3  # drops of a slow solver: so many, or those of so many seconds
 ROUNDS = 5
+SAME = 1e-3  # an error: with a smaller one, the rule for a second compression made none
+
+
+Way = Callable[[], np.ndarray]
+"""Solves its drops and returns the velocities over the impact speed."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One way at one setting: time in s a drop, median error, and that which 1 % exceed."""
+
+    law: str
+    way: str
+    setting: float  # steps of the loop, or a tolerance; nan where there is none
+    drops: int
+    seconds: float
+    median: float
+    most: float
 
 
 def random_drops(law: ContactLaw, count: int = COUNT, seed: int = 1) -> Drops:
@@ -46,154 +75,179 @@ def random_drops(law: ContactLaw, count: int = COUNT, seed: int = 1) -> Drops:
     speed = random.uniform(1.0, 5.0, (count, 1))
     gap = np.column_stack([np.zeros(count), random.choice([0.0, 1e-3, 3e-3], count)])
     mass = np.column_stack([random.uniform(0.05, 0.5, count), random.uniform(0.02, 0.2, count)])
-    return Drops(
-        mass,
-        np.full((count, 2), form),
-        stiffness * 10.0 ** random.uniform(-1.0, 1.0, (count, 2)),
-        *(number * one for number in others),
-        gap,
-        -speed * one,
-        np.zeros(count),
-    )
+    first = stiffness * 10.0 ** random.uniform(-1.0, 1.0, (count, 2))
+    second, third, fourth = (number * one for number in others)
+    if isinstance(law, sb.Rigid):
+        third = random.uniform(0.7, 1.0, (count, 2))
+    form = np.full((count, 2), form)
+    return Drops(mass, form, first, second, third, fourth, gap, -speed * one, np.zeros(count))
 
 
-@numba.njit  # type: ignore[untyped-decorator]
-def _hertz(k: float, d: float, c: float, r: float) -> float:  # noqa: ARG001 - one signature for all
-    return k * c * math.sqrt(c) if c > 0.0 else 0.0
+def _some(drops: Drops, rows: Any) -> Drops:
+    return Drops._make(np.ascontiguousarray(array[rows]) for array in drops)
 
 
-@numba.njit  # type: ignore[untyped-decorator]
-def _power(k: float, d: float, c: float, r: float) -> float:  # noqa: ARG001 - the same
-    return k * c**2.2 if c > 0.0 else 0.0
+def _in_units(drops: Drops) -> PairDrops:
+    """Return drops in units of the lower ball's mass, the impact speed, and the floor's contact."""
+    speed, p = -drops.velocity[:, :1], drops.second[0, 0]
+    mass, stiffness = drops.mass[:, :1], drops.first[:, :1]
+    length = (mass * speed**2 / stiffness) ** (1.0 / (p + 1.0))
+    time = length / speed
+    unit = {"Dashpot": mass / time, "Viscoelastic": time, "HuntCrossley": 1.0 / speed}
+    name = next((law for law, some in LAWS.items() if contact_numbers(some)[0] == drops.form[0, 0]))
+    losses, gaps = drops.third / unit.get(name, math.inf), drops.gap[:, 1] / length[:, 0]
+    return PairDrops(drops.mass / mass, drops.first / stiffness, losses, gaps)
 
 
-@numba.njit  # type: ignore[untyped-decorator]
-def _viscoelastic(k: float, d: float, c: float, r: float) -> float:
-    return max(0.0, k * math.sqrt(c) * (c + 1.5 * d * r)) if c > 0.0 else 0.0
+def _lanes(drops: Drops, kernel: str, limit: float) -> Way:
+    """Return an engine in lanes, with the general one for what it leaves to that."""
+    out, space = new_outcomes(len(drops.gravity), 2), lane_workspace(compiled=True)
+    solve, given = native.compiled(kernel), (Table(drops), limit, Table(out), Table(space))
 
-
-@numba.njit  # type: ignore[untyped-decorator]
-def _hunt_crossley(k: float, d: float, c: float, r: float) -> float:
-    return max(0.0, k * c * math.sqrt(c) * (1.0 + d * r)) if c > 0.0 else 0.0
-
-
-@numba.njit  # type: ignore[untyped-decorator]
-def _dashpot(k: float, d: float, c: float, r: float) -> float:
-    return max(0.0, k * c + d * r) if c > 0.0 else 0.0
-
-
-FORCES = dict(zip(LAWS, (_hertz, _power, _viscoelastic, _hunt_crossley, _dashpot), strict=True))
-
-
-def by_hand(force: Any) -> Any:
-    """Return the loop for a force, which writes the final velocities of drops to ``final``."""
-
-    @numba.njit  # type: ignore[untyped-decorator]
-    def accelerations(
-        m0: float, m1: float, k: Any, d: Any, q0: float, q1: float, v0: float, v1: float
-    ) -> Any:
-        floor, balls = force(k[0], d[0], -q0, -v0), force(k[1], d[1], q0 - q1, v0 - v1)
-        return (floor - balls) / m0, balls / m1
-
-    @numba.njit  # type: ignore[untyped-decorator]
-    def loop(m: Any, k: Any, d: Any, gap: Any, speed: Any, dt: Any, final: Any) -> None:
-        for i in range(len(gap)):
-            h, half, m0, m1, ki, di = dt[i], 0.5 * dt[i], m[i, 0], m[i, 1], k[i], d[i]
-            q0, q1, v0, v1 = 0.0, gap[i], -speed[i], -speed[i]
-            for _ in range(1_000_000):
-                a0, a1 = accelerations(m0, m1, ki, di, q0, q1, v0, v1)
-                u0, u1 = v0 + half * a0, v1 + half * a1
-                b0, b1 = accelerations(m0, m1, ki, di, q0 + half * v0, q1 + half * v1, u0, u1)
-                w0, w1 = v0 + half * b0, v1 + half * b1
-                e0, e1 = accelerations(m0, m1, ki, di, q0 + half * u0, q1 + half * u1, w0, w1)
-                x0, x1 = v0 + h * e0, v1 + h * e1
-                f0, f1 = accelerations(m0, m1, ki, di, q0 + h * w0, q1 + h * w1, x0, x1)
-                q0 += h / 6.0 * (v0 + 2.0 * (u0 + w0) + x0)
-                q1 += h / 6.0 * (v1 + 2.0 * (u1 + w1) + x1)
-                v0 += h / 6.0 * (a0 + 2.0 * (b0 + e0) + f0)
-                v1 += h / 6.0 * (a1 + 2.0 * (b1 + e1) + f1)
-                if q0 > 0.0 and q1 > q0:  # free flight, to the next touch if there is one
-                    if v0 >= 0.0 and v1 >= v0:
-                        break
-                    wait = -q0 / v0 if v0 < 0.0 else math.inf
-                    if v0 > v1:
-                        wait = min(wait, (q1 - q0) / (v0 - v1))
-                    q0, q1 = q0 + wait * v0, q1 + wait * v1
-            final[i, 0], final[i, 1] = v0, v1
-
-    return loop
-
-
-def _loop(drops: Drops, loop: Any, steps: int) -> Callable[[], Any]:
-    """Return what solves drops by hand and returns the velocities."""
-    speed, p = -drops.velocity[:, 0], drops.second[0, 0]
-    reduced = np.column_stack([drops.mass[:, 0], 1.0 / (1.0 / drops.mass).sum(axis=1)])
-    depth = (reduced * speed[:, None] ** 2 / drops.first) ** (1.0 / (p + 1.0))
-    dt = 3.0 * depth.min(axis=1) / speed / steps
-    gap, final = np.ascontiguousarray(drops.gap[:, 1]), np.empty((len(speed), 2))
-
-    def call() -> Any:
-        loop(drops.mass, drops.first, drops.third, gap, speed, dt, final)
-        return final
+    def call() -> np.ndarray:
+        solve(*given)
+        asked = np.flatnonzero(out.status == ASK)
+        if len(asked):
+            out.rebound_ratio[asked] = _general(_some(drops, asked), FINITE, limit)()
+        return out.rebound_ratio
 
     return call
 
 
-def _lanes(drops: Drops, rtol: float) -> tuple[Callable[[], Any], Outcomes]:
-    out, space = new_outcomes(len(drops.gravity), 2), lane_workspace(compiled=True)
-    solve, given = native.compiled("run_pairs"), (Table(drops), rtol, Table(out), Table(space))
-
-    def call() -> Any:
-        solve(*given)
-        return np.where((out.status == sb.Status.FINISHED)[:, None], out.velocity, np.nan)
-
-    return call, out
-
-
-def _general(drops: Drops, rtol: float) -> tuple[Callable[[], Any], Outcomes]:
-    out, room = new_outcomes(len(drops.gravity), 2), memory(FINITE, 2, compiled=True)
+def _general(drops: Drops, engine: Engine, rtol: float) -> Way:
+    out, room = new_outcomes(len(drops.gravity), 2), memory(engine, 2, compiled=True)
     options = math.inf, rtol, 10**6, 10**12
 
-    def call() -> Any:
-        room.run_batch(FINITE.run_batch, drops, options, out)
-        return out.velocity
+    def call() -> np.ndarray:
+        room.run_batch(engine.run_batch, drops, options, out)
+        return out.rebound_ratio
 
-    return call, out
+    return call
 
 
-def measure(name: str) -> list[tuple[str, float, float, float]]:
-    """Return the ways to solve random drops of a law: name, time in s a drop, errors.
+def _scipy_with_cycles(drops: Drops, rtol: float) -> np.ndarray:
+    """Return what `benchmarks.by_scipy` finds, which follows cycles of hysteresis."""
+    found, law = [], {"law": "Hysteretic", "restitution": LAWS["Hysteretic"].restitution}
+    for m, k, gap, v in zip(drops.mass, drops.first, drops.gap[:, 1], drops.velocity, strict=True):
+        contacts = [law | {"stiffness": stiffness} for stiffness in k]
+        case = {"masses": m, "contacts": contacts, "gaps": [gap], "velocities": v}
+        found.append(rebound(case, rtol) / -v[0])
+    return np.array(found)
 
-    The errors are the median, and that which 1 % of the drops exceed.
-    """
-    drops, loop = random_drops(LAWS[name]), by_hand(FORCES[name])
-    truth, _ = _general(drops, TRUTH)
-    right = truth().copy()
-    ways = {f"loop, {steps} steps": _loop(drops, loop, steps) for steps in STEPS}
-    ways |= {f"lanes, rtol {rtol:.0e}": _lanes(drops, rtol)[0] for rtol in TOLERANCES}
-    ways |= {f"drop by drop, rtol {rtol:.0e}": _general(drops, rtol)[0] for rtol in TOLERANCES}
-    found = dict.fromkeys(ways, math.inf)
-    errors: dict[str, Any] = {}
-    for _ in range(ROUNDS + 1):  # the first one compiles
-        for way, solve in ways.items():
+
+def _solvers(law: str) -> dict[str, Callable[[Drops, float], np.ndarray]]:
+    """Return the general solvers that are installed and can solve drops under a law, by name."""
+    if law == "StandardLinearSolid":
+        return {}
+    if law == "Hysteretic":
+        return {"SciPy": _scipy_with_cycles}
+    peers = (by_cvode.PEER, by_cvode), (by_cyrk.PEER, by_cyrk), (by_scipy.PEER, by_scipy)
+
+    def solver(prepare: Any) -> Callable[[Drops, float], np.ndarray]:
+        prepared = {rtol: prepare(FORCES[law], rtol) for rtol in THEIRS}
+        return lambda some, rtol: prepared[rtol](_in_units(some))[0]
+
+    return {peer.name: solver(module.prepare) for peer, module in peers if peer.available()}
+
+
+def _ways(law: str, drops: Drops) -> dict[tuple[str, float], tuple[int, Way]]:
+    """Return the number of drops and the ways by name and setting, all compiled."""
+    speed, loop, count = -drops.velocity[:, :1], loop_of(law), len(drops.gravity)
+    ways: dict[tuple[str, float], tuple[int, Way]] = {}
+    for steps in STEPS:
+        ways[LOOP, steps] = count, lambda steps=steps: loop(drops, steps) / speed
+    for rtol in TOLERANCES:
+        ways[LANES, rtol] = count, _lanes(drops, "run_pairs", rtol)
+        ways[DROPS, rtol] = count, _general(drops, FINITE, rtol)
+    for name, solve in _solvers(law).items():
+        for rtol in THEIRS:
+            few = _some(drops, slice(LEAST))
+            solve(few, rtol)
             start = process_time()
-            velocity = solve()
-            found[way] = min(found[way], process_time() - start)
-            error = np.abs(velocity - right).max(axis=1) / -drops.velocity[:, 0]
-            errors[way] = np.nanquantile(error, [0.5, 0.99])
-    return [(way, time / COUNT, *map(float, errors[way])) for way, time in found.items()]
+            solve(few, rtol)
+            each = (process_time() - start) / LEAST
+            few = _some(drops, slice(min(count, max(LEAST, int(SECONDS / each)))))
+            ways[name, rtol] = (
+                len(few.gravity),
+                lambda few=few, solve=solve, rtol=rtol: solve(few, rtol),
+            )
+    return ways
+
+
+def measure(law: str, progress: Callable[[str], None], count: int = COUNT) -> list[Entry]:
+    """Return what all ways need for random drops of a law."""
+    progress(f"{law}: compiling")
+    drops = random_drops(LAWS[law], count)
+    right = _general(drops, FINITE, TRUTH)().copy()
+    if law == "Hysteretic":  # the loop's rule for a second compression is another one
+        found = loop_of(law)(drops, STEPS[-1]) / -drops.velocity[:, :1]
+        alike = np.abs(found - right).max(axis=1) < SAME
+        drops, right = _some(drops, alike), right[alike]
+    return _raced(law, _ways(law, drops), right, progress)
+
+
+def rigid(progress: Callable[[str], None], count: int = RIGID_COUNT) -> list[Entry]:
+    """Return what rigid balls need: a sweep, the general engine, and a loop by hand."""
+    drops = random_drops(sb.Rigid(0.9), count)
+    general, speed = _general(drops, RIGID, TRUTH), -drops.velocity[:, :1]
+    ways = {
+        (LOOP, math.nan): (count, lambda: solve_rigid(drops) / speed),
+        (LANES, math.nan): (count, _lanes(drops, "run_two_rigid", LANE_EVENTS)),
+        (DROPS, math.nan): (count, general),
+    }
+    return _raced(RIGID_BALLS, ways, general().copy(), progress)
+
+
+def _raced(
+    law: str,
+    ways: dict[tuple[str, float], tuple[int, Way]],
+    right: np.ndarray,
+    progress: Callable[[str], None],
+) -> list[Entry]:
+    """Return the times and errors of ways that take turns; the first round compiles."""
+    spent = dict.fromkeys(ways, math.inf)
+    errors: dict[tuple[str, float], Any] = {}
+    for number in range(ROUNDS + 1):
+        for way, (count, solve) in ways.items():
+            progress(f"{law}: round {number} of {ROUNDS}, {way[0]}")
+            start = process_time()
+            ratio = solve()
+            spent[way] = min(spent[way], process_time() - start)
+            errors[way] = np.nanquantile(np.abs(ratio - right[:count]).max(axis=1), [0.5, 0.99])
+    return [
+        Entry(law, *way, count, spent[way] / count, *map(float, errors[way]))
+        for way, (count, _) in ways.items()
+    ]
+
+
+def all_entries(progress: Callable[[str], None]) -> list[Entry]:
+    """Return what all ways need under all laws, and with rigid balls."""
+    return [entry for law in LAWS for entry in measure(law, progress)] + rigid(progress)
+
+
+def rows(entries: list[Entry]) -> list[list[str]]:
+    """Return the entries as rows of text."""
+    return [
+        [
+            *(one.law, one.way, f"{one.setting:g}" if one.setting == one.setting else "–"),
+            *(f"{one.drops}", f"{1e6 * one.seconds:.3g}", f"{one.median:.1e}", f"{one.most:.1e}"),
+        ]
+        for one in entries
+    ]
+
+
+HEADS = ["law", "way", "steps or rtol", "drops", "µs a drop", "median error", "99 %"]
 
 
 def main() -> None:
     """Measure and print."""
     console = Console(highlight=False)
-    for name in LAWS:
-        table = Printed(title=name)
-        for head in ("way", "µs a drop", "median error", "99 %"):
-            table.add_column(head, justify="left" if head == "way" else "right")
-        for way, time, median, most in measure(name):
-            table.add_row(way, f"{1e6 * time:.2f}", f"{median:.1e}", f"{most:.1e}")
-        console.print(table)
+    with console.status("starting") as status:
+        found = rows(all_entries(status.update))
+    table = Printed(*HEADS)
+    for row in found:
+        table.add_row(*row)
+    console.print(table)
 
 
 if __name__ == "__main__":

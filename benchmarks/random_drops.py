@@ -7,6 +7,7 @@ that ω = 1 and lengths are in v0/ω.
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,6 +20,15 @@ OFFSETS = (1e-4, 1e-7, 1e-10)  # of a hard drop from the change, relative
 WIDTH = 1e-14  # relative, to which a change is bracketed
 VARIED = ("gap", "mass ratio", "stiffness ratio")
 FEW = 12  # contacts; beyond, changes crowd
+
+
+class PairDrops(NamedTuple):
+    """Drops of two balls under any law, in units of v0 and of the lower ball's contact."""
+
+    masses: np.ndarray  # (n, 2)
+    stiffnesses: np.ndarray  # (n, 2)
+    losses: np.ndarray  # (n, 2)
+    gaps: np.ndarray  # (n,)
 
 
 @dataclass(frozen=True)
@@ -44,6 +54,11 @@ class Drops:
     def stiffnesses(self) -> np.ndarray:
         """The stiffnesses, shape (n, 2), the floor's contact first."""
         return np.stack([np.ones(len(self)), 1.0 / self.ratios[:, 1]], axis=-1)
+
+    @property
+    def losses(self) -> np.ndarray:
+        """No losses, shape (n, 2)."""
+        return np.zeros((len(self), 2))
 
     @property
     def gaps(self) -> np.ndarray:

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from benchmarks import figures, laws, race, random_drops, report, startup
+from benchmarks import figures, many, pairs, race, random_drops, report, startup
 from benchmarks.peers import by_scipy, by_steps
 from benchmarks.peers.common import Peer
 from benchmarks.random_drops import Drops
@@ -82,20 +82,30 @@ def test_a_start_is_the_median_of_its_rounds_and_of_their_ratios(monkeypatch):
 
 
 @pytest.mark.slow
-def test_other_laws_are_told_next_to_scipy_at_equal_error(monkeypatch):
-    monkeypatch.setattr(laws, "THEIRS", (1e-6,))
-    monkeypatch.setattr(laws, "ROUNDS", 1)
-    entries = laws.nonlinear(quiet, drops=4)
-    assert [entry.law for entry in entries] == list(laws.LAWS)
+@pytest.mark.parametrize("law", pairs.LAWS)
+def test_all_ways_solve_the_same_pairs(law, monkeypatch):
+    for name, value in {"THEIRS": (1e-6,), "LEAST": 2, "SECONDS": 0.0, "ROUNDS": 1}.items():
+        monkeypatch.setattr(pairs, name, value)
+    entries = pairs.measure(law, quiet, count=200)
+    assert min(entry.seconds for entry in entries) > 0.0
+    loops = [entry.median for entry in entries if entry.way == pairs.LOOP]
+    assert loops[-1] < 0.1 * loops[0] < 1e-2
+    bound = {pairs.LANES: 1.0, pairs.DROPS: 1.0}
     for entry in entries:
-        assert 0.0 < entry.our_error <= entry.error < 1e-3
-        assert min(entry.seconds, entry.our_seconds) > 0.0
-    assert len(report.law_times(entries)) == len(figures.laws(entries).axes[0].lines) == 4
+        if entry.way != pairs.LOOP:
+            assert entry.median < bound.get(entry.way, 1e3) * entry.setting
+    assert len(report.figures.pairs(entries).axes[0].lines) == len(figures.WAYS)
 
 
-def test_rigid_collisions_are_told_next_to_a_division(monkeypatch):
-    monkeypatch.setattr(laws, "RIGID", 100)
-    monkeypatch.setattr(laws, "DIVISIONS", 10**4)
-    found = laws.rigid(quiet)
-    assert min(found.division, found.collision) > 0.0
-    assert laws.divisions(2) == 1.5
+def test_rigid_pairs_are_the_same_by_hand():
+    for entry in pairs.rigid(quiet, count=300):
+        assert entry.most < 1e-13
+        assert entry.seconds > 0.0
+
+
+@pytest.mark.slow
+def test_sweeps_of_all_sizes_are_measured(monkeypatch):
+    monkeypatch.setattr(many, "LAWS", {"Hertz": "sb.Hertz(1e6)"})
+    found = many.measure(quiet, sizes=(1000,), shared=1000)
+    assert [one.how for one in found] == ["memory"] * 3 + [many.FILE, many.WORKERS]
+    assert min(min(one.seconds, one.memory) for one in found) > 0.0

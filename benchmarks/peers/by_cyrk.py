@@ -5,18 +5,30 @@ from typing import Any
 import numba
 import numpy as np
 
-from benchmarks.peers.common import RTOL, Leg, Peer, State, one_by_one
+from benchmarks.peers.by_hand import spring
+from benchmarks.peers.common import FIRST_STEP, RTOL, Force, Leg, Peer, State, one_by_one
 
 
-def prepare() -> Any:
-    """Return the function that solves drops."""
+def prepare(force: Force = spring, rtol: float = RTOL) -> Any:
+    """Return the function that solves drops under a force, to a tolerance."""
     from CyRK import pysolve_ivp
 
     @numba.njit
-    def slope(rates: Any, _: float, y: Any, floor: float, upper: float, lift: float) -> None:
-        lower = floor * y[0] - upper * y[1]
+    def slope(
+        rates: Any,
+        _: float,
+        y: Any,
+        k0: float,
+        k1: float,
+        d0: float,
+        d1: float,
+        m0: float,
+        m1: float,
+    ) -> None:
+        floor, balls = force(k0, d0, y[0], y[2], 0.0), force(k1, d1, y[1], y[3], 0.0)
+        lower = m0 * (floor - balls)
         rates[0], rates[1] = y[2], y[3]
-        rates[2], rates[3] = -lower, lower - lift * y[1]
+        rates[2], rates[3] = -lower, lower - m1 * balls
 
     def event(i: int, closed: bool) -> Any:
         def compression(_: float, y: Any, *__: float) -> float:
@@ -28,6 +40,8 @@ def prepare() -> Any:
     events = {(i, closed): event(i, closed) for i in (0, 1) for closed in (False, True)}
 
     def leg_of(*numbers: float) -> Leg:
+        k0, k1, d0, d1, *over_mass = numbers
+
         def leg(state: State, closed: list[bool], end: float) -> tuple[State, list[int]]:
             done = pysolve_ivp(
                 slope,
@@ -35,9 +49,13 @@ def prepare() -> Any:
                 np.array(state),
                 method="DOP853",
                 events=tuple(events[i, closed[i]] for i in (0, 1)),
-                args=(numbers[0] * closed[0], numbers[1] * closed[1], numbers[2] * closed[1]),
-                rtol=RTOL,
-                atol=RTOL,
+                args=(
+                    *(k0 * closed[0], k1 * closed[1], d0 * closed[0], d1 * closed[1]),
+                    *over_mass,
+                ),
+                rtol=rtol,
+                atol=rtol,
+                first_step=FIRST_STEP if any(closed) else 0.0,
                 pass_dy_as_arg=True,
             )
             return done.y[:, -1].tolist(), [i for i in (0, 1) if len(done.t_events[i])]

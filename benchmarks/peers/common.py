@@ -4,18 +4,23 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from importlib import metadata
+from typing import Any
 
 import numpy as np
 
-from benchmarks.random_drops import Drops
+from benchmarks.random_drops import Drops, PairDrops
 
 RTOL = 1e-10  # what the general solvers are asked for, absolute and relative
+FIRST_STEP = 1e-3  # after an event: in a long one a contact could close and open, unseen
 HORIZON = 1e13  # by when the longest flight is over: balls may approach at 1e-10 v0
 LONGEST_CONTACT = 1e3  # ten times what the softest spring and the heaviest balls need
 MOST_EVENTS = 100  # per drop; a solver that needs more has lost its way
 
 Answer = tuple[np.ndarray, np.ndarray]
 """Final velocities in v0, up-positive, and numbers of contacts; both (n, 2)."""
+
+Force = Any
+"""A force of `by_hand`: of stiffness, loss, compression, its rate, and what is remembered."""
 
 State = list[float]
 """Compressions of the floor's contact and the balls', then their rates: c0, c1, u0, u1."""
@@ -35,7 +40,7 @@ class Peer:
     name: str
     needs: str
     how: str
-    prepare: Callable[[], Callable[[Drops], Answer]]
+    prepare: Callable[[], Callable[[Any], Answer]]
 
     def available(self) -> bool:
         """Return whether what it needs is installed."""
@@ -49,7 +54,7 @@ class Peer:
             return None
 
     @cached_property
-    def solve(self) -> Callable[[Drops], Answer]:
+    def solve(self) -> Callable[[Any], Answer]:
         """The function that solves drops, made once."""
         return self.prepare()
 
@@ -82,12 +87,16 @@ def story(leg: Leg, gap: float) -> tuple[list[float], list[int]]:
     return [-state[2], -state[2] - state[3]], counts
 
 
-def one_by_one(leg_of: Callable[[float, float, float], Leg]) -> Callable[[Drops], Answer]:
-    """Return the function that solves drops in turn; `leg_of` has k0/m0, k1/m0 and k1/m1."""
+def one_by_one(leg_of: Callable[..., Leg]) -> Callable[[Drops | PairDrops], Answer]:
+    """Return the function that solves drops in turn.
 
-    def solve(drops: Drops) -> Answer:
-        numbers = zip(stiffness_over_mass(drops).tolist(), drops.gaps.tolist(), strict=True)
-        stories = [story(leg_of(*springs), gap) for springs, gap in numbers]
+    `leg_of` has the stiffnesses and the losses of both contacts, 1/m0, and 1/m1.
+    """
+
+    def solve(drops: Drops | PairDrops) -> Answer:
+        contacts = np.hstack([drops.stiffnesses, drops.losses, 1.0 / drops.masses]).tolist()
+        numbers = zip(contacts, drops.gaps.tolist(), strict=True)
+        stories = [story(leg_of(*contact), gap) for contact, gap in numbers]
         velocities, counts = zip(*stories, strict=True)
         return np.array(velocities), np.array(counts)
 
