@@ -5,6 +5,10 @@ import os
 import subprocess
 import sys
 
+# The tests run side by side: threads of linear algebra that wait for a processor take ten times as
+# long as one thread.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 import matplotlib as mpl
 import pytest
 from hypothesis import settings

@@ -55,7 +55,7 @@ def test_conditioning_is_the_spread_of_runs_with_errors(first, last):
         random = np.random.default_rng(seed)
         drop, until = random_drop(random)
         result = sb.simulate(drop, until=until)
-        speeds = [sb.simulate(off(drop, random), until=until).rebound_speeds for _ in range(100)]
+        speeds = [sb.simulate(off(drop, random), until=until).rebound_speeds for _ in range(40)]
         spread = np.std(speeds, axis=0) / drop.reference_speed / ERROR
         known = (spread > 1e-6) & (spread * ERROR < 1e-3) & (result.conditioning * 1e-10 < 1e-3)
         ratio = result.conditioning[known] / spread[known]

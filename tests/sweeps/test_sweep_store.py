@@ -217,7 +217,7 @@ def test_a_cluster_that_is_lost_says_so_and_nothing_is_lost(out, tmp_path):
         with subprocess.Popen([*worker, "--local-directory", str(tmp_path)], **quiet) as second:
             try:
                 kill = {"progress": lambda done, _: scheduler.kill() if done else None}
-                client = distributed.Client(scheduler_file=str(tmp_path / "at"), timeout="30s")
+                client = distributed.Client(scheduler_file=str(tmp_path / "at"), timeout="10s")
                 client.wait_for_workers(1, timeout=30)
                 with pytest.raises(sb.StackbounceError, match="cluster failed; the blocks done"):
                     write(out, DROP, VALUES, client=client, block=32, **kill)

@@ -173,8 +173,7 @@ class Objective:
             found[number] = named[number.path] = named[parameter.name]
         if not ties:
             return found
-        numbers = {path: value_in(drop, number) for path, number in numbers_of(drop).items()}
-        follow = evaluate_ties(ties, numbers, named)
+        follow = evaluate_ties(ties, self._given[key], named)
         found |= {tie.number: follow[tie.number.path] for tie in ties}
         try:
             check(drop, found, lambda _: "")
@@ -182,6 +181,14 @@ class Objective:
             formulas = ", ".join(f"{tie.number.path} = {tie.text}" for tie in ties)
             raise type(error)(f"tie: {formulas} gives no drop: {error}".rstrip()) from error
         return found
+
+    @cached_property
+    def _given(self) -> dict[str, dict[str, float]]:
+        """All numbers of each drop by path, as they are where they do not vary."""
+        return {
+            key: {path: value_in(drop, number) for path, number in numbers_of(drop).items()}
+            for key, drop in self.drops.items()
+        }
 
     @cached_property
     def _varied(self) -> dict[str, dict[Number, Parameter]]:
@@ -229,8 +236,8 @@ class Objective:
         drop = self.drops[key]
         options = Options(math.inf, self.rtol, _EVENTS, _WORK * max(_FEW, len(drop.balls)))
         solved = solve_quantities(drop, self.rows(key, x), len(x), options)
-        bad = solved.status[~np.isin(solved.status, _DONE)]
-        self.unsolved.update(Status(code).name for code in bad)
+        ended = solved.status.tolist()
+        self.unsolved.update(Status(code).name for code in ended if code not in _DONE)
         return solved.tables
 
     def predict(self, key: str, x: Array) -> Array:

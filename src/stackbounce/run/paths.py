@@ -196,9 +196,7 @@ def _units(kind: Any) -> dict[str, str]:
 
 def base_rows(drop: Drop, count: int) -> Drops:
     """Return the parameters of ``count`` equal drops, as arrays (count, balls) and (count,)."""
-    return Drops._make(
-        np.full((count, *np.shape(numbers)), numbers) for numbers in drop_numbers(drop)
-    )
+    return Drops._make(np.repeat([numbers], count, axis=0) for numbers in drop_numbers(drop))
 
 
 def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
@@ -217,12 +215,6 @@ def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
     for number, values in rows.items():
         if number.part == "gaps":
             drops.gap[..., number.index + 1] = values
-        elif number.part == "velocities":
-            drops.velocity[..., number.index] = values
-        elif number.field == "gravity":
-            drops.gravity[...] = values
-        elif number.field == "impact_speed":
-            drops.velocity[...] = -values[..., None]
         elif number.field == "mass":
             drops.mass[..., number.index] = values
         elif number.part == "contacts":
@@ -231,17 +223,30 @@ def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
         _, first, second, third, fourth = contact_numbers(drop.contacts[i], varied)
         drops.first[..., i], drops.second[..., i] = first, second
         drops.third[..., i], drops.fourth[..., i] = third, fourth
+    _fill_motion(drops.velocity, drops.gravity, drop, rows)
+
+
+def _fill_motion(velocity: Array, gravity: Array, drop: Drop, rows: Rows) -> None:
+    """Replace what varies of the velocities (..., balls) and of gravity (...,)."""
+    for number, values in rows.items():
+        if number.part == "velocities":
+            velocity[..., number.index] = values
+        elif number.field == "gravity":
+            gravity[...] = values
+        elif number.field == "impact_speed":
+            velocity[...] = -values[..., None]
     if drop.height is not None:
         height = next((v for n, v in rows.items() if n.field == "height"), drop.height)
-        pull = np.where(drops.gravity > 0.0, drops.gravity, STANDARD_GRAVITY)
-        drops.velocity[...] = -np.sqrt(2.0 * pull * height)[..., None]
+        pull = np.where(gravity > 0.0, gravity, STANDARD_GRAVITY)
+        velocity[...] = -np.sqrt(2.0 * pull * height)[..., None]
 
 
 def incidence(drop: Drop, rows: Rows, count: int) -> tuple[Array, Array]:
     """Return the impact speeds in m/s and gravity in m/s**2 of some drops, (count,) each."""
-    drops = base_rows(drop, count)
-    fill(drops, drop, rows)
-    return np.max(np.abs(drops.velocity), axis=1), drops.gravity
+    velocity = np.repeat([drop.start_velocities], count, axis=0)
+    gravity = np.repeat(drop.gravity, count)
+    _fill_motion(velocity, gravity, drop, rows)
+    return np.max(np.abs(velocity), axis=1), gravity
 
 
 def check(drop: Drop, rows: Rows, where: Callable[[tuple[int, ...]], str]) -> None:
@@ -285,10 +290,14 @@ def _corners_hold(drop: Drop, rows: Rows) -> bool:
             return False
         if number.part != "velocities":
             parts.setdefault((number.part, number.index), {})[number] = ends
-    for ranges in parts.values():
+    for (part, index), ranges in parts.items():
         for corner in itertools.product(*ranges.values()):
             try:
-                drop_at(drop, dict(zip(ranges, corner, strict=True)))
+                if part in ("balls", "contacts"):  # a drop takes any valid one of the same kind
+                    chosen = {n.field: value for n, value in zip(ranges, corner, strict=True)}
+                    _changed(getattr(drop, part)[index], chosen, "")
+                else:
+                    drop_at(drop, dict(zip(ranges, corner, strict=True)))
             except (InvalidValue, InvalidType):
                 return False
     return True

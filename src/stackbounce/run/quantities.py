@@ -114,12 +114,12 @@ def solve_quantities(drop: Drop, rows: Rows, count: int, options: Options) -> So
     """
     out = solve(drop, rows, (count,), options)
     speed, gravity = incidence(drop, rows, count)
-    unsolved = np.isin(out.status, (Status.EVENT_LIMIT, Status.INVALID))
+    solved = (out.status != Status.EVENT_LIMIT) & (out.status != Status.INVALID)
     found = {}
-    for name, quantity in QUANTITIES.items():
-        with np.errstate(all="ignore"):
+    with np.errstate(all="ignore"):
+        for name, quantity in QUANTITIES.items():
             table = np.reshape(quantity.predict(out, speed, gravity), (count, -1))
-        if table.dtype.kind == "f":
-            table = np.where(np.isfinite(table) & ~unsolved[:, None], table, np.nan)
-        found[name] = table
+            if table.dtype.kind == "f":
+                table = np.where(np.isfinite(table) & solved[:, None], table, np.nan)
+            found[name] = table
     return Solved(found, out.status, out.work)

@@ -143,7 +143,7 @@ def close(ours, theirs):
 
 
 @pytest.mark.parametrize(
-    ("batches", "count"), [(12, 25), pytest.param(25, 200, marks=pytest.mark.slow)]
+    ("batches", "count"), [(12, 25), pytest.param(25, 100, marks=pytest.mark.slow)]
 )
 def test_random_drops_have_the_same_numbers(asked, batches, count):
     """Some drops would take minutes with more events."""
