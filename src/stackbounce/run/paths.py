@@ -182,10 +182,12 @@ def drop_at(drop: Drop, values: Mapping[Number, float]) -> Drop:
             parts[number.part][number.index] = value
     for (part, index), chosen in within.items():
         with placed(f"{part}.{index}."):
-            own = parts[part][index]
-            law = isinstance(own, ContactLaw)
-            parts[part][index] = own.replaced(chosen) if law else replace(own, **chosen)
+            parts[part][index] = _changed(parts[part][index], chosen)
     return replace(drop, **parts, **changes)
+
+
+def _changed(part: Any, chosen: Mapping[str, float]) -> Any:
+    return part.replaced(chosen) if isinstance(part, ContactLaw) else replace(part, **chosen)
 
 
 @functools.cache
@@ -295,7 +297,7 @@ def _corners_hold(drop: Drop, rows: Rows) -> bool:
             try:
                 if part in ("balls", "contacts"):  # a drop takes any valid one of the same kind
                     chosen = {n.field: value for n, value in zip(ranges, corner, strict=True)}
-                    _changed(getattr(drop, part)[index], chosen, "")
+                    _changed(getattr(drop, part)[index], chosen)
                 else:
                     drop_at(drop, dict(zip(ranges, corner, strict=True)))
             except (InvalidValue, InvalidType):
