@@ -32,6 +32,7 @@ simultaneous  the event loop of a stack with finite contacts
 log           the rows of the log of events
 work          what a run costs, by which it is limited
 batch         one drop, or many one after the other, in the arrays of one stack
+two_rigid     two rigid balls without gravity: many drops, fast
 two_springs   two balls on springs without gravity: many drops, fast
 pairs         two balls on other contacts without gravity: many drops, fast
 pair_step     one step of many such drops at the same time
