@@ -23,7 +23,7 @@ def bits(values):
 
 
 def numbers_of(drawn, rows=slice(None)):
-    """Return some drops of `fuzz.draw` as kernels take them."""
+    """Return some drops, also of `fuzz.draw`, as kernels take them."""
     return Drops._make(np.ascontiguousarray(getattr(drawn, name)[rows]) for name in Drops._fields)
 
 
@@ -77,18 +77,13 @@ def rigid_pairs(count, seed, reach=3.0, least=0.0):
 
     Some mass ratios are those at which balls end with one velocity, or a ball at rest.
     """
-    random = np.random.default_rng(seed)
-    mass = 10.0 ** random.uniform(-0.5 * reach, 0.5 * reach, (count, 2))
+    random, drops = np.random.default_rng(seed), pairs(count, seed, reach)
     some = random.random(count) < 0.1
-    mass[some, 1] = mass[some, 0] * random.choice([1 / 3, 0.5, 1.0, 2.0, 3.0], some.sum())
-    e = random.uniform(least, 1.0, (count, 2))
-    e[random.random(count) < 0.2] = 1.0
-    gap = 10.0 ** random.uniform(-6.0, 1.0, (count, 2))
-    gap[random.random(count) < 1.0 / 3.0] = 0.0
-    gap[:, 0] = 0.0
-    speed = np.repeat(10.0 ** random.uniform(-1.0, 1.0, (count, 1)), 2, axis=1)
-    form, nothing = np.full((count, 2), codes.RIGID), np.zeros((count, 2))
-    return Drops(mass, form, nothing, nothing, e, nothing, gap, -speed, np.zeros(count))
+    drops.mass[some, 1] = drops.mass[some, 0] * random.choice(
+        [1 / 3, 0.5, 1.0, 2.0, 3.0], some.sum()
+    )
+    e = np.where(random.random((count, 1)) < 0.2, 1.0, random.uniform(least, 1.0, (count, 2)))
+    return drops._replace(form=np.full((count, 2), codes.RIGID), third=e)
 
 
 def _room(drops):

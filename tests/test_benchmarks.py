@@ -90,17 +90,14 @@ def test_all_ways_solve_the_same_pairs(law, monkeypatch):
     assert min(entry.seconds for entry in entries) > 0.0
     loops = [entry.median for entry in entries if entry.way == pairs.LOOP]
     assert loops[-1] < 0.1 * loops[0] < 1e-2
-    bound = {pairs.LANES: 1.0, pairs.DROPS: 1.0}
-    for entry in entries:
-        if entry.way != pairs.LOOP:
-            assert entry.median < bound.get(entry.way, 1e3) * entry.setting
+    off = {entry.way: entry.median / entry.setting for entry in entries}
+    assert off[pairs.LANES] < 1.0 > off[pairs.DROPS]
+    assert max(off.values()) < 1e3
     assert len(report.figures.pairs(entries).axes[0].lines) == len(figures.WAYS)
 
 
 def test_rigid_pairs_are_the_same_by_hand():
-    for entry in pairs.rigid(quiet, count=300):
-        assert entry.most < 1e-13
-        assert entry.seconds > 0.0
+    assert max(entry.most for entry in pairs.rigid(quiet, count=300)) < 1e-13
 
 
 @pytest.mark.slow
@@ -108,4 +105,3 @@ def test_sweeps_of_all_sizes_are_measured(monkeypatch):
     monkeypatch.setattr(many, "LAWS", {"Hertz": "sb.Hertz(1e6)"})
     found = many.measure(quiet, sizes=(1000,), shared=1000, largest=False)
     assert [one.how for one in found] == ["memory"] * 3 + [many.FILE, many.WORKERS]
-    assert min(min(one.seconds, one.memory) for one in found) > 0.0

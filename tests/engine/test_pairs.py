@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
-from batches import bits, in_lanes, pairs, swept
+from batches import bits, in_lanes, numbers_of, pairs, rigid_pairs, swept
 from stackbounce.engine import codes, pair_step, two_springs
 from stackbounce.engine.elementary import swift_power
 from stackbounce.engine.memory import FINITE, lane_workspace
 from stackbounce.engine.pairs import run_pairs
-from stackbounce.engine.records import SCRATCH, Drops
+from stackbounce.engine.records import SCRATCH
 from stackbounce.run.batch import new_outcomes
 from stackbounce.run.engines import choose_lanes
 from stackbounce.run.options import run_options
@@ -23,10 +23,6 @@ LIMIT = 1_000_000
 
 def run(drops, rtol):
     return in_lanes("run_pairs", drops, rtol)
-
-
-def rows(drops, chosen):
-    return Drops._make(np.ascontiguousarray(array[chosen]) for array in drops)
 
 
 @pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9, 1e-12])
@@ -42,10 +38,11 @@ def test_as_the_general_engine(rtol, count):
     error = np.abs(out.rebound_ratio - exact.rebound_ratio)[known].max(axis=1)
     assert np.median(error) < rtol
     assert np.quantile(error, 0.98) < 10.0 * rtol
+    last = np.nanmax(exact.last_release[known], axis=1)[:, None]
     for name in ("first_touch", "last_release"):
         time, right = getattr(out, name)[known], getattr(exact, name)[known]
         assert np.array_equal(np.isnan(time), np.isnan(right))
-        late = np.abs(time - right) / np.nanmax(exact.last_release[known], axis=1)[:, None]
+        late = np.abs(time - right) / last
         assert np.nanquantile(late, 0.98) < 10.0 * rtol
 
 
@@ -90,8 +87,8 @@ def test_a_drop_does_not_depend_on_the_others():
     drops = pairs(700, seed=6)
     whole = run(drops, 1e-6)
     chosen = np.random.default_rng(1).permutation(700)
-    mixed = run(rows(drops, chosen), 1e-6)
-    alone = run(rows(drops, slice(13, 14)), 1e-6)
+    mixed = run(numbers_of(drops, chosen), 1e-6)
+    alone = run(numbers_of(drops, slice(13, 14)), 1e-6)
     done = whole.status == codes.FINISHED
     assert done[13]
     for array, other, single in zip(whole, mixed, alone, strict=True):
@@ -114,11 +111,13 @@ def test_plain_python_and_compiled_code(rtol):
 
 
 @pytest.mark.parametrize("scale", [1e-300, 1e-150, 1e150, 1e300])
-@pytest.mark.parametrize("name", ["mass", "first", "velocity"])
-def test_extremes_are_right_or_left_to_the_general_engine(name, scale):
-    drops = pairs(60, seed=8, reach=1.0)
-    drops = drops._replace(**{name: getattr(drops, name) * scale})
-    out = run(drops, 1e-6)
+@pytest.mark.parametrize("name", ["mass", "first", "velocity", "gap"])
+@pytest.mark.parametrize("rigid", [False, True])
+def test_extremes_are_right_or_left_to_the_general_engine(name, scale, rigid):
+    drops = rigid_pairs(60, 8, least=0.7) if rigid else pairs(60, seed=8, reach=1.0)
+    factor = [1.0, scale] if rigid and name == "mass" else scale
+    drops = drops._replace(**{name: getattr(drops, name) * factor})
+    out = in_lanes("run_two_rigid", drops, 10_000) if rigid else run(drops, 1e-6)
     done = out.status == codes.FINISHED
     assert np.isin(out.status, [codes.FINISHED, codes.ASK]).all()
     assert np.isfinite(out.rebound_ratio[done]).all()
