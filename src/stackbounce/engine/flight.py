@@ -22,8 +22,8 @@ from stackbounce.engine.kernels import kernel
 from stackbounce.engine.slots import BALLS_AT_REST, GRAVITY
 from stackbounce.engine.stack import RigidStack
 
-ALIKE = 8.0  # times a difference of speeds: up to this they give it to all digits
-LATE = 256.0  # times a wait: a later local time gets a new origin
+_ALIKE = 8.0  # times a difference of speeds: up to this they give it to all digits
+_LATE = 256.0  # times a wait: a later local time gets a new origin
 
 
 @kernel
@@ -105,9 +105,15 @@ def schedule_collision(stack: RigidStack, i: int) -> None:
     if pull > 0.0 and stack.law[i] != ABSENT:
         gap, rate, last = max(0.0, -stack.compression[i]), stack.rate[i], closing_rate(stack, i)
         wait = 2.0 * gap / (rate + last) if rate > 0.0 else (last - rate) / pull
-    if wait > 0.0 and wait * LATE < stack.now[0]:
+    if is_late(stack.now[0], wait):
         _move_origin(stack)
     schedule(stack.due, stack.heap, stack.place, i, stack.now[0] + wait)
+
+
+@kernel
+def is_late(now: float, wait: float) -> bool:
+    """Return whether local time needs a new origin before an event that it is to wait for."""
+    return wait > 0.0 and wait * _LATE < now
 
 
 @kernel
@@ -129,14 +135,17 @@ def change_rate(stack: RigidStack, i: int, change: float) -> None:
     cancellation would lose digits, and ``change`` is added to the old rate instead. Contact and
     balls must be anchored now.
     """
-    largest = max(abs(stack.rate[i]), abs(change))
     below = stack.velocity[i - 1] if i > 0 else 0.0
-    above = stack.velocity[i]
-    stack.rate_noise[i] = 64.0 * EPSILON * largest
-    if max(abs(below), abs(above)) <= ALIKE * largest:
-        stack.rate[i] = below - above
-    else:
-        stack.rate[i] += change
+    rate, noise = rate_after(stack.rate[i], change, below, stack.velocity[i])
+    stack.rate[i], stack.rate_noise[i] = rate, noise
+
+
+@kernel
+def rate_after(rate: float, change: float, below: float, above: float) -> tuple[float, float]:
+    """Return the closing rate after a change, see `change_rate`, and its round-off."""
+    largest = max(abs(rate), abs(change))
+    alike = max(abs(below), abs(above)) <= _ALIKE * largest
+    return below - above if alike else rate + change, 64.0 * EPSILON * largest
 
 
 @kernel

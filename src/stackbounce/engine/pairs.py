@@ -108,29 +108,7 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
     over_mass = 0.0
     for b in range(2):
         k = b * LANES + i
-        form, stiffness = drops.form[row, b], drops.first[row, b]
-        p, loss = drops.second[row, b], drops.third[row, b]
-        pure, slope, mu, nu, held = 1.0, 0.0, 0.0, 0.0, 0.0  # pure and slope: a and b
-        if form == DASHPOT:
-            p, loss, pure, slope = 1.0, loss / stiffness, 0.0, 1.0
-        elif form == VISCOELASTIC:
-            p, loss, pure, slope = 1.5, 1.5 * loss, 0.0, 1.0
-        elif form == RELAXING and loss > 0.0:
-            stiffness *= 1.0 + loss
-            nu = 1.0 / ((1.0 + loss) * drops.fourth[row, b])
-            p, mu, x[lane.CREEPS] = 1.0, loss * nu, 1.0
-        elif form == HYSTERETIC and loss > p:
-            held, x[lane.REMEMBERS] = loss - p, 1.0
-        if form in (POWER, RELAXING, HYSTERETIC):
-            loss = 0.0
-        x[lane.A + k], x[lane.B + k], x[lane.D + k] = pure, slope, loss
-        watched = (0.0, 0.0, 1.0) if held > 0.0 else (pure, slope, loss)
-        x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k] = watched
-        x[lane.STIFFNESS + k], x[lane.POWER + k] = stiffness, p - 1.0
-        x[lane.LOSS + k], x[lane.PEAK + k], x[lane.TURN + k] = held, 1.0, 0.0
-        x[lane.MU + k], x[lane.NU + k], x[lane.DRIFT + k] = mu, nu, 0.0
-        if p not in (1.0, 1.5):
-            x[lane.GENERAL] = 1.0
+        _take_law(drops, x, row, b, k)
         x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = -drops.gap[row, b], 0.0
         x[lane.Y + lane.S + k] = 0.0
         x[lane.COUNT + k], x[lane.FIRST + k], x[lane.LAST + k] = 0.0, math.nan, math.nan
@@ -138,14 +116,42 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
         _follow(x, k, IN)
         # k c^(p + 1) is about m v^2
         over_mass += x[lane.OVER_1 + b * LANES + i]
-        energy = speed * speed / (stiffness * over_mass)
-        x[lane.SCALE + k] = first * near_root(energy, int(2.0 * p + 2.5))
+        energy = speed * speed / (x[lane.STIFFNESS + k] * over_mass)
+        x[lane.SCALE + k] = first * near_root(energy, int(2.0 * x[lane.POWER + k] + 4.5))
     x[lane.Y + lane.R + i] = speed
     if x[lane.Y + lane.C + LANES + i] == 0.0:
         _press(x, i, LANES + i)
     _touch(x, i, i)
     if x[lane.PRESSING + LANES + i] > 0.0:  # from rest: it is compressed from now on
         x[lane.OWN + LANES + i] = 1.0
+
+
+@kernel
+def _take_law(drops: Drops, x: Floats, row: int, b: int, k: int) -> None:
+    """Set the numbers of contact k of a lane: those of ball b's contact in a row."""
+    form, stiffness = drops.form[row, b], drops.first[row, b]
+    p, loss = drops.second[row, b], drops.third[row, b]
+    pure, slope, mu, nu, held = 1.0, 0.0, 0.0, 0.0, 0.0  # pure and slope: a and b
+    if form == DASHPOT:
+        p, loss, pure, slope = 1.0, loss / stiffness, 0.0, 1.0
+    elif form == VISCOELASTIC:
+        p, loss, pure, slope = 1.5, 1.5 * loss, 0.0, 1.0
+    elif form == RELAXING and loss > 0.0:
+        stiffness *= 1.0 + loss
+        nu = 1.0 / ((1.0 + loss) * drops.fourth[row, b])
+        p, mu, x[lane.CREEPS] = 1.0, loss * nu, 1.0
+    elif form == HYSTERETIC and loss > p:
+        held, x[lane.REMEMBERS] = loss - p, 1.0
+    if form in (POWER, RELAXING, HYSTERETIC):
+        loss = 0.0
+    x[lane.A + k], x[lane.B + k], x[lane.D + k] = pure, slope, loss
+    watched = (0.0, 0.0, 1.0) if held > 0.0 else (pure, slope, loss)
+    x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k] = watched
+    x[lane.STIFFNESS + k], x[lane.POWER + k] = stiffness, p - 1.0
+    x[lane.LOSS + k], x[lane.PEAK + k], x[lane.TURN + k] = held, 1.0, 0.0
+    x[lane.MU + k], x[lane.NU + k], x[lane.DRIFT + k] = mu, nu, 0.0
+    if p not in (1.0, 1.5):
+        x[lane.GENERAL] = 1.0
 
 
 @kernel

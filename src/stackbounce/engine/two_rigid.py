@@ -8,8 +8,8 @@ status ASK.
 
 import math
 
-from stackbounce.engine.codes import ASK, EPSILON, FINISHED
-from stackbounce.engine.flight import ALIKE, LATE
+from stackbounce.engine.codes import ASK, FINISHED
+from stackbounce.engine.flight import is_late, rate_after
 from stackbounce.engine.kernels import kernel
 from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import Drops, Outcomes, Workspace
@@ -56,16 +56,11 @@ def run_two_rigid(drops: Drops, event_limit: int, out: Outcomes, space: Workspac
             change = (1.0 + e0) * rate0
             velocity0 = e0 * rate0
             rate0, noise0, compression0 = -e0 * rate0, noise0 * e0, 0.0
-            largest = max(abs(rate1), abs(change))
-            noise1 = 64.0 * EPSILON * largest
-            alike = max(abs(velocity0), abs(velocity1)) <= ALIKE * largest
-            rate1 = velocity0 - velocity1 if alike else rate1 + change
+            rate1, noise1 = rate_after(rate1, change, velocity0, velocity1)
             if not rate1 > noise1:
                 out.status[row] = FINISHED
                 break
-            wait = max(0.0, -compression1 / rate1)
-            now = 0.0 if wait > 0.0 and wait * LATE < now else now
-            before, wait = now, now + wait - now
+            before, wait = _wait(now, -compression1 / rate1)
             now, time = before + wait, time + wait
             compression0 += rate0 * (now - before)
             # that of the balls
@@ -79,15 +74,11 @@ def run_two_rigid(drops: Drops, event_limit: int, out: Outcomes, space: Workspac
                 velocity0 -= down
                 velocity1 = velocity0 + e1 * rate1
             rate1, noise1, compression1 = -e1 * rate1, noise1 * e1, 0.0
-            largest = max(abs(rate0), abs(down))
-            noise0 = 64.0 * EPSILON * largest
-            rate0 = -velocity0 if abs(velocity0) <= ALIKE * largest else rate0 + down
+            rate0, noise0 = rate_after(rate0, down, 0.0, velocity0)
             if not rate0 > noise0:
                 out.status[row] = FINISHED
                 break
-            wait = max(0.0, -compression0 / rate0)
-            now = 0.0 if wait > 0.0 and wait * LATE < now else now
-            before, wait = now, now + wait - now
+            before, wait = _wait(now, -compression0 / rate0)
             now, time = before + wait, time + wait
             compression1 += rate1 * (now - before)
             if rate0 < _SMALL * speed:
@@ -97,3 +88,10 @@ def run_two_rigid(drops: Drops, event_limit: int, out: Outcomes, space: Workspac
         out.first_touch[row, 0], out.first_touch[row, 1] = 0.0, first1
         out.last_release[row, 0], out.last_release[row, 1] = last0, last1
         find_ratios(drops, out, row)
+
+
+@kernel
+def _wait(now: float, wait: float) -> tuple[float, float]:
+    """Return the local time, with a new origin where that is needed, and the wait rounded in it."""
+    start = 0.0 if is_late(now, wait) else now
+    return start, start + max(0.0, wait) - start
