@@ -27,7 +27,7 @@ from stackbounce.engine.codes import ASK
 from stackbounce.engine.memory import FINITE, RIGID, Engine, lane_workspace, memory
 from stackbounce.engine.records import Drops
 from stackbounce.engine.tables import Table
-from stackbounce.engine.work import LANE_EVENTS
+from stackbounce.engine.work import ASKED_RTOL, LANE_EVENTS
 from stackbounce.model.laws import ContactLaw, contact_numbers
 from stackbounce.run.batch import new_outcomes
 
@@ -108,7 +108,8 @@ def _lanes(drops: Drops, kernel: str, limit: float) -> Way:
         solve(*given)
         asked = np.flatnonzero(out.status == ASK)
         if len(asked):
-            out.rebound_ratio[asked] = _general(_some(drops, asked), FINITE, limit)()
+            some = _some(drops, asked)
+            out.rebound_ratio[asked] = _general(some, FINITE, min(limit, ASKED_RTOL))()
         return out.rebound_ratio
 
     return call

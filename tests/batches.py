@@ -6,6 +6,7 @@ from stackbounce.engine import codes, native
 from stackbounce.engine.memory import lane_workspace, memory
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
+from stackbounce.run import batch
 from stackbounce.run.batch import new_outcomes
 
 _FORMS = (
@@ -39,6 +40,14 @@ def in_lanes(entry, drops, limit):
     out, space = _room(drops), Table(lane_workspace(compiled=True))
     native.compiled(entry)(Table(drops), limit, Table(out), space)
     return out
+
+
+def swept_in_lanes(entry, drops, options):
+    """Return the outcomes of two balls, and how many of them the general engine had to find."""
+    out, limit = _room(drops), options.rtol if entry == "run_pairs" else options.event_limit
+    asked = int((in_lanes(entry, drops, limit).status == codes.ASK).sum())
+    batch._run_lanes(entry, drops, out, options, True, lambda: None)
+    return out, asked
 
 
 def pairs(count, seed, reach=3.0):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
-from batches import bits, in_lanes, numbers_of, pairs, swept
+from batches import bits, numbers_of, pairs, swept, swept_in_lanes
 from fuzz import draw
 from fuzz.replay import drop_of, options_of
 from stackbounce.engine import codes, native
@@ -42,16 +42,6 @@ def simulated(drop, options, times=()):
     head = [result.status, result.end_time, len(result.log)]
     parts = [head, result.final_velocities, result.log, result.infinite, *samples[1:]]
     return np.concatenate(parts), result.end_time
-
-
-def swept_in_lanes(entry, drops, options, limit):
-    """Return the outcomes of two balls, and how many of them the general engine had to find."""
-    out = in_lanes(entry, drops, limit)
-    asked = np.flatnonzero(out.status == codes.ASK)
-    answers = swept(FINITE, Drops._make(array[asked] for array in drops), options)
-    for array, answer in zip(out, answers, strict=True):
-        array[asked] = answer
-    return out, len(asked)
 
 
 def compare(jobs, expected, folder):
@@ -107,7 +97,7 @@ def two_springs(count):
 @pytest.mark.parametrize("count", [1, 300, pytest.param(10_800, marks=pytest.mark.slow)])
 def test_two_springs(tmp_path, count):
     drops, options = two_springs(count), Options(math.inf, 1e-12, 1_000_000)
-    out, asked = swept_in_lanes("run_two_springs", drops, options, options.event_limit)
+    out, asked = swept_in_lanes("run_two_springs", drops, options)
     compare([job(SPRINGS, drops, False, options)], list(map(np.ravel, out)), tmp_path)
     assert (out.status == codes.FINISHED).any()
     assert asked <= count // 2
@@ -117,7 +107,7 @@ def test_two_springs(tmp_path, count):
 @pytest.mark.parametrize("rtol", [1e-4, 1e-9])
 def test_pairs(tmp_path, rtol):
     drops, options = pairs(300, SEED), Options(math.inf, rtol, 1_000_000)
-    out, asked = swept_in_lanes("run_pairs", drops, options, rtol)
+    out, asked = swept_in_lanes("run_pairs", drops, options)
     compare([job(PAIRS, drops, False, options)], list(map(np.ravel, out)), tmp_path)
     assert 0 < asked < 100
 

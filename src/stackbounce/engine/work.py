@@ -14,6 +14,12 @@ WORK_LIMIT = 150_000_000
 LANE_EVENTS = 10_000
 """An event limit that no drop reaches to which an engine in lanes gives an answer."""
 
+ASKED_RTOL = 1e-12
+"""The tolerance of a drop that an engine in lanes leaves to the general one, or a smaller one.
+
+Such a drop is close to another number of contacts, which a larger tolerance might give it.
+"""
+
 SLICE = 2**17
 """The work after which a kernel returns to its caller, who may stop it: some milliseconds."""
 

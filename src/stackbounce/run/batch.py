@@ -31,7 +31,7 @@ from stackbounce.engine.memory import (
 )
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
-from stackbounce.engine.work import LANE_EVENTS
+from stackbounce.engine.work import ASKED_RTOL, LANE_EVENTS
 from stackbounce.model import Drop
 from stackbounce.run.engines import choose_compiled, choose_engine, choose_lanes
 from stackbounce.run.options import Options, check_room
@@ -196,7 +196,8 @@ def _run_lanes(
         some = Drops._make(array[asked] for array in drops)
         answers = Outcomes._make(array[asked] for array in out)
         engine = RIGID if lanes == "run_two_rigid" else FINITE
-        _run_rows(engine, (), some, answers, options, compiled, pause)
+        closer = options._replace(rtol=min(options.rtol, ASKED_RTOL))
+        _run_rows(engine, (), some, answers, closer, compiled, pause)
         for array, answer in zip(out, answers, strict=True):
             array[asked] = answer
 

@@ -85,7 +85,7 @@ class Engine {
       }
       return room.readAll(out);
     });
-    if (lanes) this.answer(drops, outcomes, { rtol, until, eventLimit });
+    if (lanes) this.answer(drops, outcomes, { rtol: Math.min(rtol, this.layout.asked_rtol), until, eventLimit });
     return outcomes;
   }
 
