@@ -9,11 +9,6 @@ from stackbounce.engine.tables import Table
 from stackbounce.run import batch
 from stackbounce.run.batch import new_outcomes
 
-_FORMS = (
-    *(codes.POWER, codes.HYSTERETIC, codes.DASHPOT),
-    *(codes.VISCOELASTIC, codes.HUNT_CROSSLEY, codes.RELAXING),
-)
-
 
 def bits(values):
     """Return the bits of numbers, where all that is not a number is alike."""
@@ -57,7 +52,7 @@ def pairs(count, seed, reach=3.0):
     third of the balls touch, gaps of the others are 1e-6 to 10 compressions.
     """
     random = np.random.default_rng(seed)
-    form = random.choice(_FORMS, (count, 2))
+    form = random.choice(codes.PAIR_FORMS, (count, 2))
     mass = 10.0 ** random.uniform(-0.5 * reach, 0.5 * reach, (count, 2))
     stiffness = 10.0 ** (6.0 + random.uniform(-0.5 * reach, 0.5 * reach, (count, 2)))
     speed = np.repeat(10.0 ** random.uniform(-1.0, 1.0, (count, 1)), 2, axis=1)

@@ -219,10 +219,10 @@ def _open(x: Floats, k: int) -> None:
 
 @kernel
 def _follow(x: Floats, k: int, curve: float) -> None:
-    """Let contact k follow one of its curves: all but IN have hysteresis (see `cycles`).
+    """Let contact k follow one of its curves, see `cycles`; without hysteresis this is IN.
 
-    The elements that touched before it was compressed again remember the peak C, the others a peak
-    that is now.
+    OUT begins at a peak, and IN_AGAIN at a turning point below it. OUT_AGAIN begins at a second
+    peak, which is now: elements above the turning point remember that, the others the first one.
     """
     c, peak, loads = x[lane.Y + lane.C + k], x[lane.PEAK + k], curve in (IN, IN_AGAIN)
     turn = x[lane.TURN + k] if curve >= IN_AGAIN else 0.0

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from stackbounce.run.paths import Number
 
 _PAIRS_RTOL = 1e-13  # the least tolerance: round-off accumulates over some 100 steps
+_CYCLES_RTOL = 1e-11  # with hysteresis: the general engine is as fast below
 
 
 def choose_compiled(compiled: bool | None) -> bool:
@@ -79,5 +80,6 @@ def choose_lanes(drop: Drop, numbers: "Iterable[Number]", options: Options) -> s
         return "run_two_rigid"
     if set(contacts) == {(codes.POWER, 1.0)} and all(n.field != "exponent" for n in numbers):
         return "run_two_springs"
-    known = all(form in codes.PAIR_FORMS for form, _ in contacts) and options.rtol >= _PAIRS_RTOL
-    return "run_pairs" if known else None
+    forms = {form for form, _ in contacts}
+    least = _CYCLES_RTOL if codes.HYSTERETIC in forms else _PAIRS_RTOL
+    return "run_pairs" if forms <= set(codes.PAIR_FORMS) and options.rtol >= least else None
