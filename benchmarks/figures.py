@@ -179,7 +179,8 @@ def pairs(entries: list[PairEntry]) -> Figure:
                 look = {"color": color, "marker": mark, "linestyle": stroke, "markersize": 4}
                 times = [1e6 * one.seconds for one in row]
                 ax.loglog(times, _seen(one.median for one in row), label=way, **look)
-            ax.text(0.96, 0.95, law, transform=ax.transAxes, ha="right", va="top", fontsize=9)
+            ax.text(0.96, 0.05, law, transform=ax.transAxes, ha="right", fontsize=9)
+        panels[0, 0].set(xlim=(1.0, 3e4), ylim=(2e-20, 1e-2))
         for ax in list(panels.flat)[len(laws) :]:
             ax.axis("off")
         for ax in panels[1]:
