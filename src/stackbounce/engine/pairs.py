@@ -1,46 +1,23 @@
 """Many drops of two balls on contacts with a nonlinear or lossy force, without gravity, in lanes.
 
 All lanes step together (`pair_step`). Between steps, lanes that meet an event are looked after one
-by one: a step is aimed at the event, the event is applied, the balls fly freely until they touch
-again, or the drop ends and the lane takes the next one. If it is not sure whether a contact
-touches, the lane ends with the status ASK, and the general engine solves that drop. No lane affects
-another.
+by one (`pair_events`). A lane whose drop has ended takes the next one. No lane affects another.
 """
 
 import math
 
+from stackbounce.engine import codes
 from stackbounce.engine import pair_step as lane
-from stackbounce.engine.codes import (
-    ASK,
-    DASHPOT,
-    FINISHED,
-    HYSTERETIC,
-    POWER,
-    RELAXING,
-    VISCOELASTIC,
-)
-from stackbounce.engine.elementary import exp, near_root, power
+from stackbounce.engine.elementary import near_root, power
 from stackbounce.engine.kernels import Floats, kernel
-from stackbounce.engine.pair_step import EVENT, LANES, ROOT, TIME, judge_step, take_step
+from stackbounce.engine.pair_events import begin_open, free_rate, go_by, look_after, press, touch
+from stackbounce.engine.pair_step import LANES, TIME, judge_step, take_step
 from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import Drops, Outcomes, Workspace
 
-# kinds of event; GAIN: the gain that is watched is 0; OPEN: of an unloaded contact; RETURN: the
-# compression comes back to a turning point
-TOUCH, RELEASE, GAIN, OPEN, RETURN = 0.0, 1.0, 2.0, 3.0, 4.0
-# curves of a contact with hysteresis: loading, out from the peak, in again, and out from there
-IN, OUT, IN_AGAIN, OUT_AGAIN = 0.0, 1.0, 2.0, 3.0
-
 _STEP = 0.4  # the error allowed in one step, over rtol
-_SLOW = 1e-5  # of the impact speed: slower contacts are left to the general engine
-_TOGETHER = 1e-6  # of a time: contacts that touch so close to each other are left to it, too
-_NEAR = 0.4  # of the next step by time: an event within it is aimed at
-_PART = 0.65  # of the way to a later event, or to one that a step could not be aimed at
-_STEADY = 0.4  # of the mean rate up to an event: the least rate at which a step is aimed at it
-_ODD = 0.1  # of a way: the least by which it is odd
 _FIRST = 0.9  # of the root of a typical compression: the first step by a root, for an error of 1
 _FIRST_ROOT = 24  # it falls with this root of the error
-_ROUNDS = 12  # of Newton's method
 _COARSE = 2.0  # the largest estimate of order 3, for an error of 1; it falls with its cube root
 
 
@@ -73,7 +50,7 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
     while left > 0:
         for i in range(LANES):
             if x[lane.STATUS + i] == 0.0 and x[lane.ASKS + i] > 0.0:
-                _look_after(x, i)
+                look_after(x, i)
             while x[lane.STATUS + i] != 0.0:
                 done = int(x[lane.ROW + i])
                 if done >= 0:
@@ -91,11 +68,12 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
 @kernel
 def _idle(x: Floats, i: int) -> None:
     """Let a lane fly without a drop."""
-    x[lane.STATUS + i], x[lane.ROW + i], x[lane.V0 + i], x[lane.STEPS + i] = ASK, -1.0, 1.0, 0.0
+    x[lane.STATUS + i], x[lane.ROW + i] = codes.ASK, -1.0
+    x[lane.V0 + i], x[lane.STEPS + i] = 1.0, 0.0
     for k in (i, LANES + i):
         x[lane.PRESSING + k], x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = 0.0, -1.0, 0.0
         x[lane.Y + lane.S + k], x[lane.MU_NOW + k], x[lane.NU + k] = 0.0, 0.0, 0.0
-    _go_by(x, i, TIME, 1.0)
+    go_by(x, i, TIME, 1.0)
 
 
 @kernel
@@ -112,16 +90,15 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
         x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = -drops.gap[row, b], 0.0
         x[lane.Y + lane.S + k] = 0.0
         x[lane.COUNT + k], x[lane.FIRST + k], x[lane.LAST + k] = 0.0, math.nan, math.nan
-        _open(x, k)
-        _follow(x, k, IN)
+        begin_open(x, k)
         # k c^(p + 1) is about m v^2
         over_mass += x[lane.OVER_1 + b * LANES + i]
         energy = speed * speed / (x[lane.STIFFNESS + k] * over_mass)
         x[lane.SCALE + k] = first * near_root(energy, int(2.0 * x[lane.POWER + k] + 4.5))
     x[lane.Y + lane.R + i] = speed
     if x[lane.Y + lane.C + LANES + i] == 0.0:
-        _press(x, i, LANES + i)
-    _touch(x, i, i)
+        press(x, i, LANES + i)
+    touch(x, i, i)
     if x[lane.PRESSING + LANES + i] > 0.0:  # from rest: it is compressed from now on
         x[lane.OWN + LANES + i] = 1.0
 
@@ -132,17 +109,17 @@ def _take_law(drops: Drops, x: Floats, row: int, b: int, k: int) -> None:
     form, stiffness = drops.form[row, b], drops.first[row, b]
     p, loss = drops.second[row, b], drops.third[row, b]
     pure, slope, mu, nu, held = 1.0, 0.0, 0.0, 0.0, 0.0  # pure and slope: a and b
-    if form == DASHPOT:
+    if form == codes.DASHPOT:
         p, loss, pure, slope = 1.0, loss / stiffness, 0.0, 1.0
-    elif form == VISCOELASTIC:
+    elif form == codes.VISCOELASTIC:
         p, loss, pure, slope = 1.5, 1.5 * loss, 0.0, 1.0
-    elif form == RELAXING and loss > 0.0:
+    elif form == codes.RELAXING and loss > 0.0:
         stiffness *= 1.0 + loss
         nu = 1.0 / ((1.0 + loss) * drops.fourth[row, b])
         p, mu, x[lane.CREEPS] = 1.0, loss * nu, 1.0
-    elif form == HYSTERETIC and loss > p:
+    elif form == codes.HYSTERETIC and loss > p:
         held, x[lane.REMEMBERS] = loss - p, 1.0
-    if form in (POWER, RELAXING, HYSTERETIC):
+    if form in (codes.POWER, codes.RELAXING, codes.HYSTERETIC):
         loss = 0.0
     x[lane.A + k], x[lane.B + k], x[lane.D + k] = pure, slope, loss
     watched = (0.0, 0.0, 1.0) if held > 0.0 else (pure, slope, loss)
@@ -158,367 +135,11 @@ def _take_law(drops: Drops, x: Floats, row: int, b: int, k: int) -> None:
 def _write_outcome(drops: Drops, out: Outcomes, x: Floats, i: int, row: int) -> None:
     """Write the outcome of the drop in lane i."""
     out.status[row] = int(x[lane.STATUS + i])
-    lower = -_free_rate(x, i)
+    lower = -free_rate(x, i)
     out.velocity[row, 0] = lower
-    out.velocity[row, 1] = lower - _free_rate(x, LANES + i)
+    out.velocity[row, 1] = lower - free_rate(x, LANES + i)
     for b in range(2):
         k = b * LANES + i
         out.collisions[row, b] = int(x[lane.COUNT + k])
         out.first_touch[row, b], out.last_release[row, b] = x[lane.FIRST + k], x[lane.LAST + k]
     find_ratios(drops, out, row)
-
-
-@kernel
-def _go_by(x: Floats, i: int, mode: float, h: float) -> None:
-    """Let the next step of a lane go by time; a caller changes the weights for another variable."""
-    x[lane.MODE + i], x[lane.H + i], x[lane.START + i] = mode, h, 0.0
-    x[lane.M + i], x[lane.N + i], x[lane.Q + i] = 1.0, 0.0, 1.0
-    for k in (i, LANES + i):
-        x[lane.OWN + k], x[lane.BY_R + k], x[lane.BY_A + k] = 0.0, 0.0, 0.0
-
-
-@kernel
-def _go_by_contact(x: Floats, i: int, k: int, mode: float, h: float) -> None:
-    """Let the next step of a lane go by the compression of contact k."""
-    _go_by(x, i, mode, h)
-    x[lane.Q + i], x[lane.OWN + k], x[lane.BY_R + k] = 0.0, 1.0, 1.0
-
-
-@kernel
-def _go_by_root(x: Floats, i: int, k: int, mode: float, start: float, h: float) -> None:
-    """Let the next step of a lane go by the root of the compression of contact k."""
-    _go_by_contact(x, i, k, mode, h)
-    x[lane.START + i], x[lane.M + i], x[lane.N + i] = start, 0.0, 1.0
-
-
-@kernel
-def _least_rate(x: Floats, i: int) -> float:
-    """Return the rate below which it is not sure whether a contact closes or opens."""
-    unsure = max(lane.UNSURE, lane.UNSURE_LATER * x[lane.STEPS + i])
-    return max(_SLOW, unsure * x[lane.TOLERANCE]) * x[lane.V0 + i]
-
-
-@kernel
-def _press(x: Floats, i: int, k: int) -> None:
-    """Let contact k press from now on."""
-    x[lane.PRESSING + k], x[lane.SIGN + k], x[lane.GAIN_SIGN + k] = x[lane.STIFFNESS + k], 1.0, 1.0
-    x[lane.MU_NOW + k] = x[lane.MU + k]
-    if x[lane.LOSS + k] > 0.0:
-        _follow(x, k, IN)
-    if x[lane.COUNT + k] == 0.0:
-        x[lane.FIRST + k] = x[lane.Y + lane.T + i]
-    x[lane.COUNT + k] += 1.0
-
-
-@kernel
-def _open(x: Floats, k: int) -> None:
-    """Let contact k be open from now on."""
-    x[lane.PRESSING + k], x[lane.SIGN + k], x[lane.GAIN_SIGN + k] = 0.0, -1.0, 0.0
-    x[lane.MU_NOW + k] = 0.0
-
-
-@kernel
-def _follow(x: Floats, k: int, curve: float) -> None:
-    """Let contact k follow one of its curves, see `cycles`; without hysteresis this is IN.
-
-    OUT begins at a peak, and IN_AGAIN at a turning point below it. OUT_AGAIN begins at a second
-    peak, which is now: elements above the turning point remember that, the others the first one.
-    """
-    c, peak, loads = x[lane.Y + lane.C + k], x[lane.PEAK + k], curve in (IN, IN_AGAIN)
-    turn = x[lane.TURN + k] if curve >= IN_AGAIN else 0.0
-    held = x[lane.STIFFNESS + k] * power(turn, x[lane.POWER + k] + 1.0)
-    kept = 0.0 if loads else 1.0
-    if curve == OUT_AGAIN:
-        kept = power(peak / c, x[lane.LOSS + k])
-    x[lane.CURVE + k], x[lane.OVER_PEAK + k] = curve, 1.0 / peak
-    x[lane.ADDED + k], x[lane.KEPT + k] = 1.0 if loads else 0.0, kept
-    x[lane.HELD + k], x[lane.OFFSET + k] = held * (1.0 - kept), -held if loads else 0.0
-    x[lane.LEVEL + k] = peak if curve == IN_AGAIN else turn
-
-
-@kernel
-def _turn_or_return(x: Floats, i: int, k: int, kind: float) -> None:
-    """Let contact k with hysteresis go over to another curve: at rest, or where a cycle closes.
-
-    The general engine follows a cycle inside a cycle, and one that turns close to where it ends.
-    """
-    curve, near = x[lane.CURVE + k], _least_rate(x, i) * x[lane.BY_TIME + i]
-    if kind == RETURN:
-        curve -= 2.0
-    elif curve == OUT_AGAIN or abs(x[lane.Y + lane.C + k] - x[lane.LEVEL + k]) < near:
-        x[lane.STATUS + i] = ASK
-    else:
-        if curve == IN:
-            x[lane.PEAK + k] = x[lane.Y + lane.C + k]
-        elif curve == OUT:
-            x[lane.TURN + k] = x[lane.Y + lane.C + k]
-        x[lane.Y + lane.R + k] = 0.0
-        curve += 1.0
-    x[lane.SIGN + k] = -1.0 if curve == IN_AGAIN else 1.0
-    x[lane.GAIN_SIGN + k] = 1.0 if curve in (IN, IN_AGAIN) else -1.0
-    _follow(x, k, curve)
-    _go_by(x, i, TIME, x[lane.BY_TIME + i])
-
-
-@kernel
-def _touch(x: Floats, i: int, k: int) -> None:
-    """Let contact k touch now; the next step goes by the root of its compression."""
-    rate = x[lane.Y + lane.R + k]
-    if not rate > _least_rate(x, i):
-        x[lane.STATUS + i] = ASK
-        return
-    x[lane.Y + lane.C + k] = 0.0
-    _press(x, i, k)
-    by_scale = x[lane.SCALE + k] * math.sqrt(rate / x[lane.V0 + i])
-    _go_by_root(x, i, k, ROOT, 0.0, min(by_scale, 2.0 * math.sqrt(rate * x[lane.BY_TIME + i])))
-
-
-@kernel
-def _free_rate(x: Floats, k: int) -> float:
-    """Return the rate at which the gap of contact k closes, without its surface's own rate."""
-    return x[lane.Y + lane.R + k] - x[lane.NU + k] * x[lane.Y + lane.S + k]
-
-
-@kernel
-def _advance(x: Floats, k: int, wait: float) -> None:
-    """Let both sides of contact k fly freely for a time, while its surface recovers."""
-    r, surface = _free_rate(x, k), x[lane.Y + lane.S + k]
-    x[lane.Y + lane.C + k] += wait * r
-    if surface != 0.0:
-        left = surface * exp(-x[lane.NU + k] * wait)
-        x[lane.Y + lane.C + k] += surface - left
-        x[lane.Y + lane.S + k], x[lane.Y + lane.R + k] = left, r + x[lane.NU + k] * left
-
-
-@kernel
-def _flight_time(x: Floats, k: int) -> float:
-    """Return how long contact k flies until it touches: c + r t + s (1 - e^(-nu t)) = 0.
-
-    The sum grows ever more slowly, so that Newton's method comes to the root from below.
-    """
-    c, r, nu, surface = x[lane.Y + lane.C + k], _free_rate(x, k), x[lane.NU + k], 0.0
-    time = -c / x[lane.Y + lane.R + k]
-    surface = x[lane.Y + lane.S + k]
-    if surface != 0.0:
-        for _ in range(_ROUNDS):
-            left = surface * exp(-nu * time)
-            time -= (c + r * time + surface - left) / (r + nu * left)
-    return time
-
-
-@kernel
-def _fly(x: Floats, i: int) -> None:
-    """Let both balls fly freely until a contact touches, or end the drop."""
-    first, contact, least = math.inf, -1, _least_rate(x, i)
-    for k in (i, LANES + i):
-        c, r = x[lane.Y + lane.C + k], _free_rate(x, k)
-        touches = r > least
-        wait = _flight_time(x, k) if touches and c < 0.0 else math.inf
-        close = abs(wait - first) < _TOGETHER * wait
-        if not (touches or x[lane.Y + lane.R + k] < -least) or close or (touches and c > 0.0):
-            x[lane.STATUS + i] = ASK
-            return
-        if wait < first:
-            first, contact = wait, k
-    if contact < 0:
-        x[lane.STATUS + i] = FINISHED
-        return
-    for k in (i, LANES + i):
-        _advance(x, k, first)
-        if x[lane.Y + lane.C + k] <= 0.0:
-            _open(x, k)
-    x[lane.Y + lane.T + i] += first
-    _touch(x, i, contact)
-
-
-@kernel
-def _look_after(x: Floats, i: int) -> None:
-    """Decide how a lane goes on whose step meets an event, or may, or comes near one."""
-    doubt = x[lane.DOUBT + i] + x[lane.DOUBT + LANES + i] > 0.0
-    if x[lane.STEPS + i] > lane.MOST_STEPS:
-        x[lane.STATUS + i] = ASK
-    elif x[lane.MODE + i] != EVENT:
-        if not doubt or not _retry(x, i):
-            _take(x, i)
-    elif doubt or x[lane.OVER_ERROR + i] < 1.0 or not _is_steady(x, i):
-        _go_by(x, i, TIME, _PART * x[lane.WAIT + i])
-    else:
-        _apply_event(x, i)
-
-
-@kernel
-def _is_steady(x: Floats, i: int) -> bool:
-    """Return whether the compression of the contact of an event moved as its derivatives say.
-
-    If the rate comes near 0 on the way, neither the step nor its error can be trusted. A contact
-    that comes to rest must not have opened before.
-    """
-    k, dt = int(x[lane.CONTACT + i]), x[lane.DT + i]
-    left = x[lane.NEW + lane.C + k] - x[lane.LEVEL + k]
-    if x[lane.KIND + i] == GAIN and not x[lane.SIGN + k] * left > 0.0:
-        return False
-    mean = 0.5 * (x[lane.Y + lane.R + k] + x[lane.NEW + lane.R + k])
-    mean += dt * (x[lane.ACC + k] - x[lane.ACC_NEW + k]) / 12.0
-    moved = x[lane.NEW + lane.C + k] - x[lane.Y + lane.C + k]
-    return abs(moved - dt * mean) < _ODD * abs(moved)
-
-
-@kernel
-def _take(x: Floats, i: int) -> None:
-    """Take the step of a lane, and aim the next one at the event that is expected in it, if any."""
-    for k in range(i, lane.STATE, LANES):
-        x[lane.Y + k] = x[lane.NEW + k]
-    grow = x[lane.GROW + i]
-    if x[lane.MODE + i] == TIME:
-        x[lane.H + i] *= grow
-    else:
-        _go_by(x, i, TIME, lane.ONWARD * x[lane.DT + i] * min(grow, 1.0))
-    x[lane.BY_TIME + i] = x[lane.H + i]
-    first, contact, kind = math.inf, -1, TOUCH
-    for k in (i, LANES + i):
-        c, r, acc = x[lane.Y + lane.C + k], x[lane.Y + lane.R + k], x[lane.ACC_NEW + k]
-        left = c - x[lane.LEVEL + k]
-        if left * r < 0.0:
-            square = r * r - 2.0 * acc * left
-            wait = 2.0 * abs(left) / (abs(r) + math.sqrt(square)) if square > 0.0 else abs(left / r)
-            if wait < first:
-                first, contact, kind = wait, k, _kind(x, k)
-        gain = x[lane.END_A + k] + x[lane.END_B + k] * c + x[lane.END_D + k] * r
-        slope = x[lane.END_B + k] * r + x[lane.END_D + k] * acc
-        sign = x[lane.GAIN_SIGN + k]
-        if (sign > 0.0 or _turns(x, k)) and sign * gain < -sign * slope * first:
-            first, contact, kind = -gain / slope, k, GAIN
-    ahead = first / x[lane.NEXT + i]
-    if ahead < 1.5 and not (ahead < _NEAR and _aim(x, i, contact, kind, first, lane.ACC_NEW)):
-        x[lane.H + i] = min(x[lane.H + i], _PART * first)
-
-
-@kernel
-def _kind(x: Floats, k: int) -> float:
-    """Return the kind of event that comes when the compression of contact k is 0."""
-    if x[lane.LEVEL + k] > 0.0:
-        return RETURN
-    if x[lane.PRESSING + k] > 0.0:  # the gain of a damped contact with a = 0 ends before
-        return GAIN if x[lane.B + k] * x[lane.D + k] > 0.0 else RELEASE
-    return OPEN if x[lane.SIGN + k] > 0.0 else TOUCH
-
-
-@kernel
-def _turns(x: Floats, k: int) -> bool:
-    """Return whether contact k has hysteresis and presses, so that it turns where it is at rest."""
-    return x[lane.LOSS + k] > 0.0 and x[lane.PRESSING + k] > 0.0
-
-
-@kernel
-def _aim(x: Floats, i: int, k: int, kind: float, wait: float, acc: int) -> bool:
-    """Let the next step of a lane end at an event of contact k; return whether it can.
-
-    It can where the way to the event is steady. ``acc`` is the slot of the present acceleration.
-    """
-    c, r, b, d = (
-        x[lane.Y + lane.C + k],
-        x[lane.Y + lane.R + k],
-        x[lane.END_B + k],
-        x[lane.END_D + k],
-    )
-    left, slope = c - x[lane.LEVEL + k], r
-    if kind == GAIN:
-        left, slope = x[lane.END_A + k] + b * c + d * r, b * r + d * x[acc + k]
-    if not (left * slope < 0.0 and abs(slope) * wait > _STEADY * abs(left)):
-        return False
-    x[lane.CONTACT + i], x[lane.KIND + i], x[lane.WAIT + i] = k, kind, wait
-    if kind == RELEASE:
-        root = math.sqrt(c)
-        _go_by_root(x, i, k, EVENT, root, -root)
-    else:
-        _go_by_contact(x, i, k, EVENT, -left)
-        if kind == GAIN:
-            x[lane.BY_R + k], x[lane.BY_A + k] = b, d
-    return True
-
-
-@kernel
-def _retry(x: Floats, i: int) -> bool:
-    """Let a lane repeat a step in which an event comes, so that it ends there; return whether."""
-    first, contact, kind, dt = math.inf, -1, TOUCH, x[lane.DT + i]
-    for k in (i, LANES + i):
-        if x[lane.OWN + k] > 0.0:
-            continue
-        changes = _changes(x, i, k)
-        if changes > 1:
-            x[lane.H + i] *= 0.5
-            return True
-        c, c_new = x[lane.Y + lane.C + k], x[lane.NEW + lane.C + k]
-        left = c - x[lane.LEVEL + k]
-        r, r_new = x[lane.Y + lane.R + k], x[lane.NEW + lane.R + k]
-        if changes == 1:
-            wait = dt * left / (c - c_new) if left * r < 0.0 else 0.9 * dt
-            if wait < first:
-                first, contact, kind = wait, k, _kind(x, k)
-        a, b, d = x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k]
-        sign = x[lane.GAIN_SIGN + k]
-        gain, gain_new = a + b * c + d * r, a + b * c_new + d * r_new
-        if sign * gain_new < 0.0:
-            if sign < 0.0 and not _turns(x, k):  # it would press again
-                x[lane.STATUS + i] = ASK
-            wait = dt * gain / (gain - gain_new) if sign * gain > 0.0 else 0.9 * dt
-            if wait < first:
-                first, contact, kind = wait, k, GAIN
-    if contact < 0:
-        return x[lane.STATUS + i] != 0.0
-    if x[lane.MODE + i] == ROOT:
-        x[lane.H + i] *= math.sqrt(min(0.6 * first / dt, 0.5))
-    elif not _aim(x, i, contact, kind, first, lane.ACC):
-        _go_by(x, i, TIME, 0.5 * first)
-    return True
-
-
-@kernel
-def _changes(x: Floats, i: int, k: int) -> int:
-    """Return how often the compression of contact k changes its sign in a step, at most.
-
-    That is the number of sign changes of its Bernstein coefficients, see `pair_step`. If it only
-    comes so near 0 that this is not sure, the lane ends with the status ASK.
-    """
-    dt, sign = x[lane.DT + i], x[lane.SIGN + k]
-    c, r, acc = x[lane.Y + lane.C + k] - x[lane.LEVEL + k], x[lane.Y + lane.R + k], x[lane.ACC + k]
-    c_new, r_new = x[lane.NEW + lane.C + k] - x[lane.LEVEL + k], x[lane.NEW + lane.R + k]
-    fifth, bend = 0.2 * dt, 0.05 * dt * dt
-    second = c + 2.0 * fifth * r + bend * acc
-    third = c_new - 2.0 * fifth * r_new + bend * x[lane.ACC_NEW + k]
-    present, changes = sign, 0
-    for value in (c + fifth * r, second, third, c_new - fifth * r_new, c_new):
-        if value * present < 0.0:
-            present, changes = -present, changes + 1
-    if changes == 0 and sign * r < 0.0 and sign * r_new > 0.0:
-        turn = c - 0.5 * r * r / acc if acc != 0.0 else 0.0
-        if min(sign * turn, abs(c), abs(c_new)) < x[lane.MARGIN + k]:
-            x[lane.STATUS + i] = ASK
-    return changes
-
-
-@kernel
-def _apply_event(x: Floats, i: int) -> None:
-    """Take a step that ends at an event, and apply that event."""
-    k, kind = int(x[lane.CONTACT + i]), x[lane.KIND + i]
-    for j in range(i, lane.STATE, LANES):
-        x[lane.Y + j] = x[lane.NEW + j]
-    if kind == TOUCH:
-        _touch(x, i, k)
-        return
-    if kind in (GAIN, RETURN) and _turns(x, k):
-        _turn_or_return(x, i, k, kind)
-        return
-    if kind != OPEN:
-        x[lane.LAST + k] = x[lane.Y + lane.T + i]
-    if kind == GAIN:
-        x[lane.PRESSING + k], x[lane.GAIN_SIGN + k] = 0.0, -1.0
-    else:
-        x[lane.Y + lane.C + k] = 0.0
-        _open(x, k)
-    if not x[lane.Y + lane.R + k] < -_least_rate(x, i):
-        x[lane.STATUS + i] = ASK
-    elif x[lane.PRESSING + i] + x[lane.PRESSING + LANES + i] > 0.0:
-        _go_by(x, i, TIME, x[lane.BY_TIME + i])
-    else:
-        _fly(x, i)
