@@ -22,7 +22,7 @@ IN, OUT, IN_AGAIN, OUT_AGAIN = 0.0, 1.0, 2.0, 3.0
 _SLOW = 1e-5  # of the impact speed: slower contacts are left to the general engine
 _TOGETHER = 1e-6  # of a time: contacts that touch so close to each other are left to it, too
 _NEAR = 0.4  # of the next step by time: an event within it is aimed at
-_PART = 0.65  # of the way to a later event, or to one that a step could not be aimed at
+_PART = 0.8  # of the way to a later event, or to one that a step could not be aimed at
 _STEADY = 0.4  # of the mean rate up to an event: the least rate at which a step is aimed at it
 _ODD = 0.1  # of a way: the least by which it is odd
 _ROUNDS = 12  # of Newton's method
@@ -54,8 +54,7 @@ def _go_by_root(x: Floats, i: int, k: int, mode: float, start: float, h: float) 
 @kernel
 def _least_rate(x: Floats, i: int) -> float:
     """Return the rate below which it is not sure whether a contact closes or opens."""
-    unsure = max(lane.UNSURE, lane.UNSURE_LATER * x[lane.STEPS + i])
-    return max(_SLOW, unsure * x[lane.TOLERANCE]) * x[lane.V0 + i]
+    return max(_SLOW * x[lane.V0 + i], x[lane.UNSURE + i])
 
 
 @kernel
@@ -129,15 +128,18 @@ def _turn_or_return(x: Floats, i: int, k: int, kind: float) -> None:
 
 @kernel
 def touch(x: Floats, i: int, k: int) -> None:
-    """Let contact k touch now; the next step goes by the root of its compression."""
+    """Let contact k touch now; the next step goes by the root of its compression if p is not 1."""
     rate = x[lane.Y + lane.R + k]
     if not rate > _least_rate(x, i):
         x[lane.STATUS + i] = ASK
         return
     x[lane.Y + lane.C + k] = 0.0
     press(x, i, k)
-    by_scale = x[lane.SCALE + k] * math.sqrt(rate / x[lane.V0 + i])
-    _go_by_root(x, i, k, ROOT, 0.0, min(by_scale, 2.0 * math.sqrt(rate * x[lane.BY_TIME + i])))
+    root = x[lane.SCALE + k] * math.sqrt(rate / x[lane.V0 + i])
+    if x[lane.POWER + k] > 0.0:
+        _go_by_root(x, i, k, ROOT, 0.0, min(root, 2.0 * math.sqrt(rate * x[lane.BY_TIME + i])))
+    else:
+        go_by(x, i, TIME, min(2.0 * root * root / rate, x[lane.BY_TIME + i]))
 
 
 @kernel
@@ -231,6 +233,15 @@ def _is_steady(x: Floats, i: int) -> bool:
 
 
 @kernel
+def _wait(left: float, rate: float, change: float) -> float:
+    """Return how long a number takes to become 0, from its derivatives; infinity if it rises."""
+    if not left * rate < 0.0:
+        return math.inf
+    square = rate * rate - 2.0 * change * left
+    return 2.0 * abs(left) / (abs(rate) + math.sqrt(square)) if square > 0.0 else abs(left / rate)
+
+
+@kernel
 def _take(x: Floats, i: int) -> None:
     """Take the step of a lane, and aim the next one at the event that is expected in it, if any."""
     for k in range(i, lane.STATE, LANES):
@@ -244,12 +255,13 @@ def _take(x: Floats, i: int) -> None:
     first, contact, kind = math.inf, -1, TOUCH
     for k in (i, LANES + i):
         c, r, acc = x[lane.Y + lane.C + k], x[lane.Y + lane.R + k], x[lane.ACC_NEW + k]
-        left = c - x[lane.LEVEL + k]
-        if left * r < 0.0:
-            square = r * r - 2.0 * acc * left
-            wait = 2.0 * abs(left) / (abs(r) + math.sqrt(square)) if square > 0.0 else abs(left / r)
-            if wait < first:
-                first, contact, kind = wait, k, _kind(x, k)
+        left, opens = c - x[lane.LEVEL + k], _kind(x, k) == OPEN
+        x[lane.OWN + k] = 0.0
+        if opens and c < 0.0:
+            _open(x, k)
+        wait = math.inf if opens else _wait(left, r, acc)
+        if wait < first:
+            first, contact, kind = wait, k, _kind(x, k)
         gain = x[lane.END_A + k] + x[lane.END_B + k] * c + x[lane.END_D + k] * r
         slope = x[lane.END_B + k] * r + x[lane.END_D + k] * acc
         sign = x[lane.GAIN_SIGN + k]
@@ -318,8 +330,8 @@ def _retry(x: Floats, i: int) -> bool:
         c, c_new = x[lane.Y + lane.C + k], x[lane.NEW + lane.C + k]
         left = c - x[lane.LEVEL + k]
         r, r_new = x[lane.Y + lane.R + k], x[lane.NEW + lane.R + k]
-        if changes == 1:
-            wait = dt * left / (c - c_new) if left * r < 0.0 else 0.9 * dt
+        if changes == 1 and _kind(x, k) != OPEN:
+            wait = min(_wait(left, r, x[lane.ACC + k]), 0.9 * dt)
             if wait < first:
                 first, contact, kind = wait, k, _kind(x, k)
         a, b, d = x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k]
@@ -336,7 +348,7 @@ def _retry(x: Floats, i: int) -> bool:
     if x[lane.MODE + i] == ROOT:
         x[lane.H + i] *= math.sqrt(min(0.6 * first / dt, 0.5))
     elif not _aim(x, i, contact, kind, first, lane.ACC):
-        go_by(x, i, TIME, 0.5 * first)
+        go_by(x, i, TIME, _PART * first)
     return True
 
 
@@ -359,7 +371,7 @@ def _changes(x: Floats, i: int, k: int) -> int:
             present, changes = -present, changes + 1
     if changes == 0 and sign * r < 0.0 and sign * r_new > 0.0:
         turn = c - 0.5 * r * r / acc if acc != 0.0 else 0.0
-        if min(sign * turn, abs(c), abs(c_new)) < x[lane.MARGIN + k]:
+        if min(sign * turn, abs(c), abs(c_new)) < max(x[lane.MARGIN + k], x[lane.WIDE + k]):
             x[lane.STATUS + i] = ASK
     return changes
 
@@ -376,8 +388,7 @@ def _apply_event(x: Floats, i: int) -> None:
     if kind in (GAIN, RETURN) and _turns(x, k):
         _turn_or_return(x, i, k, kind)
         return
-    if kind != OPEN:
-        x[lane.LAST + k] = x[lane.Y + lane.T + i]
+    x[lane.LAST + k] = x[lane.Y + lane.T + i]
     if kind == GAIN:
         x[lane.PRESSING + k], x[lane.GAIN_SIGN + k] = 0.0, -1.0
     else:

@@ -76,28 +76,28 @@ END_A, END_B, END_D, LEVEL, MU, NU, MU_NOW, DRIFT = (_EACH + k * BOTH for k in r
 # compressed again.
 LOSS, OVER_PEAK, ADDED, KEPT, HELD, OFFSET = (_EACH + k * BOTH for k in range(32, 38))
 CURVE, PEAK, TURN, BASE, EXPONENT = (_EACH + k * BOTH for k in range(38, 43))
+SPAN, WIDE = _EACH + 43 * BOTH, _EACH + 44 * BOTH  # a typical compression over the impact speed
 # Slots for each lane: 1/m1, 1/m2; the step in s, s where it begins, and the weights m, n, q; how
 # the step goes; impact speed, row, status; 1 if `pairs` must decide how the lane goes on; steps so
 # far; the allowed error over that of the step, and the factor for the next step; the last step by
 # time.
-_LANE = _EACH + 43 * BOTH
+_LANE = _EACH + 45 * BOTH
 OVER_1, OVER_2, H, START, M, N, Q, MODE = (_LANE + k * LANES for k in range(8))
 V0, ROW, STATUS, ASKS, STEPS, OVER_ERROR, GROW, BY_TIME = (_LANE + k * LANES for k in range(8, 16))
-# The event that a step is to end at: its contact, its kind, and the time to it.
-CONTACT, KIND, WAIT = (_LANE + k * LANES for k in range(16, 19))
-STAGE_DT = _LANE + 19 * LANES  # dt of a whole step at the rates of a stage
-TOLERANCE = _LANE + 20 * LANES  # the error allowed in a step, over the impact speed
+# The event that a step is to end at: its contact, its kind, and the time to it; dt of a whole step
+# at the rates of a stage; and the velocity by which an event may come too early or too late.
+CONTACT, KIND, WAIT, STAGE_DT, UNSURE = (_LANE + k * LANES for k in range(16, 21))
+TOLERANCE = _LANE + 21 * LANES  # the error allowed in a step, over the impact speed
 COARSE = TOLERANCE + 1  # the largest estimate of order 3 with which the others can be trusted
 GENERAL = TOLERANCE + 2  # 1 if some exponent is neither 1 nor 1.5
-CREEPS, REMEMBERS = TOLERANCE + 3, TOLERANCE + 4  # 1 if some contact creeps, or has hysteresis
-SLOTS = TOLERANCE + 5
+# 1 if some contact creeps, has hysteresis, or has a gain that changes
+CREEPS, REMEMBERS, LOSES = TOLERANCE + 3, TOLERANCE + 4, TOLERANCE + 5
+SLOTS = TOLERANCE + 6
 
 TIME, ROOT, EVENT = 0.0, 1.0, 2.0  # modes: by time, by a root from a touch on, up to an event
 
 MOST_STEPS = 2000.0  # of a drop: the general engine solves one that needs more
-# Errors of a step, and of each step so far, because they add up: an event that comes, or is missed,
-# by less is not sure.
-UNSURE, UNSURE_LATER = 4.0, 0.5
+_UNSURE = 3.0  # errors of a step: an event that comes, or is missed, by less is not sure
 _AHEAD = 1.2  # steps: an event within this is aimed at
 _TINY = 1e-150  # m/s: a step without an error is exact
 ONWARD = 1.7  # the first step by time, over the time of the last one by a root
@@ -147,10 +147,14 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
             p, base = x[POWER + i], x[BASE + i]
             base = math.sqrt(max(x[NOW + C + i], 0.0)) if p == 0.5 else base
             x[F + i] = base if p > 0.0 else 1.0
-    for i in range(BOTH):
-        c, a, b = max(x[NOW + C + i], 0.0), x[A + i], x[B + i]
-        gain = a + b * c + x[D + i] * x[NOW + R + i]
-        x[F + i] = max(x[PRESSING + i] * x[F + i] * gain * (b + a * c), 0.0)
+    if x[LOSES] > 0.0:
+        for i in range(BOTH):
+            c, a, b = x[NOW + C + i], x[A + i], x[B + i]
+            gain = a + b * c + x[D + i] * x[NOW + R + i]
+            x[F + i] = x[PRESSING + i] * x[F + i] * gain * (b + a * c)
+    else:
+        for i in range(BOTH):
+            x[F + i] = x[PRESSING + i] * x[F + i] * x[NOW + C + i]
     if x[REMEMBERS] > 0.0:
         for i in range(BOTH):
             ratio, exponent = x[NOW + C + i] * x[OVER_PEAK + i], x[LOSS + i]
@@ -159,11 +163,11 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
         for i in range(BOTH):
             rest = x[BASE + i]
             force = x[F + i] * (x[ADDED + i] + x[KEPT + i] * rest)
-            x[F + i] = max(force + x[HELD + i] * rest + x[OFFSET + i], 0.0)
+            x[F + i] = force + x[HELD + i] * rest + x[OFFSET + i]
     if x[CREEPS] > 0.0:
         for i in range(BOTH):
             mu, nu = x[MU_NOW + i], x[NU + i]
-            rate = mu * max(x[NOW + C + i], 0.0) - nu * x[NOW + S + i]
+            rate = mu * x[NOW + C + i] - nu * x[NOW + S + i]
             x[OUT + S + i], x[DRIFT + i] = rate, nu * rate - mu * x[NOW + R + i]
     for i in range(LANES):
         r0, r1 = x[NOW + R + i], x[NOW + R + LANES + i]
@@ -307,7 +311,6 @@ def _find_errors(x: Floats) -> None:
     tolerance, coarse = x[TOLERANCE], x[COARSE]
     for i in range(LANES):
         dt, speed = x[NEW + T + i] - x[Y + T + i], x[V0 + i]
-        unsure = max(UNSURE, UNSURE_LATER * x[STEPS + i])
         per_time = 1.0 / dt
         third = (x[K3 + C + i] + x[K3 + C + LANES + i]) * per_time
         third += x[K3 + R + i] + x[K3 + R + LANES + i]
@@ -320,7 +323,11 @@ def _find_errors(x: Floats) -> None:
         grow = min(max(0.9 * root, 0.2), 3.0)
         x[OVER_ERROR + i], x[GROW + i] = over, grow
         x[DT + i] = x[DT + LANES + i] = dt
-        x[MARGIN + i] = x[MARGIN + LANES + i] = unsure * tolerance * speed * dt
+        exact = 1.0 if over >= 1.0 else 0.0
+        unsure = x[UNSURE + i] + exact * _UNSURE * tolerance * speed / over
+        x[UNSURE + i] = unsure
+        x[MARGIN + i], x[WIDE + i] = unsure * dt, unsure * x[SPAN + i]
+        x[MARGIN + LANES + i], x[WIDE + LANES + i] = unsure * dt, unsure * x[SPAN + LANES + i]
         x[NEXT + i] = x[NEXT + LANES + i] = _AHEAD * dt * grow
 
 
@@ -333,26 +340,31 @@ def _look_for_events(x: Floats) -> None:
     the polynomial. The first coefficient of the compression is left out: it is 0 after an event.
     """
     for i in range(BOTH):
-        dt, sign, gain_sign = x[DT + i], x[SIGN + i], x[GAIN_SIGN + i]
-        c, r, acc, level = x[Y + C + i], x[Y + R + i], x[ACC + i], x[LEVEL + i]
-        c_new, r_new, acc_new = x[NEW + C + i], x[NEW + R + i], x[ACC_NEW + i]
-        a, b, d, third = x[END_A + i], x[END_B + i], x[END_D + i], 0.3333333333333333 * dt
-        gain, gain_new = a + b * c + d * r, a + b * c_new + d * r_new
-        c, c_new = c - level, c_new - level
+        dt, sign, level, ahead = x[DT + i], x[SIGN + i], x[LEVEL + i], x[NEXT + i]
+        c, r, acc = x[Y + C + i] - level, x[Y + R + i], x[ACC + i]
+        c_new, r_new, acc_new = x[NEW + C + i] - level, x[NEW + R + i], x[ACC_NEW + i]
         fifth, bend = 0.2 * dt, 0.05 * dt * dt
         low = min(sign * (c + fifth * r), sign * (c + 2.0 * fifth * r + bend * acc))
         low = min(low, sign * (c_new - 2.0 * fifth * r_new + bend * acc_new))
         low = min(low, sign * (c_new - fifth * r_new))
         low = min(low, sign * c_new)
-        slope, slope_new = b * r + d * acc, b * r_new + d * acc_new
-        least = min(gain_sign * (gain + third * slope), gain_sign * (gain_new - third * slope_new))
-        least = min(least, gain_sign * gain_new)
-        doubt = (1.0 if low < x[MARGIN + i] else 0.0) + (1.0 if least < 0.0 else 0.0)
-        x[DOUBT + i] = doubt * (1.0 - x[OWN + i])
-        ahead = x[NEXT + i]
+        margin, wide = x[MARGIN + i], x[WIDE + i]
+        margin = max(margin, wide) if r * r_new < 0.0 else margin
+        x[DOUBT + i] = 1.0 - x[OWN + i] if low < margin else 0.0
         low = sign * (c_new + ahead * (r_new + 0.5 * ahead * acc_new))
-        least = gain_sign * (gain_new + ahead * slope_new)
-        x[SOON + i] = 1.0 if min(low, least) < 0.0 else 0.0
+        x[SOON + i] = 1.0 if low < 0.0 else 0.0
+    if x[LOSES] > 0.0:
+        for i in range(BOTH):
+            a, b, d, sign = x[END_A + i], x[END_B + i], x[END_D + i], x[GAIN_SIGN + i]
+            gain = a + b * x[Y + C + i] + d * x[Y + R + i]
+            gain_new = a + b * x[NEW + C + i] + d * x[NEW + R + i]
+            slope = b * x[Y + R + i] + d * x[ACC + i]
+            slope_new = b * x[NEW + R + i] + d * x[ACC_NEW + i]
+            third, doubt, soon = 0.3333333333333333 * x[DT + i], x[DOUBT + i], x[SOON + i]
+            least = min(sign * (gain + third * slope), sign * (gain_new - third * slope_new))
+            least = min(least, sign * gain_new)
+            x[DOUBT + i] = 1.0 - x[OWN + i] if least < 0.0 else doubt
+            x[SOON + i] = 1.0 if sign * (gain_new + x[NEXT + i] * slope_new) < 0.0 else soon
 
 
 @kernel
@@ -382,8 +394,8 @@ def _go_on(x: Floats) -> None:
         x[N + i] *= stays
         x[M + i] = x[M + i] * stays + turns
         x[Q + i] = x[Q + i] * stays + turns
-        x[OWN + i] *= stays
-        x[OWN + LANES + i] *= stays
+        x[OWN + i] *= 1.0 - taken
+        x[OWN + LANES + i] *= 1.0 - taken
         x[BY_R + i] *= stays
         x[BY_R + LANES + i] *= stays
         x[STEPS + i] += 1.0

@@ -14,10 +14,12 @@ from stackbounce.engine.pair_events import begin_open, free_rate, go_by, look_af
 from stackbounce.engine.pair_step import LANES, TIME, judge_step, take_step
 from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import Drops, Outcomes, Workspace
+from stackbounce.engine.work import LANE_STEP
 
 _STEP = 0.4  # the error allowed in one step, over rtol
 _FIRST = 0.9  # of the root of a typical compression: the first step by a root, for an error of 1
 _FIRST_ROOT = 24  # it falls with this root of the error
+_UNSURE = 2.0  # errors of a step: by so little no event is sure, not even the first
 _COARSE = 2.0  # the largest estimate of order 3, for an error of 1; it falls with its cube root
 
 
@@ -41,7 +43,7 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
     """
     x = space.floats
     x[lane.TOLERANCE], x[lane.COARSE] = _STEP * rtol, _COARSE * power(rtol, 1.0 / 3.0)
-    x[lane.GENERAL] = x[lane.CREEPS] = x[lane.REMEMBERS] = 0.0
+    x[lane.GENERAL] = x[lane.CREEPS] = x[lane.REMEMBERS] = x[lane.LOSES] = 0.0
     first = _FIRST * near_root(rtol, _FIRST_ROOT)
     rows = len(out.status)
     left, row = rows, 0
@@ -69,7 +71,7 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
 def _idle(x: Floats, i: int) -> None:
     """Let a lane fly without a drop."""
     x[lane.STATUS + i], x[lane.ROW + i] = codes.ASK, -1.0
-    x[lane.V0 + i], x[lane.STEPS + i] = 1.0, 0.0
+    x[lane.V0 + i], x[lane.STEPS + i], x[lane.UNSURE + i] = 1.0, 0.0, 0.0
     for k in (i, LANES + i):
         x[lane.PRESSING + k], x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = 0.0, -1.0, 0.0
         x[lane.Y + lane.S + k], x[lane.MU_NOW + k], x[lane.NU + k] = 0.0, 0.0, 0.0
@@ -83,6 +85,7 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
     x[lane.ROW + i], x[lane.STATUS + i], x[lane.V0 + i], x[lane.STEPS + i] = row, 0.0, speed, 0.0
     x[lane.OVER_1 + i], x[lane.OVER_2 + i] = 1.0 / drops.mass[row, 0], 1.0 / drops.mass[row, 1]
     x[lane.Y + lane.T + i], x[lane.BY_TIME + i] = 0.0, math.inf
+    x[lane.UNSURE + i] = _UNSURE * x[lane.TOLERANCE] * speed
     over_mass = 0.0
     for b in range(2):
         k = b * LANES + i
@@ -94,13 +97,15 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
         # k c^(p + 1) is about m v^2
         over_mass += x[lane.OVER_1 + b * LANES + i]
         energy = speed * speed / (x[lane.STIFFNESS + k] * over_mass)
-        x[lane.SCALE + k] = first * near_root(energy, int(2.0 * x[lane.POWER + k] + 4.5))
+        root = near_root(energy, int(2.0 * x[lane.POWER + k] + 4.5))
+        x[lane.SCALE + k], x[lane.SPAN + k] = first * root, root * root / speed
     x[lane.Y + lane.R + i] = speed
-    if x[lane.Y + lane.C + LANES + i] == 0.0:
-        press(x, i, LANES + i)
+    k = LANES + i
+    if x[lane.Y + lane.C + k] == 0.0:
+        press(x, i, k)
     touch(x, i, i)
-    if x[lane.PRESSING + LANES + i] > 0.0:  # from rest: it is compressed from now on
-        x[lane.OWN + LANES + i] = 1.0
+    if x[lane.PRESSING + k] > 0.0:  # from rest: it is compressed from now on
+        x[lane.OWN + k] = 1.0
 
 
 @kernel
@@ -121,6 +126,10 @@ def _take_law(drops: Drops, x: Floats, row: int, b: int, k: int) -> None:
         held, x[lane.REMEMBERS] = loss - p, 1.0
     if form in (codes.POWER, codes.RELAXING, codes.HYSTERETIC):
         loss = 0.0
+    if loss > 0.0 or held > 0.0:
+        x[lane.LOSES] = 1.0
+    else:
+        pure, slope = 1.0, 0.0
     x[lane.A + k], x[lane.B + k], x[lane.D + k] = pure, slope, loss
     watched = (0.0, 0.0, 1.0) if held > 0.0 else (pure, slope, loss)
     x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k] = watched
@@ -134,7 +143,7 @@ def _take_law(drops: Drops, x: Floats, row: int, b: int, k: int) -> None:
 @kernel
 def _write_outcome(drops: Drops, out: Outcomes, x: Floats, i: int, row: int) -> None:
     """Write the outcome of the drop in lane i."""
-    out.status[row] = int(x[lane.STATUS + i])
+    out.status[row], out.work[row] = int(x[lane.STATUS + i]), LANE_STEP * int(x[lane.STEPS + i])
     lower = -free_rate(x, i)
     out.velocity[row, 0] = lower
     out.velocity[row, 1] = lower - free_rate(x, LANES + i)

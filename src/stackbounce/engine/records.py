@@ -39,7 +39,7 @@ class Outcomes(NamedTuple):
     last_release: FloatTable  # s; nan where none, infinity where the run stopped in an interval
     energy_retained: FloatColumn  # kinetic energy after over that before
     status: IntegerColumn
-    work: IntegerColumn  # what the run cost, see `work`; that of drops in lanes is not counted
+    work: IntegerColumn  # what the run cost, see `work`; 0 of springs and rigid balls in lanes
 
 
 class Workspace(NamedTuple):
@@ -52,5 +52,5 @@ class Workspace(NamedTuple):
 
 
 CONTINUE, BEGIN, BEGIN_WITH_PEAKS = 0, 1, 2  # stages: the latter records peaks and impulses
-SCRATCH = 6400  # numbers in `Workspace.floats` for an engine in lanes, which needs fewer
+SCRATCH = 6400
 UNIT, END, AFTER = 0, 1, 2  # slots of `Workspace.after`; AFTER is that of the lowest ball

@@ -14,10 +14,22 @@ WORK_LIMIT = 150_000_000
 LANE_EVENTS = 10_000
 """An event limit that no drop reaches to which an engine in lanes gives an answer."""
 
+LANES_RTOL = 1e-13
+"""The least tolerance of pairs in lanes: round-off accumulates over some 100 steps."""
+
+AGAIN = 1e-3
+"""The tolerance of a drop that is solved in lanes again, because `pairs` is not sure, over rtol."""
+
 ASKED_RTOL = 1e-12
 """The tolerance of a drop that an engine in lanes leaves to the general one, or a smaller one.
 
 Such a drop is close to another number of contacts, which a larger tolerance might give it.
+"""
+
+AGAIN_WORK = 128
+"""The work after which a drop of `pairs` is solved in lanes again, over rtol^(-1/8).
+
+A drop that takes so many steps has many contacts, or oscillations, in which errors accumulate.
 """
 
 SLICE = 2**17
@@ -31,3 +43,4 @@ STANDSTILL = 1000  # for an event since the last of which no time has passed: mo
 CREST = 12  # to find the largest compression or force in a step, times the order of the series
 CYCLE = 6  # for each cycle that a contact remembers, and each of its pieces, at a change of curve
 COLLISION = 30  # of two rigid balls
+LANE_STEP = 8  # of a drop in a lane of `pairs`

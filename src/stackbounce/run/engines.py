@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 
 from stackbounce.engine import codes, native
 from stackbounce.engine.memory import FINITE, RIGID, Engine
-from stackbounce.engine.work import LANE_EVENTS
+from stackbounce.engine.work import LANE_EVENTS, LANES_RTOL
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.model import Drop
 from stackbounce.model.laws import contact_numbers
@@ -31,7 +31,6 @@ from stackbounce.run.options import Options
 if TYPE_CHECKING:
     from stackbounce.run.paths import Number
 
-_PAIRS_RTOL = 1e-13  # the least tolerance: round-off accumulates over some 100 steps
 _CYCLES_RTOL = 1e-11  # with hysteresis: the general engine is as fast below
 
 
@@ -81,5 +80,5 @@ def choose_lanes(drop: Drop, numbers: "Iterable[Number]", options: Options) -> s
     if set(contacts) == {(codes.POWER, 1.0)} and all(n.field != "exponent" for n in numbers):
         return "run_two_springs"
     forms = {form for form, _ in contacts}
-    least = _CYCLES_RTOL if codes.HYSTERETIC in forms else _PAIRS_RTOL
+    least = _CYCLES_RTOL if codes.HYSTERETIC in forms else LANES_RTOL
     return "run_pairs" if forms <= set(codes.PAIR_FORMS) and options.rtol >= least else None
