@@ -38,7 +38,7 @@ def in_lanes(entry, drops, limit):
 
 
 def swept_in_lanes(entry, drops, options):
-    """Return the outcomes of two balls, and how many of them the general engine had to find."""
+    """Return the outcomes of two balls, and of how many of them the lanes are not sure at first."""
     out, limit = _room(drops), options.rtol if entry == "run_pairs" else options.event_limit
     asked = int((in_lanes(entry, drops, limit).status == codes.ASK).sum())
     batch._run_lanes(entry, drops, out, options, True, lambda: None)

@@ -32,19 +32,24 @@ def test_as_the_general_engine(rtol, count):
     drops = pairs(count, seed=int(-math.log10(rtol)), reach=1.5)
     out, exact = run(drops, rtol), swept(FINITE, drops, (math.inf, 1e-13, LIMIT, 10**12))
     whole, _ = swept_in_lanes("run_pairs", drops, Options(math.inf, rtol, LIMIT))
-    wrong = (whole.collisions != exact.collisions).any(axis=1).mean()
-    assert wrong <= (0.0 if rtol < 1e-3 else 5e-4)
+    assert np.array_equal(whole.collisions, exact.collisions)
     known = (out.status == codes.FINISHED) & (exact.status == codes.FINISHED)
     assert known.mean() > (0.7 if rtol == 1e-3 else 0.95)
-    error = np.abs(out.rebound_ratio - exact.rebound_ratio)[known].max(axis=1)
-    assert np.median(error) < rtol
-    assert np.quantile(error, 0.98) < 10.0 * rtol
+    error = np.abs(whole.rebound_ratio - exact.rebound_ratio).max(axis=1)
+    assert np.median(error) < 0.5 * rtol
+    assert np.quantile(error, 0.9999) < 10.0 * rtol
     last = np.nanmax(exact.last_release[known], axis=1)[:, None]
     for name in ("first_touch", "last_release"):
         time, right = getattr(out, name)[known], getattr(exact, name)[known]
         assert np.array_equal(np.isnan(time), np.isnan(right))
         late = np.abs(time - right) / last
         assert np.nanquantile(late, 0.98) < 10.0 * rtol
+
+
+def test_a_short_cycle_of_hysteresis_is_not_missed():
+    drops = numbers_of(pairs(20_000, seed=17, reach=1.5), slice(4817, 4818))
+    exact = swept(FINITE, drops, (math.inf, 1e-13, LIMIT, 10**12))
+    assert run(drops, 1e-4).rebound_ratio == pytest.approx(exact.rebound_ratio, abs=1e-4)
 
 
 @pytest.mark.parametrize("rtol", [1e-4, 1e-8, 1e-12])
@@ -63,9 +68,8 @@ def test_energy_is_kept(rtol):
 def test_separate_collisions_have_a_closed_form(rtol):
     """The gap is so wide that the upper ball meets the lower one after its bounce."""
     drops = pairs(500, seed=5, reach=1.0)
-    gap = np.column_stack([np.zeros(500), np.full(500, 1e3)])
-    one = np.ones((500, 2))
-    drops = drops._replace(form=np.full_like(drops.form, codes.POWER), gap=gap, second=1.5 * one)
+    hertz = {"form": np.full_like(drops.form, codes.POWER), "second": np.full((500, 2), 1.5)}
+    drops = drops._replace(gap=np.tile([0.0, 1e3], (500, 1)), **hertz)
     out = run(drops, rtol)
     lower, upper, speed = *drops.mass.T, -drops.velocity[:, 0]
     known = (out.status == codes.FINISHED) & (3.0 * upper > lower) & (out.collisions[:, 1] == 1)

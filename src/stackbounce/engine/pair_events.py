@@ -335,14 +335,18 @@ def _retry(x: Floats, i: int) -> bool:
             if wait < first:
                 first, contact, kind = wait, k, _kind(x, k)
         a, b, d = x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k]
-        sign = x[lane.GAIN_SIGN + k]
-        gain, gain_new = a + b * c + d * r, a + b * c_new + d * r_new
-        if sign * gain_new < 0.0:
+        sign, third = x[lane.GAIN_SIGN + k], dt / 3.0
+        gain, gain_new = sign * (a + b * c + d * r), sign * (a + b * c_new + d * r_new)
+        slope, slope_new = b * r + d * x[lane.ACC + k], b * r_new + d * x[lane.ACC_NEW + k]
+        if gain_new < 0.0:
             if sign < 0.0 and not _turns(x, k):  # it would press again
                 x[lane.STATUS + i] = ASK
-            wait = dt * gain / (gain - gain_new) if sign * gain > 0.0 else 0.9 * dt
+            wait = dt * gain / (gain - gain_new) if gain > 0.0 else 0.9 * dt
             if wait < first:
                 first, contact, kind = wait, k, GAIN
+        elif min(gain + third * sign * slope, gain_new - third * sign * slope_new) < 0.0:
+            x[lane.H + i] *= 0.5  # it may change its sign twice
+            return True
     if contact < 0:
         return x[lane.STATUS + i] != 0.0
     if x[lane.MODE + i] == ROOT:
