@@ -233,6 +233,19 @@ def _is_steady(x: Floats, i: int) -> bool:
 
 
 @kernel
+def _gain(x: Floats, state: int, k: int) -> float:
+    """Return the watched gain of contact k in one of the states Y and NEW."""
+    c, r = x[state + lane.C + k], x[state + lane.R + k]
+    return x[lane.END_A + k] + x[lane.END_B + k] * c + x[lane.END_D + k] * r
+
+
+@kernel
+def _slope(x: Floats, state: int, acc: int, k: int) -> float:
+    """Return the rate of the watched gain; ``acc`` is the slot of that state's acceleration."""
+    return x[lane.END_B + k] * x[state + lane.R + k] + x[lane.END_D + k] * x[acc + k]
+
+
+@kernel
 def _wait(left: float, rate: float, change: float) -> float:
     """Return how long a number takes to become 0, from its derivatives; infinity if it rises."""
     if not left * rate < 0.0:
@@ -254,16 +267,15 @@ def _take(x: Floats, i: int) -> None:
     x[lane.BY_TIME + i] = x[lane.H + i]
     first, contact, kind = math.inf, -1, TOUCH
     for k in (i, LANES + i):
-        c, r, acc = x[lane.Y + lane.C + k], x[lane.Y + lane.R + k], x[lane.ACC_NEW + k]
-        left, opens = c - x[lane.LEVEL + k], _kind(x, k) == OPEN
-        x[lane.OWN + k] = 0.0
-        if opens and c < 0.0:
+        c, opens = x[lane.Y + lane.C + k], _kind(x, k) == OPEN
+        x[lane.OWN + k], wait = 0.0, math.inf
+        if not opens:
+            wait = _wait(c - x[lane.LEVEL + k], x[lane.Y + lane.R + k], x[lane.ACC_NEW + k])
+        elif c < 0.0:
             _open(x, k)
-        wait = math.inf if opens else _wait(left, r, acc)
         if wait < first:
             first, contact, kind = wait, k, _kind(x, k)
-        gain = x[lane.END_A + k] + x[lane.END_B + k] * c + x[lane.END_D + k] * r
-        slope = x[lane.END_B + k] * r + x[lane.END_D + k] * acc
+        gain, slope = _gain(x, lane.Y, k), _slope(x, lane.Y, lane.ACC_NEW, k)
         sign = x[lane.GAIN_SIGN + k]
         if (sign > 0.0 or _turns(x, k)) and sign * gain < -sign * slope * first:
             first, contact, kind = -gain / slope, k, GAIN
@@ -294,25 +306,19 @@ def _aim(x: Floats, i: int, k: int, kind: float, wait: float, acc: int) -> bool:
 
     It can where the way to the event is steady. ``acc`` is the slot of the present acceleration.
     """
-    c, r, b, d = (
-        x[lane.Y + lane.C + k],
-        x[lane.Y + lane.R + k],
-        x[lane.END_B + k],
-        x[lane.END_D + k],
-    )
-    left, slope = c - x[lane.LEVEL + k], r
+    left, slope = x[lane.Y + lane.C + k] - x[lane.LEVEL + k], x[lane.Y + lane.R + k]
     if kind == GAIN:
-        left, slope = x[lane.END_A + k] + b * c + d * r, b * r + d * x[acc + k]
+        left, slope = _gain(x, lane.Y, k), _slope(x, lane.Y, acc, k)
     if not (left * slope < 0.0 and abs(slope) * wait > _STEADY * abs(left)):
         return False
     x[lane.CONTACT + i], x[lane.KIND + i], x[lane.WAIT + i] = k, kind, wait
     if kind == RELEASE:
-        root = math.sqrt(c)
+        root = math.sqrt(left)
         _go_by_root(x, i, k, EVENT, root, -root)
     else:
         _go_by_contact(x, i, k, EVENT, -left)
         if kind == GAIN:
-            x[lane.BY_R + k], x[lane.BY_A + k] = b, d
+            x[lane.BY_R + k], x[lane.BY_A + k] = x[lane.END_B + k], x[lane.END_D + k]
     return True
 
 
@@ -327,24 +333,22 @@ def _retry(x: Floats, i: int) -> bool:
         if changes > 1:
             x[lane.H + i] *= 0.5
             return True
-        c, c_new = x[lane.Y + lane.C + k], x[lane.NEW + lane.C + k]
-        left = c - x[lane.LEVEL + k]
-        r, r_new = x[lane.Y + lane.R + k], x[lane.NEW + lane.R + k]
         if changes == 1 and _kind(x, k) != OPEN:
-            wait = min(_wait(left, r, x[lane.ACC + k]), 0.9 * dt)
+            left = x[lane.Y + lane.C + k] - x[lane.LEVEL + k]
+            wait = min(_wait(left, x[lane.Y + lane.R + k], x[lane.ACC + k]), 0.9 * dt)
             if wait < first:
                 first, contact, kind = wait, k, _kind(x, k)
-        a, b, d = x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k]
-        sign, third = x[lane.GAIN_SIGN + k], dt / 3.0
-        gain, gain_new = sign * (a + b * c + d * r), sign * (a + b * c_new + d * r_new)
-        slope, slope_new = b * r + d * x[lane.ACC + k], b * r_new + d * x[lane.ACC_NEW + k]
+        sign = x[lane.GAIN_SIGN + k]
+        gain, gain_new = sign * _gain(x, lane.Y, k), sign * _gain(x, lane.NEW, k)
+        inner = gain + sign * dt * _slope(x, lane.Y, lane.ACC, k) / 3.0
+        inner_new = gain_new - sign * dt * _slope(x, lane.NEW, lane.ACC_NEW, k) / 3.0
         if gain_new < 0.0:
             if sign < 0.0 and not _turns(x, k):  # it would press again
                 x[lane.STATUS + i] = ASK
             wait = dt * gain / (gain - gain_new) if gain > 0.0 else 0.9 * dt
             if wait < first:
                 first, contact, kind = wait, k, GAIN
-        elif min(gain + third * sign * slope, gain_new - third * sign * slope_new) < 0.0:
+        elif min(inner, inner_new) < 0.0:
             x[lane.H + i] *= 0.5  # it may change its sign twice
             return True
     if contact < 0:
