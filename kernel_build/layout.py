@@ -32,7 +32,15 @@ from stackbounce.engine.stack import (
     new_samples,
     new_stack,
 )
-from stackbounce.engine.work import ASKED_RTOL, EVENT_LIMIT, LANE_EVENTS, WORK_LIMIT
+from stackbounce.engine.work import (
+    AGAIN,
+    AGAIN_WORK,
+    ASKED_RTOL,
+    EVENT_LIMIT,
+    LANE_EVENTS,
+    LANES_RTOL,
+    WORK_LIMIT,
+)
 
 FILE = "layout.json"
 _LOG_ROWS = 512  # besides one for each ball
@@ -70,7 +78,12 @@ def layout() -> dict[str, Any]:
         "after": {name: getattr(records, name) for name in ("UNIT", "END", "AFTER")},
         "counter": {"LOG_ROWS": slots.LOG_ROWS, "CAUSE": slots.CAUSE},
         "limits": {"events": EVENT_LIMIT, "work": WORK_LIMIT, "lanes": LANE_EVENTS},
-        "asked_rtol": ASKED_RTOL,
+        "closer": {
+            "factor": AGAIN,
+            "least": LANES_RTOL,
+            "work": AGAIN_WORK,
+            "asked": ASKED_RTOL,
+        },
         "log": _numbered(f"{_COLUMNS} IMPULSE PEAK_TIME"),
         "statuses": _numbered(_STATUSES),
         "causes": _numbered("ENDLESS STIFF EXTREME"),

@@ -65,7 +65,7 @@ class Engine {
    * `lanes` names the kernel of an engine that is many times faster, where there is one: for two balls without gravity
    * that come at one speed and are run to their end.
    */
-  sweep(drops, { rtol = 1e-12, until = Infinity, eventLimit = 1e6, lanes = null } = {}) {
+  sweep(drops, { rtol = 1e-12, until = Infinity, eventLimit = 1e6, lanes = null, again = true } = {}) {
     const count = drops.gravity.length;
     const balls = count ? drops.mass.length / count : 1;
     const { stack, space, none } = lanes ? {} : this.stack(drops.rigid, balls);
@@ -74,7 +74,7 @@ class Engine {
       const out = room.make("Outcomes", { balls, drops: count });
       this.put(given, drops);
       room.write(out, "status", new Array(count).fill(this.layout.statuses.ASK)); // none is under way
-      room.write(out, "work", new Array(count).fill(0)); // that of drops in lanes is not counted
+      room.write(out, "work", new Array(count).fill(0)); // not counted of springs and rigid balls in lanes
       if (lanes) {
         const scratch = room.make("Workspace", { balls, scratch: this.layout.sizes.scratch });
         this.call(lanes, given, lanes === "run_pairs" ? rtol : eventLimit, out, scratch);
@@ -85,14 +85,20 @@ class Engine {
       }
       return room.readAll(out);
     });
-    if (lanes) this.answer(drops, outcomes, { rtol: Math.min(rtol, this.layout.asked_rtol), until, eventLimit });
+    if (lanes) this.answer(drops, outcomes, { rtol, until, eventLimit, lanes, again });
     return outcomes;
   }
 
-  /** Run the drops that were left undecided by the engine that does not leave any. */
-  answer(drops, outcomes, options) {
-    const rows = [...outcomes.status.keys()].filter((row) => outcomes.status[row] === this.layout.statuses.ASK);
+  /** Run the drops that an engine in lanes is not sure of more closely, by the rule of `run/batch.py`. */
+  answer(drops, outcomes, { rtol, again, lanes, ...options }) {
+    const { factor, least, work, asked } = this.layout.closer;
+    const near = Math.max(factor * rtol, least);
+    const repeats = again && lanes === "run_pairs" && near < rtol;
+    const long = repeats ? work * rtol ** -0.125 : Infinity;
+    const { status, work: spent } = outcomes;
+    const rows = [...status.keys()].filter((row) => status[row] === this.layout.statuses.ASK || spent[row] > long);
     if (!rows.length) return;
+    Object.assign(options, repeats ? { rtol: near, lanes, again: false } : { rtol: Math.min(rtol, asked) });
     const width = (values) => values.length / outcomes.status.length;
     const some = { rigid: false };
     for (const { name } of this.layout.records.Drops) {
