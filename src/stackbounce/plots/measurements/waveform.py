@@ -52,7 +52,9 @@ def draw(data: Any, found: Any, axes: Any = None) -> Figure:
         if tiny:
             own[1].set_title("the first contact", loc="left", fontsize=10)
             _draw_panel(own[1], found, [first], _extent(found, [first]), named=True)
-        _title(own[0], data, found)
+        count, source = len(found.contacts), file_of(data)
+        words = f"{count or 'no'} contact{'s' * (count != 1)}"
+        own[0].set_title(f"{source}: {words}" if source else words, loc="left", fontsize=10)
         names = [panel.get_legend_handles_labels() for panel in own]
         known = {label: mark for marks in names for mark, label in zip(*marks, strict=True)}
         place: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 4}
@@ -135,11 +137,3 @@ def _label_contacts(axes: Axes, contacts: Any, factor: float) -> None:
         top: Any = {"xycoords": axes.get_xaxis_transform(), "ha": "center", "va": "top"}
         text = f"{contact.time * 1e3:.1uS} ms"
         annotate(axes, text, (middle, 1.0), _SHADE, bbox=box, **place, **top)
-
-
-def _title(axes: Axes, data: Any, found: Any) -> None:
-    """Write the title: the number of contacts, and the name of the file."""
-    count = len(found.contacts)
-    words = f"{count or 'no'} contact{'s' * (count != 1)}"
-    source = file_of(data)
-    axes.set_title(f"{source}: {words}" if source else words, loc="left", fontsize=10)
