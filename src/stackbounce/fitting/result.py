@@ -389,9 +389,8 @@ class Fit(Shown):
         objective, count = self.objective, len(values)
         key = drop or next(iter(objective.drops))
         trials = objective.neighbours(self.x)
-        rows = {
-            own: np.repeat(column, count) for own, column in objective.rows(key, trials).items()
-        }
+        given = objective.rows(key, trials).items()
+        rows = {own: np.repeat(column, count) for own, column in given}
         rows[number] = np.tile(values, len(trials))
         options = run_options(objective.drops[key], None, objective.rtol, _EVENTS)
         solved = solve_quantities(objective.drops[key], rows, len(rows[number]), options).tables

@@ -102,10 +102,9 @@ class Series:
             By which the assumed errors are multiplied.
         """
         whole = self.covariance(scale)
-        shares = [np.trace(np.linalg.solve(whole, part)) / len(part) for part, _ in self.scatters]
-        inverse = sum(
-            share**2 / freedom for share, (_, freedom) in zip(shares, self.scatters, strict=True)
-        )
+        inverse = 0.0
+        for part, freedom in self.scatters:
+            inverse += (np.trace(np.linalg.solve(whole, part)) / len(part)) ** 2 / freedom
         return float(1.0 / inverse) if inverse else math.inf
 
     @property

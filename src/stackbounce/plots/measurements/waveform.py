@@ -100,9 +100,8 @@ def _draw_record(axes: Axes, found: Any, low: float, high: float, factor: float)
     """Draw the samples: as dots if they are few, else as a line, of pixels if they are many."""
     inside = (found.times >= low) & (found.times <= high)
     times, force = factor * found.times[inside], found.force[inside]
-    axes.axhspan(
-        -found.noise, found.noise, color="#bdbdbd", alpha=0.45, lw=0, label="baseline ± noise"
-    )
+    noise: Any = {"color": "#bdbdbd", "alpha": 0.45, "lw": 0, "label": "baseline ± noise"}
+    axes.axhspan(-found.noise, found.noise, **noise)
     axes.axhline(0.0, color="#808080", linewidth=0.8)
     look: Any = {"color": _RECORD, "label": "record", "markersize": 3.2, "linewidth": 0.9}
     style = "o" if len(times) <= _DOTS else "-"
