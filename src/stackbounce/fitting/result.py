@@ -357,12 +357,10 @@ class Fit(Shown):
         >>> sb.sweep(drop, {path: ("draw", x) for path, x in drawn.items()}).sizes["draw"]
         4800
         """
-        parameters = self.objective.parameters
-        columns = [
-            np.log(drawn) if parameter.logarithmic else drawn
-            for parameter in parameters
-            for drawn in (posterior.draws(parameter.name),)
-        ]
+        columns = []
+        for parameter in self.objective.parameters:
+            drawn = posterior.draws(parameter.name)
+            columns.append(np.log(drawn) if parameter.logarithmic else drawn)
         rows = self.objective.rows(self._key(drop), np.stack(columns, axis=1))
         return {number.path: column for number, column in rows.items()}
 

@@ -263,10 +263,9 @@ def _propagated(names: tuple[str, ...], drag: float, data: Dataset) -> _Measured
 def _slopes(transform: _Transform, drag: float, given: dict[str, Array], name: str) -> Array:
     """Return the derivatives (values, rows) of the values by the numbers of a column."""
     steps = _STEP * np.maximum(np.abs(given[name]), _STEP)
-    larger, smaller = (
-        np.array([transform(drag, given | {name: row})[1] for row in given[name] + moved])
-        for moved in (np.diag(steps), np.diag(-steps))
-    )
+    rows = given[name] + np.concatenate([np.diag(steps), np.diag(-steps)])
+    values = np.array([transform(drag, given | {name: row})[1] for row in rows])
+    larger, smaller = np.split(values, 2)
     return np.asarray((larger - smaller).T / (2.0 * steps))
 
 
