@@ -101,11 +101,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _failed(f"{error.filename or 'the disk'}: {error.strerror or error}")
     except _WrongUsage as error:
         return _failed(f"{error.format_message()} (see {_command(arguments)} --help)")
-    except KeyboardInterrupt:
-        code = 130
     except MemoryError:
         return _failed("out of memory: ask for fewer balls, drops or draws", 1)
-    except Exception as error:
+    except (Exception, KeyboardInterrupt) as error:
         if not _follows_an_interruption(error):
             return _failed(f"unexpected {type(error).__name__}: {error} (please report it)", 1)
         code = 130

@@ -131,11 +131,7 @@ def _with(scenario: Scenario, changes: dict[str, Any]) -> Scenario:
         if key in changes:
             sources["speed_source"] = option
             changes = dict.fromkeys(("height", "impact_speed", "velocities")) | changes
-    errors = {
-        path: text
-        for path, text in scenario.errors.items()
-        if path.partition(".")[0] not in changes
-    }
-    return dataclasses.replace(
-        scenario, drop=dataclasses.replace(scenario.drop, **changes), errors=errors, **sources
-    )
+    given = scenario.errors.items()
+    errors = {path: text for path, text in given if path.partition(".")[0] not in changes}
+    drop = dataclasses.replace(scenario.drop, **changes)
+    return dataclasses.replace(scenario, drop=drop, errors=errors, **sources)

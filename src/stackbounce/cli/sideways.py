@@ -39,9 +39,8 @@ class Sideways:
             self.offset = quantity(split_error(offset, "", uncertain), "m", "--offset")
         if straight is not None:
             degrees = round(math.degrees(quantity(straight, "rad", "--straight")), 9)
-            self.within = between(
-                "--straight", degrees, 0.0, round(math.degrees(LIMIT), 9), "degrees"
-            )
+            most = round(math.degrees(LIMIT), 9)
+            self.within = between("--straight", degrees, 0.0, most, "degrees")
         if (offset or straight) and not self.moved:
             raise InvalidValue("--offset and --straight need two balls or more, got 1")
         self.errors = {f"offsets.{i}": text for text in uncertain.values() for i in self.moved}

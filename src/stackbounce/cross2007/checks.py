@@ -166,24 +166,17 @@ def source_of(function: Callable[..., object]) -> str:
         return ast.unparse(fill(_lambda(function).body))
     definition = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
     assert isinstance(definition, ast.FunctionDef)
-    body = definition.body
-    if ast.get_docstring(definition) is not None:
-        body = body[1:]
-    last = body[-1]
-    if len(body) == 1 and isinstance(last, ast.Return) and last.value is not None:
-        return ast.unparse(fill(last.value))
-    return "\n".join(ast.unparse(fill(statement)) for statement in body)
+    first = 0 if ast.get_docstring(definition) is None else 1
+    lines = [ast.unparse(fill(statement)) for statement in definition.body[first:]]
+    return "\n".join(lines) if len(lines) > 1 else lines[0].removeprefix("return ")
 
 
 def _lambda(function: Any) -> ast.Lambda:
     """Return the syntax tree of a lambda."""
     code = function.__code__
     module = ast.parse("".join(linecache.getlines(code.co_filename)))
-    (found,) = (
-        node
-        for node in ast.walk(module)
-        if isinstance(node, ast.Lambda) and node.lineno == code.co_firstlineno
-    )
+    lambdas = (node for node in ast.walk(module) if isinstance(node, ast.Lambda))
+    (found,) = (node for node in lambdas if node.lineno == code.co_firstlineno)
     return found
 
 

@@ -11,9 +11,9 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from stackbounce.cross2007.bench import PAPER, Bench
-from stackbounce.cross2007.drops import fallen_speed
+from stackbounce.cross2007.drops import Two, fallen_speed
 from stackbounce.errors import InvalidValue, nearest
-from stackbounce.model import Ball, ContactLaw, Drop, Hysteretic, Spring
+from stackbounce.model import Ball, Drop, Hysteretic, Spring
 from stackbounce.run.calibration import calibrate
 
 PREFIX = "cross2007/"
@@ -101,10 +101,7 @@ def _pair(lower: str, upper: str) -> DataSet:
     balls = [_ball(lower, heavier=lower == "B1"), _ball(upper, heavier=upper == "B1" and not twins)]
     floor, top = (_value(f"{ball}.dynamic_stiffness") for ball in (lower, upper))
     kept, _ = _restitution(lower)
-    contacts: list[ContactLaw] = [
-        Hysteretic(floor, restitution=kept),
-        Spring(floor * top / (floor + top)),
-    ]
+    contacts = Hysteretic(floor, restitution=kept), Spring(floor * top / (floor + top))
     drop = Drop(balls, contacts, height=_value("superballs.drop_height"))
     data: dict[str, Any] = {
         "rebound_ratios": [_known(f"{key}.lower"), _known(f"{key}.upper")],
@@ -112,12 +109,7 @@ def _pair(lower: str, upper: str) -> DataSet:
     }
     if key == "B1_on_B2":
         data["collisions.1"] = 3
-    vary = {
-        "contacts.0.stiffness": _STIFF,
-        "contacts.1.stiffness": _STIFF,
-        "gaps.0": (0.0, _WIDEST),
-    }
-    return DataSet(drop, data, vary, f"Table II and Sec. IV: {upper} on {lower}")
+    return DataSet(drop, data, _vary(_STIFF, _STIFF), f"Table II and Sec. IV: {upper} on {lower}")
 
 
 def _basketball() -> DataSet:
@@ -129,13 +121,14 @@ def _basketball() -> DataSet:
         "durations.0": _known("stack.duration"),
         "first_touch.1": _known("stack.delay"),
     }
-    vary = {
-        "contacts.0.stiffness": (3e2, 3e4),
-        "contacts.1.stiffness": (1e2, 1e4),
-        "gaps.0": (0.0, _WIDEST),
-    }
     what = "Sec. III: tennis ball on basketball, no loss in the contacts"
-    return DataSet(drop, data, vary, what)
+    return DataSet(drop, data, _vary((3e2, 3e4), (1e2, 1e4)), what)
+
+
+def _vary(floor: Two, between: Two) -> dict[str, Any]:
+    """Return what is varied of a pair: both stiffnesses in N/m, and the gap."""
+    stiffnesses = {"contacts.0.stiffness": floor, "contacts.1.stiffness": between}
+    return stiffnesses | {"gaps.0": (0.0, _WIDEST)}
 
 
 def _alone(name: str) -> DataSet:

@@ -19,7 +19,6 @@ from stackbounce.explorer.limits import Limits
 AGAIN_SECONDS = 5
 """Time in s after which a client that was sent away may try again."""
 
-_LESS = "ask for fewer balls, points or numbers at once"
 _NICE = 5  # how much lower the priority of a worker process is than the server's
 _MODULES = ("stackbounce.explorer.answers.records", "pandas", "pint", "scipy.stats",
             "scipy.signal", "scipy.io.wavfile", "scipy.optimize")  # fmt: skip
@@ -32,6 +31,9 @@ class Busy(StackbounceError):
 
 class TooMuch(StackbounceError):
     """A job exceeded its limit of time or memory, or its process ended."""
+
+    def __init__(self, what: str) -> None:
+        super().__init__(f"{what}: ask for fewer balls, points or numbers at once")
 
 
 def _prepare(most_bytes: int) -> None:
@@ -153,14 +155,11 @@ class Workers:
         try:
             return await asyncio.wrap_future(self._pool.schedule(job, arguments, timeout=seconds))
         except TimeoutError:
-            raise TooMuch(
-                f"this takes longer than the {seconds:g} s that one request may: {_LESS}"
-            ) from None
+            what = f"this takes longer than the {seconds:g} s that one request may"
+            raise TooMuch(what) from None
         except MemoryError:
-            raise TooMuch(
-                f"this needs more memory than the process of one request may have: {_LESS}"
-            ) from None
+            what = "this needs more memory than the process of one request may have"
+            raise TooMuch(what) from None
         except (ProcessExpired, BrokenProcessPool):
-            raise TooMuch(
-                f"the process that computed this ended, perhaps for want of memory: {_LESS}"
-            ) from None
+            what = "the process that computed this ended, perhaps for want of memory"
+            raise TooMuch(what) from None

@@ -131,11 +131,11 @@ class Comparison(Shown):
             for score in self.scores
             if score.same_as
         ]
-        reasons = {
-            why: ", ".join(name for name, other in self.refused.items() if other == why)
-            for why in self.refused.values()
-        }
-        return (*same, *(f"Not fitted: {names}: {why}." for why, names in reasons.items()))
+        refused: dict[str, list[str]] = {}
+        for name, why in self.refused.items():
+            refused.setdefault(why, []).append(name)
+        others = (f"Not fitted: {', '.join(names)}: {why}." for why, names in refused.items())
+        return (*same, *others)
 
     @functools.cached_property
     def pulls(self) -> DataArray:

@@ -168,11 +168,8 @@ def _several(given: object, rest: Mapping[str, Any], folder: Path) -> Asked:
         check_name(f"drops.{k}.name", name, drops)
         _check_keys(own, (*_DROP, "measured", "name"), f"drops.{k}.")
         data[name] = _measured(own.pop("measured", {}), f"{name}.measured", folder)
-        common = {
-            key: value
-            for key, value in rest.items()
-            if not (key in _INCIDENCE and any(other in own for other in _INCIDENCE))
-        }
+        replaced = _INCIDENCE if any(key in own for key in _INCIDENCE) else ()
+        common = {key: value for key, value in rest.items() if key not in replaced}
         with placed(f"{name}: ", ScenarioError):
             drops[name] = Drop.from_mapping(common | own)
     return drops, data

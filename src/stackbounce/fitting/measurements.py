@@ -128,9 +128,8 @@ def read_measured(drop: Drop, given: object, path: str = "") -> Measured:
         else:
             known = QUANTITIES[base]
             right = f"a number with its error, such as '{known.example}'"
-            data.append(
-                Datum(name, base, index, *read_with_error(value, known.unit, shown_as, right))
-            )
+            pair = read_with_error(value, known.unit, shown_as, right)
+            data.append(Datum(name, base, index, *pair))
     every: list[Datum | Count | Waveform] = [*data, *counts, *waveforms]
     names = [entry.name for entry in every]
     twice = next((name for name in names if names.count(name) > 1), None)

@@ -250,17 +250,14 @@ class Objective:
         """Return the forces (n,) in N at the samples of each record of a drop, in one trial."""
         drop, start = self.drop(key, x), float(self.values(x[None])[touch_name(key)][0])
         waves = self.measured[key].waveforms
-        stamps, where = np.unique(
-            np.concatenate([wave.times for wave in waves]), return_inverse=True
-        )
+        stamps = np.unique(np.concatenate([wave.times for wave in waves]))
         times = stamps - start
         forces = np.zeros((len(drop.balls), len(times)))
         status, _, forces[:, times >= 0.0] = forces_at(drop, times[times >= 0.0], self.rtol)
         if status not in _DONE:
             self.unsolved[status.name] += 1
             forces[:] = np.nan
-        places = np.split(where, np.cumsum([len(wave.times) for wave in waves])[:-1])
-        return [forces[wave.index, at] for wave, at in zip(waves, places, strict=True)]
+        return [forces[wave.index, np.searchsorted(stamps, wave.times)] for wave in waves]
 
     def residuals(self, x: Array) -> Array:
         """Return the residuals (n, size) of trials (n, parameters), in standard errors.
@@ -284,11 +281,8 @@ class Objective:
         return found
 
     def _of_records(self, key: str, x: Array) -> Array:
-        waves = self.measured[key].waveforms
-        forces = self.forces(key, x)
-        return np.concatenate(
-            [wave.linear(force) for wave, force in zip(waves, forces, strict=True)]
-        )
+        pairs = zip(self.measured[key].waveforms, self.forces(key, x), strict=True)
+        return np.concatenate([wave.linear(force) for wave, force in pairs])
 
     def chi_squared(self, x: Array) -> Array:
         """Return the sums of squared residuals (n,) of trials (n, parameters)."""

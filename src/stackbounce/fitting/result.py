@@ -357,12 +357,10 @@ class Fit(Shown):
         >>> sb.sweep(drop, {path: ("draw", x) for path, x in drawn.items()}).sizes["draw"]
         4800
         """
-        parameters = self.objective.parameters
-        columns = [
-            np.log(drawn) if parameter.logarithmic else drawn
-            for parameter in parameters
-            for drawn in (posterior.draws(parameter.name),)
-        ]
+        columns = []
+        for parameter in self.objective.parameters:
+            drawn = posterior.draws(parameter.name)
+            columns.append(np.log(drawn) if parameter.logarithmic else drawn)
         rows = self.objective.rows(self._key(drop), np.stack(columns, axis=1))
         return {number.path: column for number, column in rows.items()}
 
@@ -389,9 +387,8 @@ class Fit(Shown):
         objective, count = self.objective, len(values)
         key = drop or next(iter(objective.drops))
         trials = objective.neighbours(self.x)
-        rows = {
-            own: np.repeat(column, count) for own, column in objective.rows(key, trials).items()
-        }
+        given = objective.rows(key, trials).items()
+        rows = {own: np.repeat(column, count) for own, column in given}
         rows[number] = np.tile(values, len(trials))
         options = run_options(objective.drops[key], None, objective.rtol, _EVENTS)
         solved = solve_quantities(objective.drops[key], rows, len(rows[number]), options).tables

@@ -161,8 +161,6 @@ def _measured(stack: Drop, i: int, speed: float) -> dict[str, Any]:
     """Return masses and contact time of a contact alone at a speed, as `calibrate` takes them."""
     law: Any = stack.contacts[i]
     upper = stack.balls[i].mass
-    given: dict[str, Any] = {
-        "mass": (stack.balls[i - 1].mass, upper) if i else upper,
-        "impact_speed": speed,
-    }
-    return {**given, "contact_time": float(contact_time(law, **given))}
+    mass = (stack.balls[i - 1].mass, upper) if i else upper
+    lasts = float(contact_time(law, mass, speed))
+    return {"mass": mass, "impact_speed": speed, "contact_time": lasts}

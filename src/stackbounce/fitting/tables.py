@@ -121,9 +121,8 @@ def _drops(drop: Drop, rows: Sequence[Row], folder: Path) -> Asked:
         name = row["name"]["name"].text if row["name"] else f"drop_{k}"
         check_name(f"row {line}, name", name, drops)
         units = _FALLS | {path: number.unit for path, number in numbers_of(drop).items()}
-        values = {
-            path: quantity(own.text, units[path], own.where) for path, own in row["number"].items()
-        }
+        given = row["number"].items()
+        values = {path: quantity(own.text, units[path], own.where) for path, own in given}
         drops[name] = drop_of(drop, values, line)
         data[name] = _data(row, folder)
         if not data[name]:

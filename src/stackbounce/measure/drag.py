@@ -264,11 +264,9 @@ def with_difference(value: Any, less: Any, more: Any, *, off: Any) -> Any:
         rows = list(zip(value, less, more, strict=False))
         return (*(with_difference(*row, off=off) for row in rows), *value[len(rows) :])
     if is_dataclass(value) and not isinstance(value, type | Drag):
-        every = {
-            field.name: [getattr(row, field.name) for row in (value, less, more)]
-            for field in fields(value)
-        }
-        return replace(
-            value, **{name: with_difference(*row, off=off) for name, row in every.items()}
-        )
+        changes: dict[str, Any] = {}
+        for field in fields(value):
+            row = (getattr(one, field.name) for one in (value, less, more))
+            changes[field.name] = with_difference(*row, off=off)
+        return replace(value, **changes)
     return value

@@ -53,16 +53,11 @@ def read_options(
     return found
 
 
-_TYPES: dict[str, tuple[Any, str]] = {
-    "flag": (bool, "true or false"),
-    "text": (str | int, "a text"),
-}
-
-
 def _checked(value: Any, option: Option, called: str) -> Any:
     """Return a value that needs no reading, its type checked."""
-    kind, words = _TYPES[option.form]
-    if not isinstance(value, kind):
+    flag = option.form == "flag"
+    words = "true or false" if flag else "a text"
+    if not isinstance(value, bool if flag else str | int):
         raise InvalidType(f"{called} must be {words}, got {shown(value)}")
     return value
 

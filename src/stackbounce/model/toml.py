@@ -35,11 +35,7 @@ def read_mapping(kind: type[_T], mapping: object) -> _T:
     """Return the drop, of class `kind`, that a mapping describes; see `Drop.from_mapping`."""
     table = _table(mapping, "the scenario")
     _check_keys(kind, table, "")
-    values = {
-        key: _value(kind, key, value, "")
-        for key, value in table.items()
-        if key not in ("balls", "contacts")
-    }
+    values = {key: _value(kind, key, value, "") for key, value in table.items()}
     values["balls"] = _each(read_ball, table["balls"], "balls")
     values["contacts"] = _each(read_law, table["contacts"], "contacts")
     return _raised("", kind, **values)

@@ -123,7 +123,10 @@ def _draw_positions(axes: Axes, result: Result, times: Array, paths: Array) -> N
     axes.legend(frameon=False, loc="best", reverse=True)
     axes.set_ylabel("position (mm)")
     axes.axhline(0.0, color="#808080", linewidth=0.8)
-    axes.set_title(_summary(result), loc="left", fontsize=10)
+    words = f"v₀ = {drop.reference_speed:.3g} m/s"
+    if math.isfinite(result.energy_retained):
+        words += f", kinetic energy retained {100.0 * result.energy_retained:.0f} %"
+    axes.set_title(words, loc="left", fontsize=10)
 
 
 def _draw_bands(
@@ -162,13 +165,3 @@ def _count(collisions: int) -> str:
     if collisions < 0:
         return "infinitely many"
     return "once" if collisions == 1 else f"{collisions} times"
-
-
-def _summary(result: Result) -> str:
-    """Return the title: the impact speed and the kinetic energy retained."""
-    speed = result.drop.reference_speed
-    kept = result.energy_retained
-    words = f"v₀ = {speed:.3g} m/s"
-    if math.isfinite(kept):
-        words += f", kinetic energy retained {100.0 * kept:.0f} %"
-    return words

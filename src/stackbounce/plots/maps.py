@@ -21,18 +21,14 @@ def draw_levels(axes: Axes, x: Scale, y: Scale, values: NDArray[Any], unit: str)
 
     The colors go from dark to light, or from blue over white to red if the values change sign.
     """
-    from matplotlib.colors import Normalize
-
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     level = is_flat(values)
     span = max(-low, high)
     signed = not level and low < -_BELOW * span and high > _BELOW * span
-    norm = Normalize(-span, span) if signed else Normalize(low, high)
-    if level:
-        norm = Normalize(low - 1.0, low + 1.0)
-    look: Any = {"cmap": "RdBu_r" if signed else "viridis", "norm": norm, "rasterized": True}
-    mesh = axes.pcolormesh(x.edges(), y.edges(), values, **look)
+    ends = (low - 1.0, low + 1.0) if level else (-span, span) if signed else (low, high)
+    look: Any = {"cmap": "RdBu_r" if signed else "viridis", "rasterized": True}
+    mesh = axes.pcolormesh(x.edges(), y.edges(), values, vmin=ends[0], vmax=ends[1], **look)
     assert axes.figure is not None
     bar = axes.figure.colorbar(mesh, ax=axes)
     unit, factor = show_in_handy_unit(bar.ax.yaxis, values, unit)

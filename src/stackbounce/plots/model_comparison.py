@@ -88,11 +88,10 @@ def _draw_scores(axes: Axes, comparison: Any) -> None:
     axes.barh(np.arange(len(more)), more, color=COLORS[0], height=0.6)
     largest = max(float(more.max()), 1.0)
     logarithmic = largest > 100.0
+    beside: Any = {"xytext": (4, 0), "textcoords": "offset points", "va": "center", "fontsize": 8}
     for k, (one, score) in enumerate(zip(more, comparison.scores, strict=True)):
         words = f"{one:.3g}" if k else f"best: χ² = {score.chi_squared:.1f}"
-        axes.annotate(
-            words, (one, k), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8
-        )
+        axes.annotate(words, (one, k), **beside)
     if logarithmic:
         axes.set_xscale("symlog", linthresh=10.0)
         axes.set_xticks([0.0, *(10.0**k for k in range(1, 1 + int(np.log10(largest))))])

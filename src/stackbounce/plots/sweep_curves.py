@@ -191,8 +191,7 @@ def _counts_on(axes: Axes, rows: NDArray[Any]) -> list[NDArray[Any]]:
     from matplotlib.ticker import MaxNLocator
 
     finite = rows[rows >= 0]
-    high = int(finite.max()) if finite.size else 0
-    low = int(finite.min()) if finite.size else 0
+    low, high = (int(finite.min()), int(finite.max())) if finite.size else (0, 0)
     places = MaxNLocator(6, integer=True, min_n_ticks=1).tick_values(low, max(high, low + 1))
     ticks = [float(place) for place in places if low - 1 < place < high + 1]
     names = [f"{tick:.0f}" for tick in ticks]

@@ -472,10 +472,8 @@ class Prediction(Shown):
                 scale = float(np.max(np.abs(table), initial=0.0, where=np.isfinite(table)))
                 values = [of_draws(column, scale) for column in table.T]
             else:
-                values = [
-                    self.inputs.linear(value, slopes)
-                    for value, slopes in zip(*self.slopes[name], strict=True)
-                ]
+                pairs = zip(*self.slopes[name], strict=True)
+                values = [self.inputs.linear(value, slopes) for value, slopes in pairs]
             found |= {_label(name, part): value for part, value in enumerate(values)}
         return found
 

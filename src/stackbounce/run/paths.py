@@ -168,10 +168,8 @@ def drop_at(drop: Drop, values: Mapping[Number, float]) -> Drop:
     2.0
     """
     changes: dict[str, Any] = {}
-    parts: dict[str, Any] = {
-        name: list(getattr(drop, name)) for name in ("balls", "contacts", "gaps")
-    }
-    parts["velocities"] = None if drop.velocities is None else list(drop.velocities)
+    parts: dict[str, Any] = {name: getattr(drop, name) for name in _SEVERAL}
+    parts = {name: values and list(values) for name, values in parts.items()}
     within: dict[tuple[str, int], dict[str, float]] = {}
     for number, value in values.items():
         if not number.part:

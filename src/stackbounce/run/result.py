@@ -33,10 +33,8 @@ _COLUMNS = {  # of the log, by the field of an interval
     "peak_time": codes.PEAK_TIME,
 }
 INTERVAL = np.dtype([("contact", "i8"), *((name, "f8") for name in _COLUMNS)])
-_VELOCITIES = ("lower_velocity", "upper_velocity")
-EVENT = np.dtype(
-    [("time", "f8"), ("contact", "i8"), ("kind", "U9"), *((name, "f8") for name in _VELOCITIES)]
-)
+_VELOCITIES = [(name, "f8") for name in ("lower_velocity", "upper_velocity")]
+EVENT = np.dtype([("time", "f8"), ("contact", "i8"), ("kind", "U9"), *_VELOCITIES])
 APEX = np.dtype([("ball", "i8"), ("time", "f8"), ("height", "f8")])
 _PER_BALL = ("rebound_speed", "rebound_ratio", "rebound_height")
 _PER_CONTACT = ("collisions", "first_touch", "last_release")
@@ -493,11 +491,10 @@ class Result(Shown):
         table = self.sampled(times)
         columns = {name: (dims, table[name], {"units": unit}) for name, dims, unit in _SAMPLED}
         part = np.arange(len(self.drop.balls))
-        return xr.Dataset(
-            columns,
-            coords={"time": ("time", table["time"], {"units": "s"}), "ball": part, "contact": part},
-            attrs={"stackbounce": __version__, "drop": self.drop.to_toml()},
-        )
+        time = ("time", table["time"], {"units": "s"})
+        coords: Any = {"time": time, "ball": part, "contact": part}
+        attrs = {"stackbounce": __version__, "drop": self.drop.to_toml()}
+        return xr.Dataset(columns, coords, attrs)
 
     def sampled(self, times: ArrayLike) -> dict[str, Array]:
         """Return what `sample` returns, in plain arrays, with the energy `stored` in each contact.

@@ -45,14 +45,11 @@ def leave_sideways(
     attrs: dict[str, Any] = {"stackbounce": __version__, "drop": result.drop.to_toml()}
     if not offsets and not speeds:
         offset, sideways, attrs["error"] = _carried(result, np.eye(count, 2 * count))
-        return xr.Dataset(
-            {
-                "transfer": (("ball", "moved"), sideways, {"units": "1/s"}),
-                "amplification": (("ball", "moved"), offset, {"units": "1"}),
-            },
-            {"ball": ball, "moved": ball},
-            attrs,
-        )
+        data = {
+            "transfer": (("ball", "moved"), sideways, {"units": "1/s"}),
+            "amplification": (("ball", "moved"), offset, {"units": "1"}),
+        }
+        return xr.Dataset(data, {"ball": ball, "moved": ball}, attrs)
     begun = [*_given("offsets", offsets, "m", count), *_given("speeds", speeds, "m/s", count)]
     for i, (lower, upper) in enumerate(zip(result.drop.balls, result.drop.balls[1:], strict=False)):
         apart = abs(begun[i + 1] - begun[i])
@@ -74,18 +71,15 @@ def leave_sideways(
     top = np.where(upward > 0.0, upward / pull, math.nan)
     if np.any(np.abs(angle[upward > 0.0]) > LIMIT):
         attrs["remark"] = REMARK
-    columns = {
+    found = {
         "sideways_speed": sideways,
         "angle": angle,
         "offset": offset,
         "offset_at_top": offset + top * sideways,
         "landing": offset + down * sideways,
     }
-    return xr.Dataset(
-        {name: ("ball", values, {"units": UNITS[name]}) for name, values in columns.items()},
-        {"ball": ball},
-        attrs,
-    )
+    columns = {name: ("ball", values, {"units": UNITS[name]}) for name, values in found.items()}
+    return xr.Dataset(columns, {"ball": ball}, attrs)
 
 
 def _given(name: str, values: Mapping[int, Any] | None, unit: str, count: int) -> list[float]:
@@ -129,9 +123,8 @@ def _carried(result: "Result", begun: _Array) -> tuple[_Array, _Array, float]:
         pushes.time[::count] = moments
         _call("place_pushes", pushes, count, result.end_time)
         tables = result.sampled(pushes.time)
-        pushes.force[:], pushes.compression[:] = (
-            tables[name].T.ravel() for name in ("force", "compression")
-        )
+        pushes.force[:] = tables["force"].T.ravel()
+        pushes.compression[:] = tables["compression"].T.ravel()
         deep = tables["compression"].max(axis=1) >= pushes.distance
         if any(deep[1:]):
             raise InvalidValue(

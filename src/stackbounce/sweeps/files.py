@@ -53,12 +53,11 @@ class Form:
         self.sample, self.sides = sample, tuple(sides)
         self.grid = tuple({dim: len(axis) for dim, axis in axes.values()}.values())
         known = {identifier(path): axis for path, (_, axis) in axes.items()}
-        self.coordinates = xr.Dataset(
-            coords={
-                name: (variable.dims, known.get(str(name), variable.values), variable.attrs)
-                for name, variable in sample.coords.items()
-            }
-        )
+        coords = {
+            name: (variable.dims, known.get(str(name), variable.values), variable.attrs)
+            for name, variable in sample.coords.items()
+        }
+        self.coordinates = xr.Dataset(coords=coords)
         own = ((identifier(path), dim) for path, (dim, _) in axes.items())
         paired = " ".join(name for name, dim in own if name != dim)
         self.marked = {**sample.attrs, **({"coordinates": paired} if paired else {})}

@@ -13,7 +13,7 @@ from stackbounce.library_types import Dataset
 from stackbounce.model import Ball, ContactLaw, Drop
 from stackbounce.model.laws import contact_numbers
 from stackbounce.run.options import run_options
-from stackbounce.run.paths import identifier, numbers_of
+from stackbounce.run.paths import identifier, numbers_of, value_in
 from stackbounce.sweeps import sweep
 from stackbounce.units import checked
 
@@ -77,17 +77,12 @@ def _varied(drops: Sequence[Drop]) -> dict[str, NDArray[np.float64]]:
     """
     found = {}
     for path, number in numbers_of(drops[0]).items():
-        if number.part not in ("balls", "contacts") or not number.field:
-            continue
-        parts = [getattr(drop, number.part)[number.index] for drop in drops]
-        first = parts[0]
-        if isinstance(first, ContactLaw) and number.field == first.derived:
-            continue
-        if getattr(first, number.field) is None:
-            continue  # a ball's size or material, which does not affect a run
-        row = np.array([getattr(part, number.field) for part in parts], dtype=float)
-        if path == "balls.0.mass" or np.ptp(row) > 0.0:
-            found[path] = row
+        if number.part in ("balls", "contacts"):
+            derived = getattr(getattr(drops[0], number.part)[number.index], "derived", "")
+            # nan is a ball's size or material that is not given, which does not affect a run
+            row = np.array([value_in(drop, number) for drop in drops])
+            if number.field != derived and (path == "balls.0.mass" or np.ptp(row) > 0.0):
+                found[path] = row
     return found
 
 

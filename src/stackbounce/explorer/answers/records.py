@@ -195,11 +195,8 @@ def _sorted(branch: Branch) -> dict[str, Any]:
 def _find_channel(drop: Drop, what: str, which: str, record: Measurement) -> DataArray:
     """Return the channel of a file that is the force of a contact, cut to one impact."""
     lasting = _AFTER * run_drop(drop, None).end_time
-    own = {
-        name: force
-        for quantity in record.found
-        for name, force in quantity.forces(record.data, lasting).items()
-    }
+    parts = (quantity.forces(record.data, lasting) for quantity in record.found)
+    own = {name: force for part in parts for name, force in part.items()}
     if not own:
         holds = a_or_an(record.evidence["holds"])
         raise InvalidValue(f"{what}: {record.source} holds no force over time, but {holds}")

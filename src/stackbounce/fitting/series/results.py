@@ -216,9 +216,8 @@ def _as_dict(comparison: Comparison) -> dict[str, Any]:
             for name in outcome.laws
         ],
     }
-    plain_values: dict[str, Any] = plain(
-        found | {name: getattr(comparison, name) for name in _OF_COMPARISON}
-    )
+    found |= {name: getattr(comparison, name) for name in _OF_COMPARISON}
+    plain_values: dict[str, Any] = plain(found)
     return plain_values
 
 

@@ -102,10 +102,9 @@ class Series:
             By which the assumed errors are multiplied.
         """
         whole = self.covariance(scale)
-        shares = [np.trace(np.linalg.solve(whole, part)) / len(part) for part, _ in self.scatters]
-        inverse = sum(
-            share**2 / freedom for share, (_, freedom) in zip(shares, self.scatters, strict=True)
-        )
+        inverse = 0.0
+        for part, freedom in self.scatters:
+            inverse += (np.trace(np.linalg.solve(whole, part)) / len(part)) ** 2 / freedom
         return float(1.0 / inverse) if inverse else math.inf
 
     @property
@@ -264,10 +263,9 @@ def _propagated(names: tuple[str, ...], drag: float, data: Dataset) -> _Measured
 def _slopes(transform: _Transform, drag: float, given: dict[str, Array], name: str) -> Array:
     """Return the derivatives (values, rows) of the values by the numbers of a column."""
     steps = _STEP * np.maximum(np.abs(given[name]), _STEP)
-    larger, smaller = (
-        np.array([transform(drag, given | {name: row})[1] for row in given[name] + moved])
-        for moved in (np.diag(steps), np.diag(-steps))
-    )
+    rows = given[name] + np.concatenate([np.diag(steps), np.diag(-steps)])
+    values = np.array([transform(drag, given | {name: row})[1] for row in rows])
+    larger, smaller = np.split(values, 2)
     return np.asarray((larger - smaller).T / (2.0 * steps))
 
 

@@ -131,12 +131,12 @@ def _dataset(
         )
     digit = float(readings.digit.max())
     merged = _repeated(readings) if not some.any() else None
-    scatter = 0.0 if merged is None else _pooled(merged)
+    scatter = 0.0 if merged is None else _pooled(merged[1])
     if merged is None or scatter < digit / math.sqrt(12.0):  # equal as far as the digits tell
         rows = readings.sort_values(["start", "drop", "number"])
         values, dims = rows.value.to_numpy(), ["row"]
     else:
-        rows, values, dims = merged, np.array(merged.values_read.tolist()), ["row", "reading"]
+        (rows, values), dims = merged, ["row", "reading"]
     unit = UNITS[measured]
     data: dict[str, Any] = {
         start: ("row", rows.start.to_numpy()),
@@ -164,21 +164,19 @@ def _dataset(
     return dataset_of(data, {})
 
 
-def _repeated(readings: DataFrame) -> DataFrame | None:
-    """Return a row for each height and bounce with all readings, padded; None if none repeats."""
+def _repeated(readings: DataFrame) -> tuple[DataFrame, Array] | None:
+    """Return a row for each height and bounce, and its readings, padded; None if none repeats."""
     alike = ["drop", "number"]
     own = readings.assign(drop=readings.start.map(lambda start: float(f"{start:.{_SAME}g}")))
     each = own.groupby(alike)
     read = own.assign(turn=each.cumcount()).pivot(index=alike, columns="turn", values="value")
     if len(read.columns) < 2:
         return None
-    found = each[["start", "start_error"]].mean().reset_index()
-    return found.assign(values_read=read.to_numpy().tolist())
+    return each[["start", "start_error"]].mean().reset_index(), read.to_numpy()
 
 
-def _pooled(merged: DataFrame) -> float:
+def _pooled(values: Array) -> float:
     """Return the standard deviation of repeated readings about their means, all rows together."""
-    values = np.array(merged.values_read.tolist())
     apart = values - np.nanmean(values, axis=1, keepdims=True)
     freedom = np.isfinite(values).sum() - len(values)
     return math.sqrt(float(np.nansum(apart**2)) / freedom)

@@ -164,9 +164,8 @@ def _cell_by_cell(lines: list[str], text: Text, used: Sequence[int], table: Tabl
                 table.word = table.word or line[:60]
                 table.words += 1
                 continue
-            table.first = table.first or next(
-                cells[k] for k, one in zip(used, row, strict=True) if one is None
-            )
+            odd = (cells[k] for k, one in zip(used, row, strict=True) if one is None)
+            table.first = table.first or next(odd)
             table.strange += [cell is None for cell in row]
         rows.append(row)
     return np.array(rows, np.float64).reshape(len(rows), len(used))  # None becomes NaN

@@ -352,16 +352,13 @@ def _logger_pro(tree: Element) -> Tables:
     names: list[str] = []
     columns: list[list[str]] = []
     for k, member in enumerate(tree.iter("DataSet"), 1):
-        run = "".join(c for c in member.findtext("DataSetName") or f"Run {k}" if c not in ":([")[
-            :40
-        ]
+        said = member.findtext("DataSetName") or f"Run {k}"
+        run = "".join(c for c in said if c not in ":([")[:40]
         for column in member.iter("DataColumn"):
             cells = (column.findtext("ColumnCells") or "").strip("\n").split("\n")
             if any(cell.strip() for cell in cells):
-                name, unit = (
-                    (column.findtext(key) or "").strip()
-                    for key in ("DataObjectName", "ColumnUnits")
-                )
+                name = (column.findtext("DataObjectName") or "").strip()
+                unit = (column.findtext("ColumnUnits") or "").strip()
                 names.append(f"{run}: {name or 'column'}" + f" ({unit})" * bool(unit))
                 columns.append(cells)
     if not columns:

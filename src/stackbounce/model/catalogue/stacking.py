@@ -224,8 +224,7 @@ class Balls(Shown, Mapping[str, Ball]):
         rows = []
         for name, entry in ENTRIES.items():
             numbers = entry.to_mapping()
-            known = (numbers.get(figure) for figure in _FIGURES)
-            cells = zip(known, (UNITS[figure] for figure in _FIGURES), strict=True)
+            cells = ((numbers[figure], UNITS[figure]) for figure in _FIGURES)
             rows.append((name, *("" if x is None else handy_text(x, unit, 4) for x, unit in cells)))
         columns = ("", *(figure.replace("_", " ") for figure in _FIGURES))
         return (Table("Balls of the catalogue", columns, rows),)

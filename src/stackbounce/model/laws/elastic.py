@@ -153,8 +153,7 @@ class Hertz(ElasticLaw):
         shares = [_shares("ball_a", ball_a)]
         if ball_b is not None:
             shares.append(_shares("ball_b", ball_b))
-        compliance = sum(share for share, _ in shares)  # 1/E*, in 1/Pa
-        curvature = sum(share for _, share in shares)  # 1/R*, in 1/m
+        compliance, curvature = map(sum, zip(*shares, strict=True))  # 1/E* in 1/Pa, 1/R* in 1/m
         return cls(4.0 / 3.0 / compliance / curvature**0.5)
 
 

@@ -224,17 +224,12 @@ def _shares(x: Sequence[float], forces: Sequence[float], back: Sequence[float]) 
     at = [place / x[-1] for place in x[1:]]
     share = [out / force for out, force in zip(back[1:], forces[1:], strict=True)]
     rising = list(itertools.accumulate(reversed(share), min))[::-1]
-    slopes = [
-        (high - low) / (end - begin)
-        for (begin, end), (low, high) in zip(
-            itertools.pairwise(at), itertools.pairwise(rising), strict=True
-        )
-    ]
+    steps = zip(itertools.pairwise(at), itertools.pairwise(rising), strict=True)
+    slopes = [(high - low) / (end - begin) for (begin, end), (low, high) in steps]
     foot = max(0.0, rising[0] - slopes[0] * at[0]) if slopes else 1.0
-    pieces = [(0.0, foot, (rising[0] - foot) / at[0], 0.0)]
-    return pieces + [
-        (begin, low, slope, 0.0) for begin, low, slope in zip(at, rising, slopes, strict=False)
-    ]
+    first = (0.0, foot, (rising[0] - foot) / at[0], 0.0)
+    others = zip(at, rising, slopes, strict=False)
+    return [first, *((begin, low, slope, 0.0) for begin, low, slope in others)]
 
 
 def _steepness(pieces: list[Piece]) -> float:

@@ -52,7 +52,9 @@ def draw(data: Any, found: Any, axes: Any = None) -> Figure:
         if tiny:
             own[1].set_title("the first contact", loc="left", fontsize=10)
             _draw_panel(own[1], found, [first], _extent(found, [first]), named=True)
-        _title(own[0], data, found)
+        count, source = len(found.contacts), file_of(data)
+        words = f"{count or 'no'} contact{'s' * (count != 1)}"
+        own[0].set_title(f"{source}: {words}" if source else words, loc="left", fontsize=10)
         names = [panel.get_legend_handles_labels() for panel in own]
         known = {label: mark for marks in names for mark, label in zip(*marks, strict=True)}
         place: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 4}
@@ -98,9 +100,8 @@ def _draw_record(axes: Axes, found: Any, low: float, high: float, factor: float)
     """Draw the samples: as dots if they are few, else as a line, of pixels if they are many."""
     inside = (found.times >= low) & (found.times <= high)
     times, force = factor * found.times[inside], found.force[inside]
-    axes.axhspan(
-        -found.noise, found.noise, color="#bdbdbd", alpha=0.45, lw=0, label="baseline ± noise"
-    )
+    noise: Any = {"color": "#bdbdbd", "alpha": 0.45, "lw": 0, "label": "baseline ± noise"}
+    axes.axhspan(-found.noise, found.noise, **noise)
     axes.axhline(0.0, color="#808080", linewidth=0.8)
     look: Any = {"color": _RECORD, "label": "record", "markersize": 3.2, "linewidth": 0.9}
     style = "o" if len(times) <= _DOTS else "-"
@@ -135,11 +136,3 @@ def _label_contacts(axes: Axes, contacts: Any, factor: float) -> None:
         top: Any = {"xycoords": axes.get_xaxis_transform(), "ha": "center", "va": "top"}
         text = f"{contact.time * 1e3:.1uS} ms"
         annotate(axes, text, (middle, 1.0), _SHADE, bbox=box, **place, **top)
-
-
-def _title(axes: Axes, data: Any, found: Any) -> None:
-    """Write the title: the number of contacts, and the name of the file."""
-    count = len(found.contacts)
-    words = f"{count or 'no'} contact{'s' * (count != 1)}"
-    source = file_of(data)
-    axes.set_title(f"{source}: {words}" if source else words, loc="left", fontsize=10)

@@ -132,9 +132,8 @@ def _branches(record: Record, cycle: Cycle) -> tuple[_Points, _Points, tuple[Arr
     levels = weights @ y[slack]
     y = y - line @ levels
     unseen = quantisation_error(record.step, float(y[slack].std())) if len(levels) else 0.0
-    up, down = (
-        _Points(x[part], y[part], line[part]) for part in (slice(count), slice(count, None))
-    )
+    up = _Points(x[:count], y[:count], line[:count])
+    down = _Points(x[count:], y[count:], line[count:])
     return up, down, (levels, weights, unseen)
 
 
@@ -198,9 +197,8 @@ def _numbers(law: _Law, sums: Array, free: int, known: list[tuple[Array, Any]]) 
 def _density(law: _Law, free: int) -> float:
     """Return the variance of independent noise, relative to `noise`, that has the same effect."""
     left = law.residual / law.noise
-    return (
-        float(left @ left) / max(len(left) - free, 1) * correlation_factor(left, _LEAST_CORRELATED)
-    )
+    variance = float(left @ left) / max(len(left) - free, 1)
+    return variance * correlation_factor(left, _LEAST_CORRELATED)
 
 
 def _sums_in(up: _Points, peak: float, law: _Law) -> Array:

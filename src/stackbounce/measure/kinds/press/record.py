@@ -88,12 +88,10 @@ def record_of(data: Dataset | Any) -> Record:
         raise InvalidValue(f"{constant} must change in a press curve, got one value throughout")
     compression, force, turned = _oriented(compression, force)
     notes += turned
-    steps = resolution(compression), resolution(force)
-    jitter, hiss = (
-        max(difference_noise(values), step / np.sqrt(12.0))
-        for values, step in zip((compression, force), steps, strict=True)
-    )
-    return Record(compression, force, jitter, hiss, steps[1], tuple(notes))
+    step = resolution(force)
+    jitter = max(difference_noise(compression), resolution(compression) / np.sqrt(12.0))
+    hiss = max(difference_noise(force), step / np.sqrt(12.0))
+    return Record(compression, force, jitter, hiss, step, tuple(notes))
 
 
 def cycles(record: Record) -> list[Cycle]:

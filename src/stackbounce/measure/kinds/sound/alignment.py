@@ -92,9 +92,8 @@ def band_powers(
     widths = 0.5 * np.diff(edges)  # Hz, standard deviations
     lasts = 1.0 / (2.0 * math.pi * widths)
     finer = 2 ** max(0, math.ceil(math.log2(1.0 / (rate * _LONGEST_STEP))))
-    before, after = (
-        math.ceil((side + _SKIRT_SIGMAS * lasts.max()) * rate) for side in (-start, stop)
-    )
+    skirt = _SKIRT_SIGMAS * lasts.max()
+    before, after = (math.ceil((side + skirt) * rate) for side in (-start, stop))
     around, late = _windows(values, rate, about, before, after)
     size = 1 << math.ceil(math.log2(around.shape[1]))
     tones = np.fft.rfftfreq(size, 1.0 / rate)
@@ -268,9 +267,8 @@ def _compared(
     without = ((share * off).sum(axis=0) - share * off) / np.maximum(rest, _LEAST_SHARE)
     others = np.logaddexp(template + np.clip(without, -2.0, 2.0), floor)
     residuals = np.clip(logs - others, -most, most)
-    variances = (
-        _smooth((residuals**2).mean(axis=0), _VARIANCE_WINDOW / bands.step) + _LEAST_VARIANCE
-    )
+    squares = (residuals**2).mean(axis=0)
+    variances = _smooth(squares, _VARIANCE_WINDOW / bands.step) + _LEAST_VARIANCE
     slopes, seen = (np.gradient(logarithms, bands.step, axis=2) for logarithms in (others, logs))
     # What the slope of the others predicts of a knock's own: chance predicts nothing.
     wide = _SLOPE_WINDOW / bands.step

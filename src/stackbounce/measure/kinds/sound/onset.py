@@ -95,10 +95,9 @@ def _knock(
     faint: float,
 ) -> _Knock:
     rate /= thin
-    at, half, guard = round(time * rate), round(reach * rate), round(_GUARD_SECONDS * rate)
-    before = _part(
-        values, max(at - guard - round(_NOISE_SECONDS * rate), 0), max(at - guard, 1), thin
-    )
+    at, half = round(time * rate), round(reach * rate)
+    end = at - round(_GUARD_SECONDS * rate)
+    before = _part(values, max(end - round(_NOISE_SECONDS * rate), 0), max(end, 1), thin)
     quiet = float((before**2).mean())
     loud = float((_part(values, at, at + round(_POWER_SECONDS * rate), thin) ** 2).mean())
     noise = max(quiet + _rounding(quiet, rounded / thin), max(faint, _SILENT) * loud, 1e-30)
@@ -143,9 +142,8 @@ def _improved(knocks: list[_Knock], rate: float) -> Pair:
     means = each @ (places[:-1] + 0.5)
     held = np.pad(np.cumsum(each, axis=1), ((0, 0), (1, 0)))
     low, high = np.array([np.interp(_ONE_SIGMA, shares, places) for shares in held]).T
-    deviations = np.sqrt(
-        (each * (places[:-1] + 0.5 - means[:, None]) ** 2).sum(axis=1) + 1.0 / 12.0
-    )
+    variances = (each * (places[:-1] + 0.5 - means[:, None]) ** 2).sum(axis=1)
+    deviations = np.sqrt(variances + 1.0 / 12.0)
     first = np.array([knock.first for knock in knocks])
     return (first + means) / rate, np.minimum(deviations, 0.5 * (high - low)) / rate
 
@@ -159,9 +157,8 @@ def _logs(knock: _Knock, color: Array, rate: float) -> Array:
     grown = np.array(
         [-np.expm1(-since / rise) if rise else np.ones(len(since)) for rise in _RISE_TIMES]
     )
-    power = (knock.loud - knock.noise) / (grown[:, : round(_POWER_SECONDS * rate)] ** 2).mean(
-        axis=1
-    )
+    share = (grown[:, : round(_POWER_SECONDS * rate)] ** 2).mean(axis=1)
+    power = (knock.loud - knock.noise) / share
     power = np.maximum(power, _LEAST_POWER * knock.noise)
     wave = np.sqrt(power)[:, None] * grown[:, :count]
     covariances = toeplitz(color) * wave[:, :, None] * wave[:, None] + knock.noise * np.eye(count)

@@ -130,9 +130,8 @@ def _go_on(pairs: _Pairs, j: int, later: NDArray[np.int64], steps: _Steps) -> No
         # One bounce is missing: the interval holds two flights, r and r**2 times the last one.
         ratio = 0.5 * (np.sqrt(1.0 + 4.0 * whole) - 1.0) if missed else whole
         log = np.log(ratio)
-        change = (log - np.where(fresh, log, np.log(previous))) / np.hypot(
-            _RATIO_SPREAD, steps.errors
-        )
+        before = np.where(fresh, log, np.log(previous))
+        change = (log - before) / np.hypot(_RATIO_SPREAD, steps.errors)
         quieter = np.clip((steps.louder - (1 + missed) * log) / _LOUDNESS_SPREAD, -2.0, 2.0)
         total = scores[at][:, None] + steps.gain - 0.5 * (change**2 + quieter**2)
         allowed = (ratio > SHRINKS[0]) & (ratio < SHRINKS[1] + steps.errors)

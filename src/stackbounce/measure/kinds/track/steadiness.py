@@ -97,9 +97,8 @@ def floor_angle(levels: Sequence[Any], across: Array) -> tuple[float, float]:
     if len(levels) < 2 or not np.ptp(across) > 0.0:
         return 0.0, math.inf
     design = np.column_stack([np.ones(len(levels)), across - across.mean()])
-    fit = least_squares(
-        design, np.array([nominal(level) for level in levels]), covariance_of(levels)
-    )
+    seen = np.array([nominal(level) for level in levels])
+    fit = least_squares(design, seen, covariance_of(levels))
     error = math.sqrt(fit.covariance[1, 1])
     if fit.freedom:
         error *= widening(fit.freedom) * math.sqrt(max(fit.chi_squared / fit.freedom, 1.0))

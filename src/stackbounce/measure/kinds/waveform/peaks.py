@@ -62,10 +62,8 @@ def find_peaks(times: Array, values: Array, noise: float, density: float) -> lis
         tops = np.array([int(np.argmax(even))])
     dips = [int(a + np.argmin(even[a:b])) for a, b in pairwise(tops)]
     edges = [0, *dips, len(even) - 1]
-    return [
-        _cap(times, values, even, int(top), room, density)
-        for top, room in zip(tops, pairwise(edges), strict=True)
-    ]
+    rooms = zip(tops.tolist(), pairwise(edges), strict=True)
+    return [_cap(times, values, even, top, room, density) for top, room in rooms]
 
 
 def _cap(
