@@ -1,7 +1,6 @@
 """Figures 7 to 13: the basketball with a tennis ball, pairs of superballs, and their forces."""
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from stackbounce.cross2007.drops import Array, force_above, peak_times
 from stackbounce.cross2007.figures_models import sample_forces
 from stackbounce.library_types import Axes, Figure
 from stackbounce.model.drop import Drop
+from stackbounce.model.laws import HollowBall, Spring
 from stackbounce.run.result import Result
 
 _LABELS = ("floor (P1)", "between the balls (P2)")
@@ -108,9 +108,11 @@ def draw_figure_8_hollow(bench: Bench) -> style.Picture:
         ax.plot(1e3 * _TIMES, curve, color=style.GREY, lw=0.8)
         ax.set(ylim=(0.0, 1.6 * curve.max()))
     style.note(panels[0], "solid: touching\ndashed: 2 mm apart\ngrey: springs")
-    film: Any = stacks.hollow_pair(bench)
+    film = stacks.hollow_pair(bench)
     lower, upper = bench.simulate(film).rebound_ratios
     floor, spring = film.contacts
+    assert isinstance(floor, HollowBall)
+    assert isinstance(spring, Spring)
     return style.describe(
         "8-hollow",
         figure,

@@ -266,7 +266,7 @@ def with_difference(value: Any, less: Any, more: Any, *, off: Any) -> Any:
     if is_dataclass(value) and not isinstance(value, type | Drag):
         changes: dict[str, Any] = {}
         for field in fields(value):
-            row = (getattr(one, field.name) for one in (value, less, more))
+            row = (getattr(result, field.name) for result in (value, less, more))
             changes[field.name] = with_difference(*row, off=off)
         return replace(value, **changes)
     return value
