@@ -22,14 +22,12 @@ from benchmarks.by_scipy import rebound
 from benchmarks.peers import by_cvode, by_cyrk, by_scipy
 from benchmarks.peers.by_hand import FORCES, loop_of, solve_rigid
 from benchmarks.random_drops import PairDrops
-from stackbounce.engine import native
-from stackbounce.engine.codes import ASK
-from stackbounce.engine.memory import FINITE, RIGID, Engine, lane_workspace, memory
+from stackbounce.engine.memory import FINITE, RIGID, Engine, memory
 from stackbounce.engine.records import Drops
-from stackbounce.engine.tables import Table
-from stackbounce.engine.work import ASKED_RTOL, LANE_EVENTS
+from stackbounce.engine.work import EVENT_LIMIT
 from stackbounce.model.laws import ContactLaw, contact_numbers
-from stackbounce.run.batch import new_outcomes
+from stackbounce.run.batch import new_outcomes, run_lanes
+from stackbounce.run.options import Options
 
 LAWS = {
     "Hertz": sb.Hertz(1e6),
@@ -99,17 +97,12 @@ def _in_units(drops: Drops) -> PairDrops:
     return PairDrops(drops.mass / mass, drops.first / stiffness, losses, gaps)
 
 
-def _lanes(drops: Drops, kernel: str, limit: float) -> Way:
-    """Return an engine in lanes, with the general one for what it leaves to that."""
-    out, space = new_outcomes(len(drops.gravity), 2), lane_workspace(compiled=True)
-    solve, given = native.compiled(kernel), (Table(drops), limit, Table(out), Table(space))
+def _lanes(drops: Drops, kernel: str, rtol: float) -> Way:
+    """Return an engine in lanes, with what solves again the drops that it is not sure of."""
+    out, options = new_outcomes(len(drops.gravity), 2), Options(math.inf, rtol, EVENT_LIMIT)
 
     def call() -> np.ndarray:
-        solve(*given)
-        asked = np.flatnonzero(out.status == ASK)
-        if len(asked):
-            some = _some(drops, asked)
-            out.rebound_ratio[asked] = _general(some, FINITE, min(limit, ASKED_RTOL))()
+        run_lanes(kernel, drops, out, options, compiled=True, pause=lambda: None)
         return out.rebound_ratio
 
     return call
@@ -193,7 +186,7 @@ def rigid(progress: Callable[[str], None], count: int = RIGID_COUNT) -> list[Ent
     general, speed = _general(drops, RIGID, TRUTH), -drops.velocity[:, :1]
     ways = {
         (LOOP, math.nan): (count, lambda: solve_rigid(drops) / speed),
-        (LANES, math.nan): (count, _lanes(drops, "run_two_rigid", LANE_EVENTS)),
+        (LANES, math.nan): (count, _lanes(drops, "run_two_rigid", TRUTH)),
         (DROPS, math.nan): (count, general),
     }
     return _raced(RIGID_BALLS, ways, general().copy(), progress)

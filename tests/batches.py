@@ -41,7 +41,7 @@ def swept_in_lanes(entry, drops, options):
     """Return the outcomes of two balls, and of how many of them the lanes are not sure at first."""
     out, limit = _room(drops), options.rtol if entry == "run_pairs" else options.event_limit
     asked = int((in_lanes(entry, drops, limit).status == codes.ASK).sum())
-    batch._run_lanes(entry, drops, out, options, True, lambda: None)
+    batch.run_lanes(entry, drops, out, options, True, lambda: None)
     return out, asked
 
 

@@ -131,7 +131,7 @@ def solve(
     run: _Runner = functools.partial(_run_rows, choose_engine(drop), drop_pieces(drop))
     lanes = choose_lanes(drop, rows, options)
     if lanes:
-        run = functools.partial(_run_lanes, lanes)
+        run = functools.partial(run_lanes, lanes)
     wide = {number: np.broadcast_to(values, shape) for number, values in rows.items()}
     threads = os.cpu_count() or 1
     most = min(max(count // (_EACH * threads), _BLOCKS.start), _BLOCKS.stop)
@@ -186,7 +186,7 @@ def new_outcomes(count: int, balls: int) -> Outcomes:
     )
 
 
-def _run_lanes(
+def run_lanes(
     lanes: str,
     drops: Drops,
     out: Outcomes,
@@ -219,7 +219,7 @@ def _run_lanes(
         answers = Outcomes._make(array[rows] for array in out)
         near = options._replace(rtol=closer)
         if again:
-            _run_lanes(lanes, some, answers, near, compiled, pause, again=False)
+            run_lanes(lanes, some, answers, near, compiled, pause, again=False)
         else:
             engine = RIGID if lanes == "run_two_rigid" else FINITE
             _run_rows(engine, (), some, answers, near, compiled, pause)
