@@ -215,72 +215,43 @@ def take_step(x: Floats) -> None:
     _find_rates(x, 0.0, _END[0])
     for i in range(BOTH):
         x[ACC + i] = x[ACC_NEW + i]
-    a: Sequence[float] = _TO_2
-    for i in range(size):
-        x[K1 + i] = k = x[OUT + i]
-        x[NOW + i] = x[Y + i] + a[0] * k
+    _go_to(x, size, K1, _TO_2, (K1,))
     _find_rates(x, 0.05260015195876773, 0.0)
-    a = _TO_3
-    for i in range(size):
-        x[NOW + i] = x[Y + i] + (a[0] * x[K1 + i] + a[1] * x[OUT + i])
+    _go_to(x, size, K3, _TO_3, (K1, K3))
     _find_rates(x, 0.0789002279381516, 0.0)
-    a = _TO_4
-    for i in range(size):
-        x[K3 + i] = k = x[OUT + i]
-        x[NOW + i] = x[Y + i] + (a[0] * x[K1 + i] + a[1] * k)
+    _go_to(x, size, K3, _TO_4, (K1, K3))
     _find_rates(x, 0.1183503419072274, 0.0)
-    a = _TO_5
-    for i in range(size):
-        x[K4 + i] = k = x[OUT + i]
-        x[NOW + i] = x[Y + i] + (a[0] * x[K1 + i] + a[1] * x[K3 + i] + a[2] * k)
+    _go_to(x, size, K4, _TO_5, (K1, K3, K4))
     _find_rates(x, 0.2816496580927726, 0.0)
-    a = _TO_6
-    for i in range(size):
-        x[K5 + i] = k = x[OUT + i]
-        x[NOW + i] = x[Y + i] + (a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * k)
+    _go_to(x, size, K5, _TO_6, (K1, K4, K5))
     _find_rates(x, 0.3333333333333333, _END[1])
-    a = _TO_7
-    for i in range(size):
-        x[K6 + i] = k = x[OUT + i]
-        way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * k
-        x[NOW + i] = x[Y + i] + way
+    _go_to(x, size, K6, _TO_7, (K1, K4, K5, K6))
     _find_rates(x, 0.25, _END[2])
-    a = _TO_8
-    for i in range(size):
-        x[K7 + i] = k = x[OUT + i]
-        way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
-        x[NOW + i] = x[Y + i] + (way + a[4] * k)
+    _go_to(x, size, K7, _TO_8, (K1, K4, K5, K6, K7))
     _find_rates(x, 0.3076923076923077, _END[3])
-    a = _TO_9
-    for i in range(size):
-        x[K8 + i] = k = x[OUT + i]
-        way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
-        x[NOW + i] = x[Y + i] + (way + a[4] * x[K7 + i] + a[5] * k)
+    _go_to(x, size, K8, _TO_9, (K1, K4, K5, K6, K7, K8))
     _find_rates(x, 0.6512820512820513, _END[4])
-    a = _TO_10
-    for i in range(size):
-        x[K9 + i] = k = x[OUT + i]
-        way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
-        x[NOW + i] = x[Y + i] + (way + a[4] * x[K7 + i] + a[5] * x[K8 + i] + a[6] * k)
+    _go_to(x, size, K9, _TO_10, (K1, K4, K5, K6, K7, K8, K9))
     _find_rates(x, 0.6, _END[5])
-    a = _TO_11
-    for i in range(size):
-        x[K10 + i] = k = x[OUT + i]
-        way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
-        way += a[4] * x[K7 + i] + a[5] * x[K8 + i] + a[6] * x[K9 + i] + a[7] * k
-        x[NOW + i] = x[Y + i] + way
+    _go_to(x, size, K10, _TO_11, (K1, K4, K5, K6, K7, K8, K9, K10))
     _find_rates(x, 0.8571428571428571, _END[6])
-    a = _TO_12
-    for i in range(size):
-        x[K11 + i] = k = x[OUT + i]
-        way = a[0] * x[K1 + i] + a[1] * x[K4 + i] + a[2] * x[K5 + i] + a[3] * x[K6 + i]
-        way += a[4] * x[K7 + i] + a[5] * x[K8 + i] + a[6] * x[K9 + i] + a[7] * x[K10 + i]
-        x[NOW + i] = x[Y + i] + (way + a[8] * k)
+    _go_to(x, size, K11, _TO_12, (K1, K4, K5, K6, K7, K8, K9, K10, K11))
     _find_rates(x, 1.0, _END[7])
     for i in range(size):
         x[NEW + i] = x[Y + i] + _weighted(x, i, _END)
         third, fifth = _weighted(x, i, _THIRD), _weighted(x, i, _FIFTH)
         x[K3 + i], x[K4 + i] = abs(third), abs(fifth)
+
+
+@kernel
+def _go_to(x: Floats, size: int, own: int, a: Sequence[float], earlier: Sequence[int]) -> None:
+    """Keep the rates of a stage in a slot, and make the state of the next one from earlier ones."""
+    for i in range(size):
+        x[own + i] = x[OUT + i]
+        way = a[0] * x[earlier[0] + i]
+        for j in range(1, len(a)):
+            way += a[j] * x[earlier[j] + i]
+        x[NOW + i] = x[Y + i] + way
 
 
 @kernel

@@ -207,6 +207,7 @@ def run_lanes(
     else:
         with np.errstate(all="ignore"):
             run(drops, rtol, out, space)
+    pause()
     unsure, closer = out.status == codes.ASK, max(AGAIN * rtol, LANES_RTOL)
     again = again and lanes == "run_pairs" and closer < rtol
     if again:
