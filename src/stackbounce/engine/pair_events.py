@@ -1,8 +1,8 @@
 """What happens to two balls in a lane between steps: contacts touch, turn, press no more, and open.
 
 A step is aimed at the event that comes, the event is applied, the balls fly freely until they touch
-again, or the drop ends. If it is not sure whether a contact touches, the lane ends with the status
-ASK, and the general engine solves that drop.
+again, or the drop ends. If it is not sure whether a contact touches, or follows no simple curve,
+the lane ends with the status ASK, and the caller has that drop solved again, more closely.
 """
 
 import math
@@ -13,14 +13,14 @@ from stackbounce.engine.elementary import exp, power
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.pair_step import EVENT, LANES, ROOT, TIME
 
-# kinds of event; GAIN: the gain that is watched is 0; OPEN: of an unloaded contact; RETURN: the
-# compression comes back to a turning point
+# kinds of event; GAIN: the gain that is watched is 0; OPEN: of an unloaded contact, where no step
+# must end; RETURN: the compression comes back to a turning point
 TOUCH, RELEASE, GAIN, OPEN, RETURN = 0.0, 1.0, 2.0, 3.0, 4.0
 # curves of a contact with hysteresis: loading, out from the peak, in again, and out from there
 IN, OUT, IN_AGAIN, OUT_AGAIN = 0.0, 1.0, 2.0, 3.0
 
-_SLOW = 1e-5  # of the impact speed: slower contacts are left to the general engine
-_TOGETHER = 1e-6  # of a time: contacts that touch so close to each other are left to it, too
+_SLOW = 1e-5  # of the impact speed: it is not sure that slower contacts touch or open
+_TOGETHER = 1e-6  # of a time: it is not sure which of two contacts that are so close touches first
 _NEAR = 0.4  # of the next step by time: an event within it is aimed at
 _PART = 0.8  # of the way to a later event, or to one that a step could not be aimed at
 _STEADY = 0.4  # of the mean rate up to an event: the least rate at which a step is aimed at it

@@ -8,11 +8,12 @@ II.10), each of its own length. The loops have no branches, so that a compiler v
 The state of a lane is the compression c and the closing rate r = c' of both contacts, and the time.
 The force of a pressing contact is
 
-    F = max(0, k c^(p - 1) g (b + a c)),    g = a + b c + d r,
+    F = k c^(p - 1) g (b + a c),    g = a + b c + d r,
 
 where a is 1 and b is 0, or the other way round (see `forces`): a Hertz contact has p = 1.5, a = 1
 and d = 0; that of Hunt and Crossley a = 1; a dashpot p = 1 and b = 1; a viscoelastic one p = 1.5
-and b = 1. Two forms have more numbers:
+and b = 1. F is not cut off at 0, so that a step is smooth that passes the end of a contact; it is
+then repeated up to that end. Two forms have more numbers:
 
 - With hysteresis, F becomes F (ADDED + KEPT s) + HELD s + OFFSET, with the share s = (c/C)^M that
   is left of the force at the peak C (see `cycles`). One cycle is followed, none inside it.
@@ -76,7 +77,8 @@ END_A, END_B, END_D, LEVEL, MU, NU, MU_NOW, DRIFT = (_EACH + k * BOTH for k in r
 # compressed again.
 LOSS, OVER_PEAK, ADDED, KEPT, HELD, OFFSET = (_EACH + k * BOTH for k in range(32, 38))
 CURVE, PEAK, TURN, BASE, EXPONENT = (_EACH + k * BOTH for k in range(38, 43))
-SPAN, WIDE = _EACH + 43 * BOTH, _EACH + 44 * BOTH  # a typical compression over the impact speed
+# A typical compression over the impact speed, and how near 0 a turn of the compression is not sure.
+SPAN, WIDE = _EACH + 43 * BOTH, _EACH + 44 * BOTH
 # Slots for each lane: 1/m1, 1/m2; the step in s, s where it begins, and the weights m, n, q; how
 # the step goes; impact speed, row, status; 1 if `pairs` must decide how the lane goes on; steps so
 # far; the allowed error over that of the step, and the factor for the next step; the last step by
@@ -97,7 +99,7 @@ SLOTS = TOLERANCE + 6
 TIME, ROOT, EVENT = 0.0, 1.0, 2.0  # modes: by time, by a root from a touch on, up to an event
 
 MOST_STEPS = 2000.0  # of a drop: the general engine solves one that needs more
-_UNSURE = 3.0  # errors of a step: an event that comes, or is missed, by less is not sure
+_UNSURE = 3.0  # errors of the steps so far: an event that comes, or fails to, by less is not sure
 _AHEAD = 1.2  # steps: an event within this is aimed at
 _TINY = 1e-150  # m/s: a step without an error is exact
 ONWARD = 1.7  # the first step by time, over the time of the last one by a root

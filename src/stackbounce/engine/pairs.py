@@ -19,7 +19,7 @@ from stackbounce.engine.work import LANE_STEP
 _STEP = 0.4  # the error allowed in one step, over rtol
 _FIRST = 0.9  # of the root of a typical compression: the first step by a root, for an error of 1
 _FIRST_ROOT = 24  # it falls with this root of the error
-_UNSURE = 2.0  # errors of a step: by so little no event is sure, not even the first
+_FIRST_UNSURE = 2.0  # allowed errors of a step: what is not sure from the beginning
 _COARSE = 2.0  # the largest estimate of order 3, for an error of 1; it falls with its cube root
 
 
@@ -36,8 +36,8 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
     rtol : float
         The error of the velocities that is aimed at, over the impact speed.
     out : Outcomes
-        Gets the velocities, ratios, numbers of collisions, and times. The status is FINISHED, or
-        ASK where the general engine must solve the drop; its other results are then meaningless.
+        Gets the velocities, ratios, numbers of collisions, times and work. The status is FINISHED,
+        or ASK where another run must solve the drop; its other results are then meaningless.
     space : Workspace
         Its ``floats`` are scratch space, of the size `records.SCRATCH`.
     """
@@ -85,7 +85,7 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
     x[lane.ROW + i], x[lane.STATUS + i], x[lane.V0 + i], x[lane.STEPS + i] = row, 0.0, speed, 0.0
     x[lane.OVER_1 + i], x[lane.OVER_2 + i] = 1.0 / drops.mass[row, 0], 1.0 / drops.mass[row, 1]
     x[lane.Y + lane.T + i], x[lane.BY_TIME + i] = 0.0, math.inf
-    x[lane.UNSURE + i] = _UNSURE * x[lane.TOLERANCE] * speed
+    x[lane.UNSURE + i] = _FIRST_UNSURE * x[lane.TOLERANCE] * speed
     over_mass = 0.0
     for b in range(2):
         k = b * LANES + i

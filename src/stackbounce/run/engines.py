@@ -10,7 +10,7 @@ two springs   batches of two balls on springs, many at a time (`engine.two_sprin
 pairs         batches of two balls under other laws, many at a time (`engine.pairs`)
 ============= ==========================================================================
 
-The last three pass drops on to the general engine that are near the limits of their accuracy.
+The last three do not answer drops that are near the limits of their accuracy (`batch.run_lanes`).
 
 Compiled code is used wherever there is some for this machine (`engine.native`). Plain Python gives
 the same bits, about a hundred times slower.
