@@ -256,11 +256,11 @@ def power(x: float, y: float) -> float:
 
 
 @kernel
-def swift_power(x: float, y: float) -> float:
-    """Return x^y for y > 0, with a relative error of about 1e-16 (2 + |y ln x|), without branches.
+def swift_log(x: float) -> float:
+    """Return the natural logarithm with an error of about 1e-16 (1 + |ln x|), without branches.
 
-    The exponential is a polynomial. It can be computed for many numbers at the same time; x below
-    1e-300, or not a number, counts as 1e-300, and results are from 1e-304 to 1e304.
+    It can be computed for many numbers at the same time; x below 1e-300, or not a number, counts as
+    1e-300.
     """
     m, e = math.frexp(min(x, 1e300) if x > 1e-300 else 1e-300)
     high = 1.0 if m > 0.5 * _ROOT_TWO else 0.0
@@ -269,15 +269,28 @@ def swift_power(x: float, y: float) -> float:
     z = s * s
     rest = 2.0 * s * (1.0 + z * (_THIRD + z * _log_series(z)))
     turns = e - 1.0 + high
-    size = min(max(y * (turns * _LN2 + (turns * _LN2_REST + rest)), -700.0), 700.0)
-    whole = (size * 1.4426950408889634 + _ROUND) - _ROUND
-    r = (size - whole * _LN2) - whole * _LN2_REST
-    value = 2.505210838544172e-08 + r * 2.08767569878681e-09
-    value = 2.755731922398589e-06 + r * (2.755731922398589e-07 + r * value)
-    value = 0.0001984126984126984 + r * (2.48015873015873e-05 + r * value)
-    value = 0.008333333333333333 + r * (0.001388888888888889 + r * value)
-    value = 0.16666666666666666 + r * (0.041666666666666664 + r * value)
-    return (1.0 + r * (1.0 + r * (0.5 + r * value))) * _POWERS_OF_TWO[int(whole) + 1022]
+    return turns * _LN2 + (turns * _LN2_REST + rest)
+
+
+@kernel
+def swift_exp(x: float) -> float:
+    """Return e^x with a relative error of about 2e-16, without branches.
+
+    It can be computed for many numbers at the same time; results are from 1e-304 to 1e304.
+    """
+    x = min(max(x, -700.0), 700.0)
+    whole = (x * 1.4426950408889634 + _ROUND) - _ROUND
+    r = (x - whole * _LN2) - whole * _LN2_REST
+    t = r * r
+    tt = t * t
+    even = 2.755731922398589e-07 + t * 2.08767569878681e-09
+    even = (0.5 + t * 0.041666666666666664) + tt * (
+        (0.001388888888888889 + t * 2.48015873015873e-05) + tt * even
+    )
+    odd = 2.755731922398589e-06 * t + (0.0001984126984126984 + tt * 2.505210838544172e-08)
+    odd = (0.16666666666666666 + t * 0.008333333333333333) + tt * odd
+    value = 1.0 + (r + t * (even + r * odd))
+    return value * _POWERS_OF_TWO[(int(whole) + 1022) & 2047]
 
 
 @kernel

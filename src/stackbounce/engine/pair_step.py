@@ -45,7 +45,7 @@ a compression, with hysteresis      c      m = 1, by_r = 1: ends where a cycle c
 import math
 from collections.abc import Sequence
 
-from stackbounce.engine.elementary import swift_power
+from stackbounce.engine.elementary import swift_exp, swift_log
 from stackbounce.engine.kernels import Floats, kernel
 
 LANES = 32  # a power of two
@@ -197,10 +197,15 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
 
 @kernel
 def _find_powers(x: Floats) -> None:
-    """Raise all numbers in BASE to their EXPONENT."""
+    """Raise all numbers in BASE to their EXPONENT.
+
+    Other kernels call `exp` and `log`: these two become vector code only as long as nothing else
+    calls them.
+    """
     for i in range(BOTH):
-        base, exponent = x[BASE + i], x[EXPONENT + i]
-        x[BASE + i] = swift_power(base, exponent)
+        x[EXPONENT + i] *= swift_log(x[BASE + i])
+    for i in range(BOTH):
+        x[BASE + i] = swift_exp(x[EXPONENT + i])
 
 
 @kernel
