@@ -13,9 +13,9 @@ from stackbounce.engine.elementary import exp, power
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.pair_step import EVENT, LANES, ROOT, TIME
 
-# kinds of event; GAIN: the gain that is watched is 0; OPEN: of an unloaded contact, where no step
-# must end; RETURN: the compression comes back to a turning point
-TOUCH, RELEASE, GAIN, OPEN, RETURN = 0.0, 1.0, 2.0, 3.0, 4.0
+# kinds of event; GAIN: the gain that is watched is 0; RETURN: the compression comes back to a
+# turning point
+TOUCH, RELEASE, GAIN, RETURN = 0.0, 1.0, 2.0, 3.0
 # curves of a contact with hysteresis: loading, out from the peak, in again, and out from there
 IN, OUT, IN_AGAIN, OUT_AGAIN = 0.0, 1.0, 2.0, 3.0
 
@@ -70,16 +70,16 @@ def press(x: Floats, i: int, k: int) -> None:
 
 
 @kernel
-def _open(x: Floats, k: int) -> None:
+def open_now(x: Floats, k: int) -> None:
     """Let contact k be open from now on."""
     x[lane.PRESSING + k], x[lane.SIGN + k], x[lane.GAIN_SIGN + k] = 0.0, -1.0, 0.0
-    x[lane.MU_NOW + k] = 0.0
+    x[lane.MU_NOW + k], x[lane.LEVEL + k] = 0.0, 0.0
 
 
 @kernel
 def begin_open(x: Floats, k: int) -> None:
     """Let contact k be open, and remember nothing."""
-    _open(x, k)
+    open_now(x, k)
     _follow(x, k, IN)
 
 
@@ -130,7 +130,7 @@ def _turn_or_return(x: Floats, i: int, k: int, kind: float) -> None:
 def touch(x: Floats, i: int, k: int) -> None:
     """Let contact k touch now; the next step goes by the root of its compression if p is not 1."""
     rate = x[lane.Y + lane.R + k]
-    if not rate > _least_rate(x, i):
+    if not rate > _least_rate(x, i) or x[lane.LEVEL + k] > 0.0:
         x[lane.STATUS + i] = ASK
         return
     x[lane.Y + lane.C + k] = 0.0
@@ -195,7 +195,7 @@ def _fly(x: Floats, i: int) -> None:
     for k in (i, LANES + i):
         _advance(x, k, first)
         if x[lane.Y + lane.C + k] <= 0.0:
-            _open(x, k)
+            open_now(x, k)
     x[lane.Y + lane.T + i] += first
     touch(x, i, contact)
 
@@ -255,10 +255,19 @@ def _wait(left: float, rate: float, change: float) -> float:
 
 
 @kernel
+def _accept(x: Floats, i: int) -> None:
+    """Let the state at the end of the step of a lane be the present one, see also `pair_step`."""
+    for j in range(i, lane.STATE, LANES):
+        x[lane.Y + j] = x[lane.NEW + j]
+    for k in (i, LANES + i):
+        if x[lane.PRESSING + k] == 0.0 and x[lane.Y + lane.C + k] <= 0.0:
+            open_now(x, k)
+
+
+@kernel
 def _take(x: Floats, i: int) -> None:
     """Take the step of a lane, and aim the next one at the event that is expected in it, if any."""
-    for k in range(i, lane.STATE, LANES):
-        x[lane.Y + k] = x[lane.NEW + k]
+    _accept(x, i)
     grow = x[lane.GROW + i]
     if x[lane.MODE + i] == TIME:
         x[lane.H + i] *= grow
@@ -267,12 +276,8 @@ def _take(x: Floats, i: int) -> None:
     x[lane.BY_TIME + i] = x[lane.H + i]
     first, contact, kind = math.inf, -1, TOUCH
     for k in (i, LANES + i):
-        c, opens = x[lane.Y + lane.C + k], _kind(x, k) == OPEN
-        x[lane.OWN + k], wait = 0.0, math.inf
-        if not opens:
-            wait = _wait(c - x[lane.LEVEL + k], x[lane.Y + lane.R + k], x[lane.ACC_NEW + k])
-        elif c < 0.0:
-            _open(x, k)
+        x[lane.OWN + k], left = 0.0, x[lane.Y + lane.C + k] - x[lane.LEVEL + k]
+        wait = _wait(left, x[lane.Y + lane.R + k], x[lane.ACC_NEW + k])
         if wait < first:
             first, contact, kind = wait, k, _kind(x, k)
         gain, slope = _gain(x, lane.Y, k), _slope(x, lane.Y, lane.ACC_NEW, k)
@@ -287,11 +292,12 @@ def _take(x: Floats, i: int) -> None:
 @kernel
 def _kind(x: Floats, k: int) -> float:
     """Return the kind of event that comes when the compression of contact k is 0."""
+    if not x[lane.PRESSING + k] > 0.0:
+        return TOUCH
     if x[lane.LEVEL + k] > 0.0:
         return RETURN
-    if x[lane.PRESSING + k] > 0.0:  # the gain of a damped contact with a = 0 ends before
-        return GAIN if x[lane.B + k] * x[lane.D + k] > 0.0 else RELEASE
-    return OPEN if x[lane.SIGN + k] > 0.0 else TOUCH
+    # the gain of a damped contact with a = 0 ends before
+    return GAIN if x[lane.B + k] * x[lane.D + k] > 0.0 else RELEASE
 
 
 @kernel
@@ -333,7 +339,7 @@ def _retry(x: Floats, i: int) -> bool:
         if changes > 1:
             x[lane.H + i] *= 0.5
             return True
-        if changes == 1 and _kind(x, k) != OPEN:
+        if changes == 1:
             left = x[lane.Y + lane.C + k] - x[lane.LEVEL + k]
             wait = min(_wait(left, x[lane.Y + lane.R + k], x[lane.ACC + k]), 0.9 * dt)
             if wait < first:
@@ -343,8 +349,11 @@ def _retry(x: Floats, i: int) -> bool:
         inner = gain + sign * dt * _slope(x, lane.Y, lane.ACC, k) / 3.0
         inner_new = gain_new - sign * dt * _slope(x, lane.NEW, lane.ACC_NEW, k) / 3.0
         if gain_new < 0.0:
-            if sign < 0.0 and not _turns(x, k):  # it would press again
-                x[lane.STATUS + i] = ASK
+            if sign < 0.0 and not _turns(x, k):
+                if x[lane.Y + lane.C + k] + 0.5 * dt * x[lane.Y + lane.R + k] < 0.0:
+                    x[lane.H + i] *= 0.5  # it opens before
+                    return True
+                x[lane.STATUS + i] = ASK  # it would press again
             wait = dt * gain / (gain - gain_new) if gain > 0.0 else 0.9 * dt
             if wait < first:
                 first, contact, kind = wait, k, GAIN
@@ -388,20 +397,25 @@ def _changes(x: Floats, i: int, k: int) -> int:
 def _apply_event(x: Floats, i: int) -> None:
     """Take a step that ends at an event, and apply that event."""
     k, kind = int(x[lane.CONTACT + i]), x[lane.KIND + i]
-    for j in range(i, lane.STATE, LANES):
-        x[lane.Y + j] = x[lane.NEW + j]
+    _accept(x, i)
     if kind == TOUCH:
         touch(x, i, k)
         return
     if kind in (GAIN, RETURN) and _turns(x, k):
         _turn_or_return(x, i, k, kind)
         return
-    x[lane.LAST + k] = x[lane.Y + lane.T + i]
-    if kind == GAIN:
-        x[lane.PRESSING + k], x[lane.GAIN_SIGN + k] = 0.0, -1.0
+    open_now(x, k)
+    if kind == GAIN:  # it is open, but compressed, and may press again
+        x[lane.GAIN_SIGN + k], x[lane.LEVEL + k] = -1.0, x[lane.Y + lane.C + k]
     else:
         x[lane.Y + lane.C + k] = 0.0
-        _open(x, k)
+    go_apart(x, i, k)
+
+
+@kernel
+def go_apart(x: Floats, i: int, k: int) -> None:
+    """Let contact k, which presses no more from now on, go on as the other one lets it."""
+    x[lane.LAST + k] = x[lane.Y + lane.T + i]
     if not x[lane.Y + lane.R + k] < -_least_rate(x, i):
         x[lane.STATUS + i] = ASK
     elif x[lane.PRESSING + i] + x[lane.PRESSING + LANES + i] > 0.0:

@@ -387,6 +387,12 @@ def _go_on(x: Floats) -> None:
         for i in range(BOTH):
             surface, surface_new = x[Y + S + i], x[NEW + S + i]
             x[Y + S + i] = surface_new if x[TAKEN + i] > 0.0 else surface
+    if x[LOSES] > 0.0:  # as `_accept` in `pair_events` does
+        for i in range(BOTH):
+            c, sign, level = x[Y + C + i], x[GAIN_SIGN + i], x[LEVEL + i]
+            away = x[PRESSING + i] == 0.0 and c <= 0.0
+            x[GAIN_SIGN + i] = 0.0 if away else sign
+            x[LEVEL + i] = 0.0 if away else level
     for i in range(LANES):
         t, t_new = x[Y + T + i], x[NEW + T + i]
         x[Y + T + i] = t_new if x[TAKEN + i] > 0.0 else t
