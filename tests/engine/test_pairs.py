@@ -88,6 +88,27 @@ def test_separate_collisions_have_a_closed_form(rtol):
     assert out.last_release[once, 0] == pytest.approx(contact_time[once], rel=10.0 * rtol)
 
 
+@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.2])
+def test_the_balls_touch_at_any_time_while_the_floor_presses(exponent):
+    gaps = 1e-3 * np.concatenate([10.0 ** np.linspace(-6.0, -1.0, 100), np.linspace(0.1, 8.0, 400)])
+    one = np.ones((500, 2))
+    numbers = numbers_of(pairs(1, seed=1), np.zeros(500, dtype=int))
+    drops = numbers._replace(
+        mass=one * [0.15, 0.057],
+        form=np.full((500, 2), codes.POWER),
+        first=one * [1e6, 2e6] * 1e-3 ** (1.5 - exponent),
+        second=exponent * one,
+        velocity=-one,
+        gap=np.column_stack([np.zeros(500), gaps]),
+    )
+    out, exact = run(drops, 1e-12), swept(FINITE, drops, (math.inf, 1e-13, LIMIT, 10**12))
+    done = out.status == codes.FINISHED
+    assert done.mean() > 0.95
+    assert np.array_equal(out.collisions[done], exact.collisions[done])
+    assert out.velocity[done] == pytest.approx(exact.velocity[done], abs=1e-11)
+    assert out.first_touch[done] == pytest.approx(exact.first_touch[done], rel=1e-10, nan_ok=True)
+
+
 def test_a_drop_does_not_depend_on_the_others():
     drops = pairs(700, seed=6)
     whole = run(drops, 1e-6)

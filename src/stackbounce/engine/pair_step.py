@@ -94,7 +94,9 @@ COARSE = TOLERANCE + 1  # the largest estimate of order 3 with which the others 
 GENERAL = TOLERANCE + 2  # 1 if some exponent is neither 1 nor 1.5
 # 1 if some contact creeps, has hysteresis, or has a gain that changes
 CREEPS, REMEMBERS, LOSES = TOLERANCE + 3, TOLERANCE + 4, TOLERANCE + 5
-SLOTS = TOLERANCE + 6
+# Of `pair_alone`: half the levels of a continued fraction; how far derivatives lead, over c.
+LEVELS, REACH = TOLERANCE + 6, TOLERANCE + 7
+SLOTS = TOLERANCE + 8
 
 TIME, ROOT, EVENT = 0.0, 1.0, 2.0  # modes: by time, by a root from a touch on, up to an event
 

@@ -1,15 +1,17 @@
 """Many drops of two balls on contacts with a nonlinear or lossy force, without gravity, in lanes.
 
 All lanes step together (`pair_step`). Between steps, lanes that meet an event are looked after one
-by one (`pair_events`). A lane whose drop has ended takes the next one. No lane affects another.
+by one (`pair_events`). A contact that presses alone needs no steps under some laws (`pair_alone`).
+A lane whose drop has ended takes the next one. No lane affects another.
 """
 
 import math
 
 from stackbounce.engine import codes
 from stackbounce.engine import pair_step as lane
-from stackbounce.engine.elementary import near_root, power
+from stackbounce.engine.elementary import near_root, nearest_exponent, power
 from stackbounce.engine.kernels import Floats, kernel
+from stackbounce.engine.pair_alone import go_alone
 from stackbounce.engine.pair_events import begin_open, free_rate, go_by, look_after, press, touch
 from stackbounce.engine.pair_step import LANES, TIME, judge_step, take_step
 from stackbounce.engine.ratios import find_ratios
@@ -20,6 +22,8 @@ _STEP = 0.4  # the error allowed in one step, over rtol
 _FIRST = 0.9  # of the root of a typical compression: the first step by a root, for an error of 1
 _FIRST_ROOT = 24  # it falls with this root of the error
 _FIRST_UNSURE = 2.0  # allowed errors of a step: what is not sure from the beginning
+_LEVELS, _LEVELS_PER_BIT = 1.5, 0.2  # of a continued fraction, for an error of rtol/100
+_REACH = 0.2  # of a compression, for an error of 1: so far do three derivatives lead
 _COARSE = 2.0  # the largest estimate of order 3, for an error of 1; it falls with its cube root
 
 
@@ -44,6 +48,8 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
     x = space.floats
     x[lane.TOLERANCE], x[lane.COARSE] = _STEP * rtol, _COARSE * power(rtol, 1.0 / 3.0)
     x[lane.GENERAL] = x[lane.CREEPS] = x[lane.REMEMBERS] = x[lane.LOSES] = 0.0
+    x[lane.LEVELS] = _LEVELS - _LEVELS_PER_BIT * nearest_exponent(rtol)
+    x[lane.REACH] = _REACH * near_root(rtol, 3)
     first = _FIRST * near_root(rtol, _FIRST_ROOT)
     rows = len(out.status)
     left, row = rows, 0
@@ -53,6 +59,7 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
         for i in range(LANES):
             if x[lane.STATUS + i] == 0.0 and x[lane.ASKS + i] > 0.0:
                 look_after(x, i)
+                go_alone(x, i)
             while x[lane.STATUS + i] != 0.0:
                 done = int(x[lane.ROW + i])
                 if done >= 0:
@@ -62,6 +69,7 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
                     _idle(x, i)
                     break
                 _begin(drops, x, i, row, first)
+                go_alone(x, i)
                 row += 1
         take_step(x)
         judge_step(x)
