@@ -12,8 +12,7 @@ _BALLS = [
 
 def floor_force() -> str:
     """Return the force below a basketball with a tennis ball on top, as a spreadsheet has it."""
-    contacts = [sb.Spring(2700.0), sb.Spring(1350.0)]
-    drop = sb.Drop(_BALLS, contacts, gaps=[0.0], impact_speed=3.53)
+    drop = sb.Drop(_BALLS, [sb.Spring(2700.0), sb.Spring(1350.0)], gaps=[0.0], impact_speed=3.53)
     record = waveform(drop, rate=2e4, before=4e-3, noise=0.5, seed=2007)
     rows = [
         f"{t:.5f},{force:.1f}"

@@ -332,8 +332,7 @@ def _tried(owner: str) -> Any:
     import tomllib
     from importlib.resources import files
 
-    text = (files(__package__) / "attributes.toml").read_text("utf-8")
-    return tomllib.loads(text)[owner]
+    return tomllib.loads((files(__package__) / "attributes.toml").read_text("utf-8"))[owner]
 
 
 def shown(value: object) -> str:

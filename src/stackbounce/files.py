@@ -182,8 +182,7 @@ def _sealed(path: Path, content: bytes) -> bytes:
 
 def _seal(path: Path, content: bytes) -> bytes:
     """Return a comment with the digest of a file's content; nothing if it can have no comment."""
-    digest = hashlib.sha256(content).hexdigest().encode()
-    words = b"sha256 of the rest, by stackbounce: " + digest
+    words = b"sha256 of the rest, by stackbounce: " + hashlib.sha256(content).hexdigest().encode()
     suffix = path.suffix.lower()
     if suffix == ".png":
         chunk = b"tEXtComment\0" + words

@@ -164,8 +164,7 @@ def test_joined_with_a_heavy_ball():
 def test_second_impact_after_a_long_flight():
     """Late in a run, the round-off of time exceeded that of the solution, and events alternated."""
     balls = [sb.Ball(0.1), sb.Ball(0.002)]
-    drop = sb.Drop(balls, [sb.Spring(1e4)] * 2, height=1.0, gravity=9.81)
-    result = sb.simulate(drop, until=3.0)
+    result = sb.simulate(sb.Drop(balls, [sb.Spring(1e4)] * 2, height=1.0, gravity=9.81), until=3.0)
     assert result.status is sb.Status.TIME_REACHED
     assert result.collisions.tolist() == [4, 2]
     energy = result.sample([0.0, 1.5, 3.0]).energy.values
@@ -181,8 +180,7 @@ def test_light_ball_under_a_great_weight():
         velocities=[-3.53, -3.53],
         gravity=gravity,
     )
-    result = sb.simulate(drop, until=0.0005)
-    motion = result.sample(np.linspace(0.0, 0.0005, 400))
+    motion = sb.simulate(drop, until=0.0005).sample(np.linspace(0.0, 0.0005, 400))
     height = mass * gravity * np.abs(motion.position.values).max()
     assert np.ptp(motion.energy.values) < 1e-14 * height + 1e-13 * motion.energy.values[0]
 
@@ -191,8 +189,7 @@ def test_light_ball_under_a_great_weight():
 def test_noise_after_a_cannon(gap):
     """Balls at rest kept speeds of round-off, and collided again after a million years."""
     balls = [sb.Ball(1e-3 * mass) for mass in (30.0, 10.0, 5.0, 3.0, 2.0)]
-    drop = sb.Drop(balls, [sb.Hertz(1e9)] * 5, [gap] * 4, impact_speed=1.0)
-    result = sb.simulate(drop)
+    result = sb.simulate(sb.Drop(balls, [sb.Hertz(1e9)] * 5, [gap] * 4, impact_speed=1.0))
     assert result.collisions.tolist() == [1] * 5
     assert result.rebound_ratios == pytest.approx([0.0, 0.0, 0.0, 0.0, 5.0], abs=1e-11)
 

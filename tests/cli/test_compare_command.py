@@ -15,8 +15,7 @@ def test_a_data_set_is_fitted_by_its_name(told):
 
 def test_what_varies_in_a_data_set_can_be_told(told):
     more = ("--vary", "contacts.0.restitution=0.5:1")
-    found = told("fit", "cross2007/B1-B2", *more)
-    assert found["values"]["contacts.0.restitution"]["value"] > 0.8
+    assert told("fit", "cross2007/B1-B2", *more)["values"]["contacts.0.restitution"]["value"] > 0.8
 
 
 @pytest.mark.slow

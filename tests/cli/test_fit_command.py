@@ -127,8 +127,7 @@ def test_several_drops_are_saved_into_a_folder(fit, told, tmp_path):
     for name, height in (("low", 0.30), ("high", 0.63)):
         drop = sb.Drop.from_toml(tmp_path / "fitted" / f"{name}.toml")
         assert (drop.height, drop.gaps) == (height, (0.001,))
-        stiffness = found["values"]["contacts.1.stiffness"]["value"]
-        assert drop.contacts[1].stiffness == stiffness
+        assert drop.contacts[1].stiffness == found["values"]["contacts.1.stiffness"]["value"]
     more = told(*asked, "--measured", "low.rebound_ratios.0=0.2 ± 0.1")
     names = [residual["name"] for residual in more["residuals"]]
     assert names[:2] == ["rebound_ratios.1", "rebound_ratios.0"]
@@ -148,8 +147,7 @@ def test_a_file_asks_and_options_change_it(told, tmp_path):
 
 
 def test_draws_and_their_picture(told, tmp_path):
-    found = told(*ONE, "--sample", "3200", "--seed", "3", "--corner", "corner.png")
-    drawn = found["posterior"]
+    drawn = told(*ONE, "--sample", "3200", "--seed", "3", "--corner", "corner.png")["posterior"]
     assert (drawn["draws"], drawn["seed"]) == (75 * 32, 3)
     assert 0.1 < drawn["acceptance"] < 0.9
     value = drawn["values"]["contacts.1.stiffness"]

@@ -12,8 +12,7 @@ RIGID = ["--contact", "Rigid restitution=1"] * 3
 def test_highest_for_machines_and_to_a_file(told):
     words = ["B1", "B2", "B3", "--balls", "3", "--gap", "1mm", "--speed", "2", "--law", "spring"]
     found = told("highest", *words, "--save", "best.toml")
-    names = ["B1", "B2", "B3"]
-    ds = sb.highest(names, 3, gaps=[0.001], law=sb.Spring, impact_speed=2.0)
+    ds = sb.highest(["B1", "B2", "B3"], 3, gaps=[0.001], law=sb.Spring, impact_speed=2.0)
     assert [stack["balls"] for stack in found["stacks"]] == ds.balls.values.tolist()
     assert [stack["height_ratio"] for stack in found["stacks"]] == ds.height_ratio.values.tolist()
     assert (found["gap"], found["impact_speed"]) == ([0.001], 2.0)

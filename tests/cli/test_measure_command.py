@@ -54,8 +54,7 @@ def test_each_layout_is_read_and_analysed(measure, told, name):
 
 @pytest.mark.parametrize("name", ["tennis.wav", "made/phyphox_collision.zip", "tennis-force.csv"])
 def test_a_picture(measure, name, tmp_path):
-    out = measure(name, "--plot", "found.svg")
-    assert out.endswith("Picture: found.svg\n")
+    assert measure(name, "--plot", "found.svg").endswith("Picture: found.svg\n")
     assert (tmp_path / "found.svg").read_bytes().startswith(b"<?xml")
 
 

@@ -86,8 +86,7 @@ def test_a_track_tells_restitution_and_speed(law):
 
 
 def test_heights_without_errors_give_a_law_all_the_same():
-    found = one_law("rigid", [heights(1.0, 0.64)])
-    assert found.law == sb.Rigid(0.8)
+    assert one_law("rigid", [heights(1.0, 0.64)]).law == sb.Rigid(0.8)
 
 
 def test_nothing_known_is_no_contact():

@@ -111,8 +111,7 @@ def test_figure_six_is_dashed_and_solid_as_the_caption_says(drawn):
 
 
 def test_figures_follow_the_data(drawn):
-    lighter = figure("9", changed(PAPER, "tennis.mass", 0.99))
-    assert lighter.features != drawn["9"].features
+    assert figure("9", changed(PAPER, "tennis.mass", 0.99)).features != drawn["9"].features
 
 
 def test_heavy_lower_balls_collide_once(bench):

@@ -220,8 +220,7 @@ def test_a_force_that_is_cut_off_resumes_in_the_same_interval():
     """The floor's dashpot yields too slowly to stay pressed, until the upper ball lands."""
     hunt = sb.HuntCrossley(1.0, 1.17, 1.08)
     balls = [sb.Ball(0.2), sb.Ball(2.3)]
-    drop = sb.Drop(balls, [sb.Dashpot(0.06, 5.3), hunt], [0.94], impact_speed=1.0)
-    result = sb.simulate(drop)
+    result = sb.simulate(sb.Drop(balls, [sb.Dashpot(0.06, 5.3), hunt], [0.94], impact_speed=1.0))
     (interval,) = of_contact(result, 0)
     sample = result.sample(np.linspace(0.0, interval["end"], 4001)[1:-1])
     force, compression = sample.force.values[0], sample.compression.values[0]

@@ -93,8 +93,7 @@ def test_several_cycles_in_one_interval_follow_the_rule():
 def test_a_vibration_loses_energy_in_more_cycles_than_are_remembered():
     """The loss of a small cycle is as its third power, so that the amplitude falls as 1/t."""
     laws = [sb.Hysteretic(1.0, restitution=0.9), sb.Hysteretic(1000.0, restitution=0.9)]
-    balls = [sb.Ball(1.0), sb.Ball(1.0)]
-    drop = sb.Drop(balls, laws, velocities=[-1.0, -1.0], gravity=1.0)
+    drop = sb.Drop([sb.Ball(1.0), sb.Ball(1.0)], laws, velocities=[-1.0, -1.0], gravity=1.0)
     result = sb.simulate(drop, until=2000.0)  # 225 cycles
     c = result.sample(np.linspace(480.0, 2000.0, 15_001)).compression.values[0]
     early, late = np.ptp(c[:200]), np.ptp(c[-200:])  # 20 s

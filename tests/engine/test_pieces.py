@@ -205,8 +205,7 @@ def test_a_steep_table_without_loss_keeps_its_energy(width):
 @pytest.mark.parametrize("restitution", [0.6, 1.0])
 def test_a_ball_comes_to_rest_or_is_stopped(restitution):
     law = sb.HollowBall(1e4, 1e-3, 0.3, restitution)
-    drop = sb.Drop([sb.Ball(0.1)], [law], height=0.05, gravity=9.81)
-    result = sb.simulate(drop, until=20.0)
+    result = sb.simulate(sb.Drop([sb.Ball(0.1)], [law], height=0.05, gravity=9.81), until=20.0)
     if restitution < 1.0:
         assert result.status in (sb.Status.SETTLED, sb.Status.TIME_REACHED)
         assert abs(result.rebound_speeds[0]) < 1e-3

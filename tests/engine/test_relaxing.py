@@ -87,8 +87,7 @@ def test_limits_of_the_relaxation_time():
 
 
 def test_the_ball_leaves_still_compressed():
-    law = Solid(1.0, 1.0, 0.5)
-    result = one_ball(law)
+    result = one_ball(Solid(1.0, 1.0, 0.5))
     end = result.last_release[0]
     sample = result.sample(end * np.array([1.0 - 1e-9, 1.0, 1.001]))
     left = float(sample.compression.sel(contact=0)[1])

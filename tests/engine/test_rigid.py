@@ -180,8 +180,7 @@ def test_ties_lowest_approaching_first():
 @pytest.mark.parametrize("size", [1, 2, 30, 1000])
 def test_tall_stack_of_equal_elastic_balls(size):
     """Equal balls swap velocities: each passes each other and all the floor, which adds up."""
-    drop = rigid([1.0] * size, gaps=[1.0] * (size - 1))
-    result = sb.simulate(drop)
+    result = sb.simulate(rigid([1.0] * size, gaps=[1.0] * (size - 1)))
     assert result.status is sb.Status.FINISHED
     assert result.collisions.tolist() == list(range(size, 0, -1))
     assert result.rebound_speeds.tolist() == [1.0] * size

@@ -18,16 +18,14 @@ falling = functools.partial(rigid, gravity=1.0)
 @pytest.mark.parametrize("e", [1e-13, 0.3, 0.5, 0.9, 0.99])
 def test_one_ball_bounces_to_rest(e, compiled):
     """All is over sqrt(2 h/g) (1 + e)/(1 - e) after the release, and apex k is h e^(2k)."""
-    drop = falling([0.057], [e], height=1.3, gravity=G)
-    result = sb.simulate(drop, until=1e4, compiled=compiled)
+    result = sb.simulate(falling([0.057], [e], height=1.3, gravity=G), until=1e4, compiled=compiled)
     assert result.status is sb.Status.SETTLED
     assert result.collisions.tolist() == [-1]
     assert result.rebound_speeds.tolist() == [0.0]
     fall = np.sqrt(2 * 1.3 / G)
     assert result.end_time == pytest.approx(fall * 2 * e / (1 - e), rel=1e-12)
     apexes = result.apexes
-    k = np.arange(1, len(apexes) + 1)
-    expected = 1.3 * e ** (2.0 * k)
+    expected = 1.3 * e ** (2.0 * np.arange(1, len(apexes) + 1))
     assert apexes["height"][expected > 1e-300] == pytest.approx(
         expected[expected > 1e-300], rel=1e-12
     )
@@ -105,8 +103,7 @@ def test_a_collapse_on_the_way_up_and_down_again():
     speed = result.rebound_speeds[0]
     assert result.apexes["ball"].tolist() == [0, 1, 2]
     assert result.apexes["height"] == pytest.approx(0.5 * speed**2, abs=1e-14)
-    after = sb.simulate(drop, until=500.0)
-    assert after.status is sb.Status.SETTLED
+    assert sb.simulate(drop, until=500.0).status is sb.Status.SETTLED
 
 
 @pytest.mark.parametrize(
@@ -133,8 +130,7 @@ def test_several_balls(masses, restitutions, gaps, until):
 
 def test_a_ball_dropped_on_others_at_rest():
     """Equal elastic balls pass the blow to the floor and back; below the striker nothing moves."""
-    drop = falling([1.0] * 4, 1.0, [0.0, 0.0, 0.5], [0.0, 0.0, 0.0, -1.0])
-    result = sb.simulate(drop, until=2.0)
+    result = sb.simulate(falling([1.0] * 4, 1.0, [0.0, 0.0, 0.5], [0.0, 0.0, 0.0, -1.0]), until=2.0)
     assert result.events["contact"][:7].tolist() == [3, 2, 1, 0, 1, 2, 3]
     impact = np.sqrt(2.0) - 1.0
     assert result.intervals["start"][:7] == pytest.approx(impact, abs=1e-15)
@@ -217,8 +213,7 @@ def test_a_run_up_to_a_time_is_the_beginning_of_a_longer_one():
 
 
 def test_apexes_of_two_balls():
-    drop = falling([3.0, 1.0], 1.0, gravity=G, height=0.5)
-    result = sb.simulate(drop, until=1.5)
+    result = sb.simulate(falling([3.0, 1.0], 1.0, gravity=G, height=0.5), until=1.5)
     apexes = result.apexes
     assert apexes["ball"][0] == 1
     assert apexes["height"][0] == pytest.approx(2.0, rel=1e-15)  # the upper one alone, at 2 v

@@ -67,8 +67,7 @@ def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
         told = json.loads("".join(lines))
         address = told["address"]
         assert (told["others"], told["measures"]) == ([], True)
-        answer = httpx.post(f"{address}api/predict", json=ASKED, timeout=60.0)
-        assert answer.status_code == 200
+        assert httpx.post(f"{address}api/predict", json=ASKED, timeout=60.0).status_code == 200
         workers = Server(address, process).children()
         assert workers
         os.kill(process.pid, how)

@@ -25,8 +25,7 @@ def predicted(server, **asked):
 
 
 def test_errors_are_carried_as_by_predict(server, drop):
-    asked = {"impact_speed": "5 cm/s", "balls.1.mass": 0.001}
-    found = predicted(server, drop=drop, errors=asked)
+    found = predicted(server, drop=drop, errors={"impact_speed": "5 cm/s", "balls.1.mass": 0.001})
     inputs = {"impact_speed": (drop["impact_speed"], 0.05), "balls.1.mass": (0.057, 0.001)}
     exact = sb.predict(sb.Drop.from_mapping(drop), inputs)
     for name in ("rebound_speeds.1", "energy_retained", "last_release.0"):

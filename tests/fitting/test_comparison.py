@@ -34,8 +34,7 @@ def test_pulls_are_those_of_each_fit():
 def test_a_model_that_is_there_twice_shares_its_row():
     drop = sb.Drop(BALLS, [sb.Rigid(0.8), sb.Rigid(0.9)], impact_speed=3.0)
     model = sb.Model(drop, {"contacts.0.restitution": (0.1, 1.0)})
-    compared = sb.compare({"one": model, "same": model}, seen_of(drop, drop.contacts))
-    (score,) = compared.scores
+    (score,) = sb.compare({"one": model, "same": model}, seen_of(drop, drop.contacts)).scores
     assert (score.model, score.same_as, score.weight) == ("one", ("same",), 1.0)
 
 

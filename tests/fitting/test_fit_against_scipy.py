@@ -12,8 +12,7 @@ NAMES = ["contacts.0.stiffness", "contacts.1.stiffness"]
 
 def predicted(law, stiffnesses):
     """Return rebound ratios, and the floor's last release in ms, by a run of their own."""
-    drop = sb.Drop(BALLS, [law(k) for k in stiffnesses], impact_speed=3.5)
-    result = sb.simulate(drop)
+    result = sb.simulate(sb.Drop(BALLS, [law(k) for k in stiffnesses], impact_speed=3.5))
     floor = result.intervals[result.intervals["contact"] == 0]
     return np.array([*result.rebound_ratios, 1e3 * floor["end"].max()])
 

@@ -45,8 +45,7 @@ def test_its_interval_is_where_the_time_is_one_error_off(name, of_time):
 
 
 def test_rebound_ratios_of_rigid_balls_give_their_restitution():
-    laws = [sb.Rigid(0.9), sb.Rigid(0.5)]
-    drop = sb.Drop(STACK.balls, laws, gaps=[0.01], impact_speed=2.0)
+    drop = sb.Drop(STACK.balls, [sb.Rigid(0.9), sb.Rigid(0.5)], gaps=[0.01], impact_speed=2.0)
     lower = (0.9 * 0.150 - 0.057 - 0.057 * 0.7 * 1.9) / 0.207
     upper = lower + 0.7 * 1.9  # the balls part with e times the speed at which they met
     data = {"rebound_ratios": [(lower, 0.02), (upper, 0.01)]}
@@ -115,8 +114,7 @@ def test_a_wrong_model_is_told():
 
 
 def test_a_touch_that_does_not_come_is_told():
-    contacts = [None, sb.Spring(1e4)]
-    drop = sb.Drop([sb.Ball(0.1)] * 2, contacts, gaps=[0.01], velocities=[1.0, 0.0])
+    drop = sb.Drop([sb.Ball(0.1)] * 2, [None, sb.Spring(1e4)], gaps=[0.01], velocities=[1.0, 0.0])
     away = sb.Drop(drop.balls, drop.contacts, gaps=[0.01], velocities=[-1.0, 0.5])
     met = sb.fit(drop, {"durations.1": "7 ± 1 ms"}, ["contacts.1.stiffness"])
     missed = sb.fit(away, {"durations.1": "7 ± 1 ms"}, ["contacts.1.stiffness"])

@@ -36,8 +36,7 @@ def test_correlated_parameters_reproduce_the_errors_of_the_data():
 
 def test_tied_numbers_follow():
     tie = {"contacts.1.stiffness": "0.4 * contacts.0.stiffness"}
-    found = sb.fit(PAIR, DATA, {"contacts.0.stiffness": (1e3, 5e3)}, tie=tie)
-    errors = found.predict().errors
+    errors = sb.fit(PAIR, DATA, {"contacts.0.stiffness": (1e3, 5e3)}, tie=tie).predict().errors
     lower, upper = errors["contacts.0.stiffness"], errors["contacts.1.stiffness"]
     assert upper.std_dev == pytest.approx(0.4 * lower.std_dev, rel=1e-6)
     assert (upper - 0.4 * lower).std_dev < 1e-6 * upper.std_dev

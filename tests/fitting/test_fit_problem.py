@@ -42,8 +42,7 @@ def test_a_model_is_a_problem_without_data():
 
 def test_several_drops_stay_several():
     drops = {"low": DROP, "high": replace(DROP, height=1.0)}
-    data = dict.fromkeys(drops, DATA)
-    problem = FitProblem(drops, data, [STIFFNESS])
+    problem = FitProblem(drops, dict.fromkeys(drops, DATA), [STIFFNESS])
     assert problem.drop == problem.drops == drops
     assert [one.drop for one in problem.fit(starts=4).residuals] == ["low", "high"]
 

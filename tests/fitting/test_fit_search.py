@@ -52,8 +52,7 @@ def test_where_contacts_come_and_go_the_best_of_a_grid_is_found(upper):
     """One to many contacts: chi squared has kinks and many minima from bound to bound."""
     truth = sb.simulate(stack(upper=upper)).rebound_ratios
     data = {0: (truth[0] + 0.002, 0.003), 1: (truth[1] - 0.001, 0.006)}
-    grid = np.geomspace(300.0, 1e5, 20_001)
-    least = least_on_a_grid(stack(), data, grid).min()
+    least = least_on_a_grid(stack(), data, np.geomspace(300.0, 1e5, 20_001)).min()
     measured = {"rebound_ratios": list(data.values())}
     for seed in range(2):
         found = sb.fit(stack(), measured, {STIFFNESS: (300.0, 1e5)}, rng=seed)

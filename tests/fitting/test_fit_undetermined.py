@@ -50,8 +50,7 @@ def test_a_prior_decides():
 
 
 def test_a_duration_decides_and_what_is_known_counts_as_a_datum():
-    data = {**RATIOS, "durations.0": "30 ± 1 ms"}
-    assert sb.fit(STACK, data, BOTH).undetermined == ()
+    assert sb.fit(STACK, {**RATIOS, "durations.0": "30 ± 1 ms"}, BOTH).undetermined == ()
     known = {BOTH[0]: "2500 ± 25", BOTH[1]: None}
     assert sb.fit(STACK, {"rebound_ratios.1": (1.6, 0.02)}, known).undetermined == ()
 

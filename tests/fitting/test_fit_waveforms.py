@@ -65,8 +65,7 @@ def test_volts_have_a_scale_that_is_free():
     assert found.degrees_of_freedom == len(TIMES) - 4
     assert near(found["contacts.0.stiffness"], 2500.0)
     assert found["contacts.0.stiffness"].std_dev > fitted(RECORD)["contacts.0.stiffness"].std_dev
-    turned = fitted(-volts)
-    assert turned.best == pytest.approx(found.best, rel=1e-9)
+    assert fitted(-volts).best == pytest.approx(found.best, rel=1e-9)
 
 
 def test_a_record_of_the_other_sign_in_newtons():

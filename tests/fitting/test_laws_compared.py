@@ -19,8 +19,7 @@ ERROR = 0.004
 
 
 def series_of(law_class, generator=None, *, value=0.8, error=ERROR):
-    family = Family(law_class, 4.0)
-    values = family.at(value, SPEEDS)
+    values = Family(law_class, 4.0).at(value, SPEEDS)
     covariance = np.diag(np.full(SPEEDS.size, error**2))
     if generator is not None:
         values = values + error * generator.standard_normal(SPEEDS.size)
@@ -59,8 +58,7 @@ def test_a_true_law_is_refuted_as_often_as_p_says_if_its_errors_are_a_scatter(
     found = []
     for _ in range(400):
         read = heights + 0.005 * generator.standard_normal((4, readings))
-        drawn = data.assign(rebound_height=(("row", "reading"), read))
-        made = make_series(drawn, air=False)
+        made = make_series(data.assign(rebound_height=(("row", "reading"), read)), air=False)
         found.append(outcome(compare_laws(made, laws=["Rigid"]), "Rigid").p)
     for limit in (0.01, 0.05, 0.5):
         error = np.sqrt(limit * (1.0 - limit) / len(found))
@@ -134,6 +132,5 @@ def test_a_law_that_cannot_be_fitted_is_skipped(monkeypatch):
 
 
 def test_a_calibration_that_depends_on_the_speed_is_skipped():
-    family = Forgetful(sb.Rigid, 4.0)
-    reason = reason_to_skip(family, series_of(sb.Rigid))
+    reason = reason_to_skip(Forgetful(sb.Rigid, 4.0), series_of(sb.Rigid))
     assert reason == "what it gives depends on the speed at which it is calibrated"

@@ -220,8 +220,7 @@ def test_the_command_prints_draws_and_writes_a_page(tmp_path, capsys):
     path, plot, page = tmp_path / "heights.csv", tmp_path / "laws.svg", tmp_path / "page"
     rows = [(150, 79.1), (150, 78.3), (100, 54.0), (100, 53.2), (50, 27.6), (50, 27.4)]
     path.write_text("drop height (cm),rebound (cm)\n" + "".join(f"{h},{r}\n" for h, r in rows))
-    command = ["fit", str(path), "--compare", "--plot", str(plot), "--out", str(page)]
-    assert main(command) == 0
+    assert main(["fit", str(path), "--compare", "--plot", str(plot), "--out", str(page)]) == 0
     told = capsys.readouterr().out
     assert "3 restitutions from 3.13 to 5.42 m/s" in told
     assert "The error of one rebound height is the scatter of repeated readings, 470 µm" not in told

@@ -40,8 +40,7 @@ def test_neighbours_share_a_flight():
 
 
 def test_a_drop_height_is_inferred_as_phyphox_does_and_marked():
-    times = falls(0.8, 0.85, bounces=7).touches
-    found = bounces(times, time_error=1e-4)
+    found = bounces(falls(0.8, 0.85, bounces=7).touches, time_error=1e-4)
     assert found.inferred
     assert found.drop_height.nominal_value == pytest.approx(0.8, rel=1e-6)
     assert any("inferred" in note for note in found.notes)
@@ -111,8 +110,7 @@ def test_what_are_no_times(times):
 
 
 def test_a_throw_is_no_restitution():
-    found = bounces([0.0, 0.5, 1.2, 1.7], time_error=1e-3)
-    assert any("above 1" in note for note in found.notes)
+    assert any("above 1" in note for note in bounces([0.0, 0.5, 1.2, 1.7], time_error=1e-3).notes)
 
 
 def test_speeds_that_do_not_differ_tell_no_law():

@@ -38,8 +38,7 @@ def test_exact_times_give_what_went_in():
 
 
 def test_a_drop_height_that_is_inferred_is_that_of_a_fall_in_air():
-    fall = falls_in_air(0.5, lambda _: 0.9, bounces=7)
-    found = bounces(fall.touches, time_error=1e-6, drag=AIR)
+    found = bounces(falls_in_air(0.5, lambda _: 0.9, bounces=7).touches, time_error=1e-6, drag=AIR)
     assert found.inferred
     assert found.drop_height.nominal_value == pytest.approx(0.5, rel=1e-6)
     fast = [0.0, 3.0, 3.3, 3.55]  # no fall in this air is fast enough for such a first flight
@@ -58,8 +57,7 @@ def test_a_contact_time_and_a_missing_bounce_are_as_without_air():
 @pytest.mark.parametrize("drag", [None, AIR, UNSURE])
 def test_times_without_errors_get_them_from_the_scatter(drag):
     """The scatter is the timing's, however unsure the drag is."""
-    noise = np.random.default_rng(3).normal(0.0, 1e-3, 9)
-    found = bounces(FALL.touches + noise, drag=drag)
+    found = bounces(FALL.touches + np.random.default_rng(3).normal(0.0, 1e-3, 9), drag=drag)
     assert found.times[0].std_dev == pytest.approx(1e-3, rel=0.7)
 
 
@@ -117,8 +115,7 @@ def test_an_error_of_the_drag_is_one_of_all_restitutions():
     )
     law = [one.laws[0].coefficient for one in (told, more, less)]
     assert law[0].s == pytest.approx(0.5 * abs(law[1].n - law[2].n), rel=0.02)
-    by_mass = Drag(ufloat(2.7e-3, 2.7e-4), 0.040, 0.45)
-    other = bounces(FALL.touches, time_error=1e-6, drag=by_mass)
+    other = bounces(FALL.touches, time_error=1e-6, drag=Drag(ufloat(2.7e-3, 2.7e-4), 0.040, 0.45))
     assert other.restitutions[0].s == pytest.approx(0.9 * told.restitutions[0].s, rel=0.01)
 
 

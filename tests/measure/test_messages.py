@@ -156,8 +156,7 @@ def test_a_column_that_counts_bounces_is_no_time_of_them(refusal, read, head):
     counts = range(1, 10)
     assert f"{head!r} (1, 2, 3)" in refusal(table(f"{head},e", counts, wave(9)))
     assert f"{head!r} (1, 2, 3)" in refusal(table(head, counts))
-    heights = read(table(f"{head},height (m)", counts, 0.5 ** np.arange(9)))
-    (found,) = sb.measure.analyse(heights)
+    (found,) = sb.measure.analyse(read(table(f"{head},height (m)", counts, 0.5 ** np.arange(9))))
     assert found.restitutions[0].nominal_value == pytest.approx(0.5**0.5)
     assert read(table(f"{head} (s),e", counts, wave(9))).attrs["holds"] == "knocks"
 

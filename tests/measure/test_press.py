@@ -60,8 +60,7 @@ def test_a_shifted_scale_and_a_zero_that_is_off():
 
 
 def test_a_drift_is_seen_where_there_is_slack_on_both_sides():
-    found = press(press_record(BALL, drift=5.0, **USUAL))
-    assert near(found.restitution, 0.78)
+    assert near(press(press_record(BALL, drift=5.0, **USUAL)).restitution, 0.78)
 
 
 def test_loading_only():
@@ -113,13 +112,11 @@ def test_several_cycles():
 def test_small_reversals_on_the_way_in():
     turns = [(0, 2, 80), (2, 1.8, 10), (1.8, 5, 120), (5, 0, 200)]
     way = 1e-3 * np.concatenate([np.linspace(*turn) for turn in turns])
-    rng = np.random.default_rng(3)
-    found = press((way, 1e4 * way + rng.normal(0.0, 0.1, len(way))))
+    found = press((way, 1e4 * way + np.random.default_rng(3).normal(0.0, 0.1, len(way))))
     assert found.cycle is None
     assert near(found.work_in, 0.125)
     assert near(found.exponent, 1.0)
-    contact = found.parts()["contact"]
-    assert contact == {"law": "Spring", "stiffness": pytest.approx(1e4, rel=0.01)}
+    assert found.parts()["contact"] == {"law": "Spring", "stiffness": pytest.approx(1e4, rel=0.01)}
 
 
 def test_an_unloading_that_is_no_power_law_is_told():

@@ -74,8 +74,7 @@ def test_fast_bounces_at_the_end():
 
 @pytest.mark.slow
 def test_two_hundred_knocks():
-    fall = falls(0.05, 0.985, bounces=200)
-    found = knocks(sound(fall, noise=0.0005, seed=1))
+    found = knocks(sound(falls(0.05, 0.985, bounces=200), noise=0.0005, seed=1))
     assert len(found.times) >= 190
     assert bounces(found).mean.nominal_value == pytest.approx(0.985, abs=1e-4)
 

@@ -65,8 +65,7 @@ def test_axes_are_found_and_told():
     assert found.tilt == pytest.approx(0.1, abs=0.005)
     assert any("degrees off" in note for note in found.notes)
     assert track(tracked(FALL, down=True, seed=1)).axis == "-y"
-    data = tracked(FALL, seed=1).rename(x="y", y="x")
-    assert track(data).axis == "x"
+    assert track(tracked(FALL, seed=1).rename(x="y", y="x")).axis == "x"
 
 
 @pytest.mark.parametrize(("rate", "read"), [(240, 60), (240, 30), (60, 30), (30, 60)])
@@ -138,8 +137,7 @@ def test_parts_make_a_drop():
 @pytest.mark.parametrize("slowing", [0.3, 1.0])
 @pytest.mark.parametrize("tilt", [0.0, 0.03])
 def test_a_ball_that_slows_down_across_turns_no_camera(slowing, tilt):
-    data = tracked(FALL, before=-0.05, drift=3.0, slowing=slowing, tilt=tilt, seed=1)
-    found = track(data)
+    found = track(tracked(FALL, before=-0.05, drift=3.0, slowing=slowing, tilt=tilt, seed=1))
     kept = found.balls[0].restitutions[0]
     assert near(kept, 0.8)
     assert kept.std_dev < 0.004
@@ -282,8 +280,7 @@ def test_twenty_thousand_rows_take_seconds():
 
 
 def test_a_very_long_track_is_shortened_and_says_so():
-    data = tracked(FALL, frame_rate=10_000.0, until=1.2, seed=1)
-    found = track(data)
+    found = track(tracked(FALL, frame_rate=10_000.0, until=1.2, seed=1))
     assert any("means of 2 neighbouring points" in note for note in found.notes)
     assert nominal(found.balls[0].restitutions)[0] == pytest.approx(0.8, abs=1e-3)
 

@@ -70,8 +70,7 @@ def test_rows_tell_all_with_units_and_parts_make_a_drop():
 
 def test_hertz_is_told_from_a_spring_by_how_it_begins():
     law = sb.calibrate(sb.Hertz, mass=0.1, contact_time=TIME, impact_speed=2.0)
-    drop = sb.Drop([sb.Ball(0.1)], [law], impact_speed=2.0)
-    record = record_of(drop, rate=1e5, noise=0.3)
+    record = record_of(sb.Drop([sb.Ball(0.1)], [law], impact_speed=2.0), rate=1e5, noise=0.3)
     (contact,) = waveform(record).contacts
     (shifted,) = waveform(record.assign_coords(time=record.time - 1.0)).contacts
     assert shifted.time.nominal_value == pytest.approx(contact.time.nominal_value, rel=1e-6)
@@ -192,20 +191,17 @@ def test_uneven_time_steps():
 
 @pytest.mark.parametrize("bits", [None, 8])
 def test_a_clipped_record_is_told(bits):
-    record = record_of(ONE, rate=1e5, noise=0.5, full_scale=100.0, bits=bits)
-    found = waveform(record)
+    found = waveform(record_of(ONE, rate=1e5, noise=0.5, full_scale=100.0, bits=bits))
     (contact,) = found.contacts
     assert contact.clipped
     assert any("clipped at" in note for note in found.notes)
     assert near(contact.time, TIME)
-    rows = {row.name: row.value for row in found.rows()}
-    assert rows["peak force"].startswith("above")
+    assert {row.name: row.value for row in found.rows()}["peak force"].startswith("above")
 
 
 @pytest.mark.parametrize("bits", [6, 8, 12])
 def test_a_converter_s_steps_are_not_taken_for_clipping(bits):
-    record = record_of(ONE, rate=1e5, bits=bits, full_scale=256.0)
-    (contact,) = waveform(record).contacts
+    (contact,) = waveform(record_of(ONE, rate=1e5, bits=bits, full_scale=256.0)).contacts
     assert not contact.clipped
     assert len(contact.peaks) == 1
     assert contact.time.nominal_value == pytest.approx(TIME, rel=0.03)
@@ -232,8 +228,7 @@ def test_small_contacts_after_a_large_one_are_no_ringing():
     humps = [(2e-3, 100.0), (3.5e-3, 30.0), (5e-3, 10.0)]
     phases = [np.pi * np.clip((times - at) / 1e-3, 0.0, 1.0) for at, _ in humps]
     force = sum(height * np.sin(phase) for phase, (_, height) in zip(phases, humps, strict=True))
-    noise = np.random.default_rng(1).normal(0.0, 0.3, len(times))
-    found = waveform((times, force + noise))
+    found = waveform((times, force + np.random.default_rng(1).normal(0.0, 0.3, len(times))))
     assert len(found.contacts) == 3
     assert not any("sensor rings" in note for note in found.notes)
 
@@ -367,8 +362,7 @@ def test_options_are_checked(option):
 
 
 def test_an_impulse_between_two_samples_is_zero():
-    times = np.arange(5.0)
-    assert impulse_of(times, np.ones(5), 0.0, 0.0, (7.0, 1.5)) == (0.0, 0.0)
+    assert impulse_of(np.arange(5.0), np.ones(5), 0.0, 0.0, (7.0, 1.5)) == (0.0, 0.0)
 
 
 def test_pictures_of_every_kind():

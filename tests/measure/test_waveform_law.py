@@ -84,8 +84,7 @@ def test_an_exponent_says_more_than_a_law_that_leaves_it_open():
 
 def test_an_unloading_exponent_says_how_the_contact_ends():
     record, _, end = bounce(sb.Hysteretic, exponent=1.5, restitution=0.75)
-    law = sb.Hysteretic(1.0, exponent=1.5, restitution=0.75)
-    (told,) = waveform(record, law=law).contacts
+    (told,) = waveform(record, law=sb.Hysteretic(1.0, exponent=1.5, restitution=0.75)).contacts
     (open_,) = waveform(record, law=sb.Hysteretic, exponent=1.5).contacts
     assert told.end.std_dev < 0.5 * open_.end.std_dev
     assert abs(off(told.end, end)) < 3.0

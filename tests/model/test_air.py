@@ -146,8 +146,7 @@ def test_the_height_of_a_fall_is_the_inverse_of_its_speed(height, density):
 def test_the_drag_is_the_weight_at_the_terminal_speed():
     drag = 0.5 * 1.204 * 0.5 * math.pi * 0.033**2 * AIR.terminal_speed(BALL) ** 2
     assert drag == pytest.approx(0.057 * G, rel=1e-14)
-    far = AIR.impact_speed(BALL, 1e5)
-    assert far == pytest.approx(AIR.terminal_speed(BALL), rel=1e-14)
+    assert AIR.impact_speed(BALL, 1e5) == pytest.approx(AIR.terminal_speed(BALL), rel=1e-14)
     assert AIR.impact_speed(BALL, 0.5, gravity=1.62) < math.sqrt(2.0 * 1.62 * 0.5)
 
 
@@ -181,8 +180,7 @@ def test_three_balls_press_on_each_other_as_one():
     in_air = AIR.dropped(stack([light, middle, heavy]))
     assert in_air.gaps == (0.0, 0.0)
     assert len(set(in_air.velocities)) == 1
-    apart = AIR.dropped(stack([light, middle]))
-    assert apart.gaps[0] > 0.0
+    assert AIR.dropped(stack([light, middle])).gaps[0] > 0.0
 
 
 def test_a_ball_with_less_drag_stays_on_the_one_below():
@@ -218,8 +216,7 @@ def test_a_drop_without_drag_is_the_drop(height):
 
 
 def test_heights_of_balls_that_move_down_have_a_minus_sign():
-    drop = stack([BALL, BALL])
-    down, up = AIR.rebound_heights(drop, [-2.0, 3.0])
+    down, up = AIR.rebound_heights(stack([BALL, BALL]), [-2.0, 3.0])
     assert (down, up) == (-AIR.rise(BALL, 2.0), AIR.rise(BALL, 3.0))
 
 

@@ -51,8 +51,7 @@ def test_a_figure_is_what_its_source_says(figure):
 
 @pytest.mark.parametrize("entry", CLASS_BALLS, ids=NAMES)
 def test_a_ball_bounces_as_its_figures_say(entry):
-    drop = sb.Drop([entry.ball], [entry.contact], height=0.7)
-    result = sb.simulate(drop)
+    result = sb.simulate(sb.Drop([entry.ball], [entry.contact], height=0.7))
     assert result.rebound_ratios[0] == pytest.approx(entry.restitution, rel=1e-9)
     assert result.end_time == pytest.approx(entry.contact_time, rel=1e-9)
 

@@ -89,8 +89,7 @@ def goes_through_every_face(kind, tmp_path, capfd):
     assert main(["simulate", str(file), "--json"]) == 0
     assert json.loads(capfd.readouterr().out)["drop"]["contacts"] == [law.to_mapping()]
     assert main(["simulate", str(file)]) == 0
-    table = capfd.readouterr().out
-    assert law.described() in " ".join(table.split())
+    assert law.described() in " ".join(capfd.readouterr().out.split())
 
     (page,) = [one for one in list_choices()["laws"] if one["law"] == name]
     assert (page["formula"], page["source"], page["says"]) == (kind.formula, kind.source, kind.says)
@@ -133,8 +132,7 @@ def test_every_law_goes_through_every_face(name, tmp_path, capfd):
         return
     fits_its_stiffness(law, result)
     is_told_by_a_force_record(law, result)
-    both = sb.series(law, law)
-    assert both.stiffness == pytest.approx(law.stiffness * 0.5**law.exponent)
+    assert sb.series(law, law).stiffness == pytest.approx(law.stiffness * 0.5**law.exponent)
 
 
 def test_the_usual_models_are_those_that_laws_offer():
@@ -159,8 +157,7 @@ def test_a_new_law_with_a_known_form_of_force_is_one_class(added, tmp_path, capf
     power = sb.PowerLaw(law.stiffness, 2.0)
     assert np.array_equal(result.rebound_speeds, sb.simulate(alone(power)).rebound_speeds)
 
-    pair = sb.Drop([sb.Ball(0.2), sb.Ball(0.1)], [law, law], impact_speed=1.0)
-    models = sb.standard_models(pair)
+    models = sb.standard_models(sb.Drop([sb.Ball(0.2), sb.Ball(0.1)], [law, law], impact_speed=1.0))
     assert models["SharpCone"].drop.contacts[1].stiffness == pytest.approx(law.stiffness)
 
 

@@ -29,8 +29,7 @@ def test_a_spline_goes_through_its_points_and_rises(seed):
     y = np.concatenate([[0.0], np.cumsum(10.0 ** rng.uniform(-4.0, 2.0, 9))])
     spline = monotone_spline(x.tolist(), y.tolist())
     assert at(spline, x)[0] == pytest.approx(y, rel=1e-9, abs=1e-9 * y[-1])
-    fine = np.linspace(0.0, 1.5 * x[-1], 20_001)
-    values, slopes = at(spline, fine)
+    values, slopes = at(spline, np.linspace(0.0, 1.5 * x[-1], 20_001))
     assert np.diff(values).min() > -1e-9 * y[-1]
     assert slopes.min() > -1e-9 * slopes.max()
 
@@ -104,8 +103,7 @@ def test_a_table_is_a_value_that_files_keep(own, tmp_path, capfd):
     path.write_text(drop.to_toml(), encoding="utf-8")
     assert sb.Drop.from_toml(path) == drop
     assert main(["simulate", str(path), "--json"]) == 0
-    told = json.loads(capfd.readouterr().out)
-    assert told["drop"]["contacts"] == [law.to_mapping()]
+    assert json.loads(capfd.readouterr().out)["drop"]["contacts"] == [law.to_mapping()]
 
 
 def test_a_drop_beyond_the_table_says_so(tmp_path, capfd):
@@ -123,8 +121,7 @@ def test_a_drop_beyond_the_table_says_so(tmp_path, capfd):
 def test_a_press_curve_becomes_its_table(exponent, e):
     """Its forces are within the noise of one reading, 0.2 N, of the true ones."""
     true = sb.Hysteretic(4e4, exponent=exponent, restitution=e)
-    found = press(press_record(true, peak=5e-3, slack=1e-3, noise=0.2, seed=2))
-    law = found.as_law()
+    law = press(press_record(true, peak=5e-3, slack=1e-3, noise=0.2, seed=2)).as_law()
     x = np.linspace(0.2e-3, 4.8e-3, 50)
     force, _ = at(monotone_spline(law.compression, law.force), x)
     assert force == pytest.approx(4e4 * x**exponent, abs=0.2)
@@ -147,8 +144,7 @@ def test_the_command_saves_a_table_and_a_bounce_gives_its_loss(tmp_path, capfd):
     columns = np.column_stack([1e3 * data.compression, data.force])
     np.savetxt(record, columns, delimiter=",", header="compression (mm),force (N)", comments="")
     saved = tmp_path / "ball.toml"
-    command = ["measure", str(record), "--mass", "57g", "--tabulated", "--save", str(saved)]
-    assert main(command) == 0
+    assert main(["measure", str(record), "--mass", "57g", "--tabulated", "--save", str(saved)]) == 0
     (law,) = sb.Drop.from_toml(saved).contacts
     assert isinstance(law, sb.Tabulated)
     assert law.unloading is not None

@@ -251,8 +251,7 @@ def test_a_path_in_bytes_of_an_object_is_refused():
     ],
 )
 def test_each_law_reads_its_units(read, text, law):
-    lower = SCENARIO[: SCENARIO.rindex("law = ")]
-    got = read(lower + text).contacts[1]
+    got = read(SCENARIO[: SCENARIO.rindex("law = ")] + text).contacts[1]
     assert type(got) is type(law)
     assert vars(got) == pytest.approx(vars(law), rel=1e-15)
 

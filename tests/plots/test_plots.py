@@ -121,8 +121,7 @@ def test_a_change_of_sign_is_white():
     assert mesh.norm(0.0) == 0.5
     values = ds.rebound_ratio.sel(ball=0).values
     assert bar.get_ylim() == pytest.approx((values.min(), values.max()))
-    small = plots.heatmap(1e-3 * ds, index=0).axes[0].collections[0]
-    assert small.get_cmap().name == "RdBu_r"
+    assert plots.heatmap(1e-3 * ds, index=0).axes[0].collections[0].get_cmap().name == "RdBu_r"
 
 
 @pytest.mark.slow

@@ -143,8 +143,7 @@ def test_the_advice_names_the_number_that_makes_most():
 
 
 def test_given_draws_are_used_as_they_are():
-    random = np.random.default_rng(3)
-    restitution = random.uniform(0.7, 0.9, 500)
+    restitution = np.random.default_rng(3).uniform(0.7, 0.9, 500)
     speed = 3.0 / restitution
     found = sb.predict(RIGID, {"contacts.0.restitution": restitution, "impact_speed": speed})
     assert found.how == "errors by 500 draws: draws were given"
@@ -202,8 +201,7 @@ def test_numbers_in_many_forms_replace_the_drops_own():
 
 
 def test_drops_that_do_not_finish_are_counted():
-    errors = {"height": (0.2, 0.001)}
-    (note,) = sb.predict(LOSSY, errors, event_limit=1).notes
+    (note,) = sb.predict(LOSSY, {"height": (0.2, 0.001)}, event_limit=1).notes
     assert note == "10000 of 10000 drops did not finish and were left out"
 
 

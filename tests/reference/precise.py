@@ -168,8 +168,7 @@ class Contact:
             terms = forces[0].terms, forces[0].unit
             interval.peak_force = _largest(piece, *terms, at, interval.peak_force)
         elif forces:
-            top = self.law.loading.force(interval.peak_compression, mpf(0))
-            interval.peak_force = top
+            interval.peak_force = self.law.loading.force(interval.peak_compression, mpf(0))
 
 
 def _negative(terms: Sequence[int]) -> list[int]:

@@ -311,8 +311,7 @@ def test_a_pair_of_separate_collisions_has_its_reduced_mass():
 
 def test_a_contact_that_does_not_close_has_the_reference_speed():
     law = sb.HuntCrossley(1.0, 1.5, 0.1)
-    balls = [sb.Ball(1.0), sb.Ball(1.0)]
-    drop = sb.Drop(balls, [law, law], velocities=[0.5, 3.0])
+    drop = sb.Drop([sb.Ball(1.0), sb.Ball(1.0)], [law, law], velocities=[0.5, 3.0])
     expected = sb.restitution(law, impact_speed=3.0)
     assert [one.restitution for one in sb.separate(drop).contacts] == [expected, expected]
 

@@ -14,8 +14,7 @@ import stackbounce as sb
 
 def run(masses, contacts, gravity=0.0, until=None):
     balls = [sb.Ball(mass) for mass in masses]
-    drop = sb.Drop(balls, contacts, impact_speed=1.0, gravity=gravity)
-    return sb.simulate(drop, until=until)
+    return sb.simulate(sb.Drop(balls, contacts, impact_speed=1.0, gravity=gravity), until=until)
 
 
 def printed(*values, digits):

@@ -49,8 +49,7 @@ def test_every_element_is_what_simulate_returns(laws, count):
     assert ds.sizes == {"balls_0_mass": count, "gaps_0": 2, "ball": 2, "contact": 2}
     for i in (0, count // 2, count - 1):
         for j, gap in enumerate((0.0, 0.004)):
-            balls = [sb.Ball(float(mass[i])), TWO[1]]
-            one = sb.Drop(balls, laws, [gap], impact_speed=3.53)
+            one = sb.Drop([sb.Ball(float(mass[i])), TWO[1]], laws, [gap], impact_speed=3.53)
             assert_same(ds[{"balls_0_mass": i, "gaps_0": j}], one, rtol=1e-9)
 
 

@@ -104,8 +104,7 @@ def test_two_workers_and_the_loss_of_one(whole, out):
 
 def test_chunks_of_dask_make_it_lazy():
     chunked = {path: da.from_array(axis, chunks=7) for path, axis in VALUES.items()}
-    lazy = {path: xr.DataArray(axis, dims=path) for path, axis in chunked.items()}
-    ds = sb.sweep(DROP, lazy)
+    ds = sb.sweep(DROP, {path: xr.DataArray(axis, dims=path) for path, axis in chunked.items()})
     assert ds.rebound_ratio.chunks[:2] == ((7, 7, 7, 7, 2), (7, 7, 6))
     eager = sb.sweep(DROP, VALUES)
     assert all(np.array_equal(ds[name], eager[name]) for name in eager)
@@ -260,8 +259,7 @@ def test_a_damaged_store_beside_one_that_is_not_complete(whole, out, tmp_path):
 
 def test_files_of_others_in_a_store_are_kept(out, tmp_path):
     write_some(out)
-    own = tmp_path / "map.zarr.partial" / "status" / "notes.partial"
-    own.write_text("mine")
+    (tmp_path / "map.zarr.partial" / "status" / "notes.partial").write_text("mine")
     write(out, DROP, VALUES, block=64)
     assert (out / "status" / "notes.partial").read_text() == "mine"
 

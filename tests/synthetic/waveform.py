@@ -59,8 +59,7 @@ def waveform(
         phase = random.uniform(0.0, 2.0 * np.pi)
         share = (times - times[0]) / max(times[-1] - times[0], 1e-300)
         out = felt + offset + drift * share
-        wave = np.sin(2.0 * np.pi * mains * times + phase)
-        out = out + hum * wave
+        out = out + hum * np.sin(2.0 * np.pi * mains * times + phase)
         out = out + random.normal(0.0, noise, len(times))
         key = name if count == 1 else f"{name}_{count}"
         said = {"units": unit, "long_name": f"{key.capitalize()} ({unit})"}

@@ -68,8 +68,7 @@ def _heading(column: "Column") -> str:
 def _cell(column: "Column", row: int) -> str:
     value = column.values[row]
     if isinstance(value, tuple):
-        mean = sum(value) / len(value)
-        return f"{mean:.4g} (mean of {len(value)})"
+        return f"{sum(value) / len(value):.4g} (mean of {len(value)})"
     if isinstance(value, str):
         return value
     error = f" ± {column.errors[row]:g}" if column.errors and column.errors[row] else ""

@@ -30,10 +30,8 @@ def split_errors(given: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, st
     """
     numbers = {path: given.get(option) for option, path in _PATHS.items()}
     plain, written = prediction.split_errors(numbers)
-    contacts = [
-        _split_contact(text, f"contacts.{i}", written)
-        for i, text in enumerate(given.get("contact") or ())
-    ]
+    texts = enumerate(given.get("contact") or ())
+    contacts = [_split_contact(text, f"contacts.{i}", written) for i, text in texts]
     return {option: plain[path] for option, path in _PATHS.items()} | {"contact": contacts}, written
 
 

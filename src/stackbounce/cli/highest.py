@@ -50,8 +50,7 @@ def run(
     else:
         print_stacks(output.console(), data, given["rows"])
         output.print_files(plot, best=save)
-    statuses = data["status"].values.ravel()
-    output.check_solved(Counter(Status(status).name for status in statuses))
+    output.check_solved(Counter(Status(status).name for status in data["status"].values.ravel()))
 
 
 def _limits(text: str) -> tuple[float, ...]:

@@ -81,10 +81,8 @@ def _wording(hint: OptionHint) -> str:
     for name, value in hint.options.items():
         columns = value.items() if isinstance(value, Mapping) else ()
         texts = [f"{column}={role}" for column, role in columns] or [value]
-        typed += [
-            known[name] if text is None else f"{known[name]} {shlex.quote(str(text))}"
-            for text in texts
-        ]
+        words = ("" if text is None else f" {shlex.quote(str(text))}" for text in texts)
+        typed += [known[name] + word for word in words]
     if hint.file:
         return " ".join(["stackbounce measure", shlex.quote(hint.file), *typed])
     all_names = all(value is None for value in hint.options.values())

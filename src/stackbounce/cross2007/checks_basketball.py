@@ -58,8 +58,7 @@ def _impulse(b: Bench) -> float:
 
 def _apart(b: Bench, restitution: float) -> Result:
     """Tennis ball on basketball as separate collisions."""
-    drop = rigid_pair(stack_masses(b), restitution, speed=b("stack.impact_speed"))
-    return b.simulate(drop)
+    return b.simulate(rigid_pair(stack_masses(b), restitution, speed=b("stack.impact_speed")))
 
 
 def _static_duration(b: Bench, compression: float) -> float:

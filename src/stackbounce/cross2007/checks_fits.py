@@ -48,8 +48,7 @@ def _exponent(b: Bench) -> float:
 
 
 def _restitution(b: Bench) -> float:
-    law = Hysteretic(b("fig13.floor_stiffness"), unloading_exponent=b("V.exponent"))
-    return restitution(law)
+    return restitution(Hysteretic(b("fig13.floor_stiffness"), unloading_exponent=b("V.exponent")))
 
 
 def _fitted_ratios(b: Bench) -> list[float]:

@@ -72,8 +72,7 @@ def _more_meetings(b: Bench, restitution: float, count: int) -> float:
 
 def _fig5(b: Bench) -> Result:
     masses = b("fig5.lower_mass"), b("fig5.upper_mass")
-    stiffnesses = b("fig5.floor_stiffness"), b("fig5.ball_stiffness")
-    return b.simulate(spring_pair(masses, stiffnesses))
+    return b.simulate(spring_pair(masses, (b("fig5.floor_stiffness"), b("fig5.ball_stiffness"))))
 
 
 def _second_start(result: Result) -> float:

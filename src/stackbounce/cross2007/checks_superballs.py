@@ -107,8 +107,7 @@ def _twins(b: Bench) -> Result:
 
 def _split_twins(b: Bench, ratio: float) -> Result:
     """Two large balls as separate collisions, each contact with its restitution."""
-    drop = rigid_pair((ratio, 1.0), b("fit.twin_floor"), between=b("fit.twin_balls"))
-    return b.simulate(drop)
+    return b.simulate(rigid_pair((ratio, 1.0), b("fit.twin_floor"), between=b("fit.twin_balls")))
 
 
 def _delayed(b: Bench, drop: Drop) -> Drop:

@@ -134,13 +134,8 @@ def _vary(floor: Two, between: Two) -> dict[str, Any]:
 def _alone(name: str) -> DataSet:
     mass, height = _value(f"{name}.mass"), _value("superballs.drop_height")
     time, kept = _value(f"{name}.contact_time"), _restitution(name)
-    law = calibrate(
-        Hysteretic,
-        mass=mass,
-        contact_time=time,
-        restitution=kept[0],
-        impact_speed=fallen_speed(height),
-    )
+    known = {"mass": mass, "contact_time": time, "restitution": kept[0]}
+    law = calibrate(Hysteretic, **known, impact_speed=fallen_speed(height))
     drop = Drop([_ball(name)], [law], height=height)
     data = {"durations.0": _known(f"{name}.contact_time"), "rebound_ratios": [kept]}
     vary = {"contacts.0.stiffness": _STIFF, "contacts.0.restitution": (0.3, 1.0)}

@@ -42,14 +42,12 @@ def figure_5(b: Bench) -> Drop:
 
 def better_fit(b: Bench) -> Drop:
     """Return the drop of Fig. 9."""
-    springs = _springs(b, "fig9.")
-    return spring_pair(stack_masses(b), springs, speed=b("stack.impact_speed"))
+    return spring_pair(stack_masses(b), _springs(b, "fig9."), speed=b("stack.impact_speed"))
 
 
 def other_fit(b: Bench) -> Drop:
     """Return the alternative fit that the text describes beside Fig. 9."""
-    springs = _springs(b, "fig9.other_")
-    return spring_pair(stack_masses(b), springs, speed=b("stack.impact_speed"))
+    return spring_pair(stack_masses(b), _springs(b, "fig9.other_"), speed=b("stack.impact_speed"))
 
 
 def spring_record(b: Bench, gap: float = 0.0) -> Drop:

@@ -53,8 +53,7 @@ def add_guard(
         response.headers.setdefault("content-security-policy", policy)
         return response
 
-    hosts = _list_hosts(others)
-    app.add_middleware(TrustedHostMiddleware, allowed_hosts=hosts, www_redirect=False)
+    app.add_middleware(TrustedHostMiddleware, allowed_hosts=_list_hosts(others), www_redirect=False)
 
 
 def _refuse(request: Request, limits: Limits) -> Response | None:

@@ -94,9 +94,7 @@ class Comparison(Shown):
         The weights are those of the rows, so that no prediction counts twice.
         """
         known = {name: getattr(found, self.criterion) for name, found in self.fits.items()}
-        missed = {
-            name: found.objective.residuals(found.x[None])[0] for name, found in self.fits.items()
-        }
+        missed = {name: fit.objective.residuals(fit.x[None])[0] for name, fit in self.fits.items()}
         same: dict[str, list[str]] = {}
         for name in sorted(known, key=lambda name: round(known[name], _DIGITS)):
             alike = (best for best in same if _agree(missed[name], missed[best]))

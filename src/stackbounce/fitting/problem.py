@@ -142,10 +142,8 @@ class FitProblem:
         for key in data:
             if key not in self.drops:
                 raise InvalidValue(f"data of {shown(key)}: no drop; {nearest(key, self.drops)}")
-        return {
-            key: read_measured(self.drops[key], own, f"{key}." if key else "")
-            for key, own in data.items()
-        }
+        paths = {key: f"{key}." if key else "" for key in data}
+        return {key: read_measured(self.drops[key], data[key], paths[key]) for key in data}
 
     def fit(
         self,

@@ -270,10 +270,8 @@ def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> 
     needed = kind.calibration_needs(getattr(exponent, "nominal_value", exponent))
     missing = [name for name in needed if name not in known]
     if missing:
-        words = [
-            name.replace("_", " ") + (f" ({_SOURCES[name]})" if name in _SOURCES else "")
-            for name in missing
-        ]
+        sources = {name: f" ({source})" for name, source in _SOURCES.items()}
+        words = [name.replace("_", " ") + sources.get(name, "") for name in missing]
         raise InvalidValue(f"{kind.__name__} needs what was not found: {', '.join(words)}")
     used = {name: known[name] for name in (*needed, "exponent") if name in known}
     return law_constants(kind, **used)

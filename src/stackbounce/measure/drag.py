@@ -124,10 +124,8 @@ class Drag:
 
     def rows(self) -> list[Row]:
         """Return the numbers of the air, for the table of a result."""
-        return [
-            Row("drag coefficient", self.coefficient),
-            Row("density of the air", self.density, "kg/m^3"),
-        ]
+        density = Row("density of the air", self.density, "kg/m^3")
+        return [Row("drag coefficient", self.coefficient), density]
 
     def note(self, without: Any) -> str:
         """Return a note; `without` is the mean restitution if the air is left out."""

@@ -45,8 +45,7 @@ def read_ball(value: object, path: str) -> Ball:
     """Return the ball that a mapping describes; `path` begins the messages."""
     table = _table(value, path)
     _check_keys(Ball, table, path)
-    values = {key: _value(Ball, key, one, path) for key, one in table.items()}
-    return _raised(path, Ball, **values)
+    return _raised(path, Ball, **{key: _value(Ball, key, one, path) for key, one in table.items()})
 
 
 def read_law(value: object, path: str) -> ContactLaw | None:

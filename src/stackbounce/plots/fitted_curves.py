@@ -44,8 +44,7 @@ def spread_over(places: Array) -> Array:
     array([0.96, 2.04])
     """
     beyond = _BEYOND * np.ptp(places)
-    low = places.min() - beyond
-    return np.linspace(max(0.0, low), places.max() + beyond, _POINTS)
+    return np.linspace(max(0.0, places.min() - beyond), places.max() + beyond, _POINTS)
 
 
 def draw_fitted(

@@ -90,8 +90,7 @@ def show_in_handy_unit(
         if least * factor < 1e-3 or most * factor >= 1e5:  # powers of ten, of the unit itself
             return unit, 1.0
     if log or factor != 1.0:
-        written = FuncFormatter(lambda x, _: f"{x * factor:.6g}".replace("-", "−"))
-        axis.set_major_formatter(written)
+        axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x * factor:.6g}".replace("-", "−")))
     return name, factor
 
 

@@ -126,8 +126,7 @@ def list_axes(axes: Any, *counts: int) -> tuple[Figure, list[Axes]]:
     """
     from matplotlib.axes import Axes
 
-    given = np.ravel(np.asarray(axes, dtype=object))
-    own = [panel for panel in given if isinstance(panel, Axes)]
+    own = [panel for panel in np.ravel(np.asarray(axes, dtype=object)) if isinstance(panel, Axes)]
     if len(own) not in counts:
         most = " or ".join(map(str, counts))
         raise InvalidValue(f"axes must be {most} Axes of matplotlib, got {len(own)}")

@@ -292,8 +292,7 @@ def highest(data: Dataset, *, axes: Any = None) -> Figure:
     """
     check_source(data, "height_ratio", "highest")
     if data.sizes["gap"] > len(_MARKS):
-        most = len(_MARKS)
-        raise InvalidValue(f"data must have at most {most} gaps, got {data.sizes['gap']}")
+        raise InvalidValue(f"data must have at most {len(_MARKS)} gaps, got {data.sizes['gap']}")
     best = data.isel(stack=slice(_BARS))
     rows = np.arange(best.sizes["stack"])
     with panels((WIDTH, 1.4 + 0.32 * len(rows)), axes) as (figure, (axes,)):

@@ -305,8 +305,7 @@ class Result(Shown):
         >>> [sb.simulate(drop, until=end).conditioning.round() for end in (0.3, 1.5)]
         [array([2., 2., 2.]), array([993.,  94., 225.])]
         """
-        speed = self.drop.reference_speed
-        return _frozen(amplification(self.rerun, self.final_velocities, speed))
+        return _frozen(amplification(self.rerun, self.final_velocities, self.drop.reference_speed))
 
     @functools.cached_property
     def known_until(self) -> float:

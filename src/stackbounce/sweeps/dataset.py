@@ -294,8 +294,7 @@ def _dataset(
         data[name].attrs = {"units": unit, "long_name": meaning}
     data["status"].attrs["flag_values"] = [int(status) for status in Status]
     data["status"].attrs["flag_meanings"] = " ".join(status.name for status in Status)
-    paths = [identifier(number.path) for number in numbers]
-    coordinates = dict(zip(paths, arrays, strict=True))
+    coordinates = dict(zip([identifier(number.path) for number in numbers], arrays, strict=True))
     index = {"ball": np.arange(size), "contact": np.arange(size)}
     return data.assign_coords(coordinates | index).assign_attrs(_provenance(drop, numbers, options))
 

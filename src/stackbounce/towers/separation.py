@@ -122,8 +122,7 @@ def _intervals(drop: Drop, rtol: float) -> NDArray[Any] | None:
     if result.status is not Status.FINISHED:
         return None
     rows = result.intervals
-    ordered: NDArray[Any] = rows[np.lexsort((rows["start"], rows["contact"]))]
-    return ordered
+    return rows[np.lexsort((rows["start"], rows["contact"]))]
 
 
 def _alike(one: NDArray[Any], other: NDArray[Any]) -> bool:

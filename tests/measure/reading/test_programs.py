@@ -90,8 +90,7 @@ def test_labview(read, timed, decimal):
         "***End_of_Header***\t\nX_Value\tVoltage_0\tComment\n"
     )
     rows = lines([TIMES, VOLTS], delimiter="\t") if timed else lines([VOLTS], form="\t{:.6e}")
-    data = read((head + rows).replace(".", decimal), "file.lvm")
-    is_waveform(data, "LabVIEW")
+    is_waveform(read((head + rows).replace(".", decimal), "file.lvm"), "LabVIEW")
     with pytest.raises(FileError, match="without their step"):
         read("LabVIEW Measurement\nX_Dimension\tTime\nX_Value\tVoltage\n\t1\n\t2\n")
 

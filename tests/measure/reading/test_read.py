@@ -62,8 +62,7 @@ def test_phyphox_collision(read, delimiter, decimal):
 
 @pytest.mark.parametrize("heard", [1, 2, 3, 5])
 def test_phyphox_collision_of_fewer_knocks_keeps_only_what_was_heard(read, heard):
-    data = read(made.phyphox_collision(heard))
-    same(data.knock_time, made.KNOCKS[:heard])
+    same(read(made.phyphox_collision(heard)).knock_time, made.KNOCKS[:heard])
     names, cells = made.energy()
     with pytest.raises(FileError, match="heard no knock"):
         read(made.phyphox_csv(names, [[0.0] for _ in cells]))
@@ -158,8 +157,7 @@ def test_press_curves_in_other_words(read):
     same(told.compression, made.PRESSED / 1000.0, 1e-5)
     same(told.force, made.LOAD * 1000.0, 1e-4)
     timed = read("Time (s),Extension (mm),Load (N)\n0,0,0\n1,0.5,3\n2,1,6\n")
-    units = {"time": "s", "compression": "m", "force": "N"}
-    check(timed, "press curve", "table of numbers", units)
+    check(timed, "press curve", "table of numbers", {"time": "s", "compression": "m", "force": "N"})
 
 
 def test_no_header(read):

@@ -147,8 +147,7 @@ def test_they_are_not_used_where_the_file_has_times_and_units(read):
     assert data.y.values[:, 0].tolist() == [0.02, 0.03, 0.04]
     assert "frame_rate is not used" in data.attrs["doubt"]
     assert "scale is not used" in data.attrs["doubt"]
-    bare = read(table.replace(" (cm)", ""), scale=0.5)
-    assert bare.y.values[:, 0].tolist() == [1.0, 1.5, 2.0]
+    assert read(table.replace(" (cm)", ""), scale=0.5).y.values[:, 0].tolist() == [1.0, 1.5, 2.0]
 
 
 def test_of_several_points_in_a_frame_the_next_one_is_taken(read):

@@ -43,14 +43,8 @@ def predict_drop(drop: Drop, errors: Mapping[str, float | str], until: float | N
         JSON with what `Prediction.as_dict` has but for the shares, and `band`: `time` in s, and the
         lower and the upper ends of one standard deviation of `position` and `force`.
     """
-    found = predict(
-        drop,
-        add_values(drop, errors),
-        until=until,
-        rtol=RTOL,
-        event_limit=LIMITS.events,
-        draws=_DRAWS,
-    )
+    known = add_values(drop, errors)
+    found = predict(drop, known, until=until, rtol=RTOL, event_limit=LIMITS.events, draws=_DRAWS)
     times = _choose_times(found.result, until)
     names = ["position"] if drop.rigid else ["position", "force"]  # a rigid contact's is infinite
     answer = found.as_dict()

@@ -38,13 +38,8 @@ class Family:
         InvalidValue
             If no law of the class has it.
         """
-        return calibrate(
-            self.law_class,
-            mass=_MASS,
-            restitution=value,
-            contact_time=_TIME,
-            impact_speed=self.speed,
-        )
+        known = {"mass": _MASS, "contact_time": _TIME, "impact_speed": self.speed}
+        return calibrate(self.law_class, **known, restitution=value)
 
     def at(self, value: float, speeds: Array) -> Array:
         """Return what the law with a value at the speed of the calibration gives at some speeds."""

@@ -44,8 +44,7 @@ def readings_of(rows: Sequence[Row]) -> tuple[DataFrame, str, list[str]]:
     columns, words = _resolved(columns_of(head), body, notes)
     numbers = numbers_in(columns, body)
     groups = [", ".join(filter(None, (_cell(cells, k) for k in words))) for _, cells in body]
-    lines = [line for line, _ in body]
-    found, measured = _by_drop(columns, numbers, lines, groups, notes)
+    found, measured = _by_drop(columns, numbers, [line for line, _ in body], groups, notes)
     if not found:
         raise InvalidValue("it has no row with all that is needed: " + _listed(columns))
     readings = pd.DataFrame(found)

@@ -139,8 +139,6 @@ def _errors(
     if freedom and (scatter := math.sqrt(float(np.sum(np.square(apart))) / freedom)) > estimate:
         why = f"the scatter of repeated drops, with {counted(freedom, 'degree of freedom')}"
         estimate = scatter
-    notes.append(
-        f"The error of {column.text!r} is {why}, {with_unit(estimate, unit)}, unless "
-        "another is given."
-    )
+    error = with_unit(estimate, unit)
+    notes.append(f"The error of {column.text!r} is {why}, {error}, unless another is given.")
     return np.where(np.isnan(errors), estimate, errors)

@@ -12,9 +12,8 @@ from stackbounce.measure.kinds.waveform import WAVEFORM
 
 __all__ = ["KINDS", "TYPED", "Kind", "kind_named"]
 
-KINDS: dict[str, Kind] = {
-    kind.name: kind for kind in (KNOCKS, PRESS, WAVEFORM, SOUND, TRACK, ACCELERATION, TABLE)
-}
+_OF_FILES: tuple[Kind, ...] = (KNOCKS, PRESS, WAVEFORM, SOUND, TRACK, ACCELERATION, TABLE)
+KINDS: dict[str, Kind] = {kind.name: kind for kind in _OF_FILES}
 """What a file can hold; the first one that a file's columns fit is what it holds."""
 
 TYPED: tuple[Kind, ...] = (TABLE, CONTACT)

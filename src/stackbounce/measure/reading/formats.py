@@ -210,8 +210,7 @@ def phyphox(text: Text) -> Layout | None:
     if len(knocks) < 2:
         return None
     why = f"its columns {header[0]!r}, {header[1]!r} are those of phyphox's (in)elastic collision"
-    first = first_row(text, 1)
-    return Layout("phyphox: (in)elastic collision", why, knocks, first, holds="knocks")
+    return Layout("phyphox: (in)elastic collision", why, knocks, first_row(text, 1), holds="knocks")
 
 
 def sensor_logger(text: Text) -> Layout | None:
@@ -234,8 +233,7 @@ def sensor_logger(text: Text) -> Layout | None:
         named = Heading(f"{said} {axis} (m/s^2)", f"{said} {axis}", "m/s^2")
         columns.append(column(names.index(axis), named))
     why = f"its columns {', '.join(names[:3])} … are those of Sensor Logger"
-    first = first_row(text, 1)
-    return Layout(f"Sensor Logger: {what}", why, tuple(columns), first, (doubt,))
+    return Layout(f"Sensor Logger: {what}", why, tuple(columns), first_row(text, 1), (doubt,))
 
 
 def mtrack2(text: Text) -> Layout | None:

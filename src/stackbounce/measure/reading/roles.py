@@ -80,8 +80,7 @@ def heading(text: str, unit: str | None = None) -> Heading:
     text = " ".join(text.lstrip("#%").split())[:200]
     name, run = text.removesuffix(" Auto"), ""  # of times that Capstone counts itself
     if (found := _AFTER.fullmatch(name)) or (found := _BEFORE.fullmatch(name)):
-        before = found.re is _BEFORE
-        run, name = (found[1], found[2]) if before else (found[2], found[1])
+        run, name = (found[1], found[2]) if found.re is _BEFORE else (found[2], found[1])
     if unit is not None:
         return Heading(text, name, unit.strip(" ()[]"), run)
     if found := _BRACKETS.fullmatch(name):

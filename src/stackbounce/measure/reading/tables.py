@@ -71,8 +71,7 @@ def as_text(rows: Iterable[Sequence[object]]) -> bytes:
     >>> as_text([("t (s)", "y"), (0.5, None)])
     b't (s)\ty\n0.5\t\n'
     """
-    lines = ("\t".join(map(_cell, row)) + "\n" for row in rows)
-    return "".join(lines).encode()
+    return "".join("\t".join(map(_cell, row)) + "\n" for row in rows).encode()
 
 
 def _cell(value: object) -> str:

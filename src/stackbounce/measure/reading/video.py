@@ -55,8 +55,7 @@ def on_frames(
     if video and not roles & {"time", "frame"}:
         found.append(column(-1, heading("row"), "frame"))
         doubts.append("it does not count frames either, so that each row is one")
-    timed = _timed(found, frame_rate, values)
-    return found, [*timed, *doubts, *_scaled(found, scale)]
+    return found, [*_timed(found, frame_rate, values), *doubts, *_scaled(found, scale)]
 
 
 def _timed(found: list[Column], frame_rate: float | None, values: Mapping[int, Array]) -> list[str]:
@@ -66,8 +65,7 @@ def _timed(found: list[Column], frame_rate: float | None, values: Mapping[int, A
     if clock is not None and frame_rate is not None and _counts(found[clock], values):
         at, clock = clock, None
     if at is None or clock is not None:
-        unused = Message(_RATE, " is not used, as the file has times")
-        return [] if frame_rate is None else [unused]
+        return [] if frame_rate is None else [Message(_RATE, " is not used, as the file has times")]
     said = replace(found[at].heading, unit=FRAME)
     factor, unit = (1.0, FRAME) if frame_rate is None else (1.0 / frame_rate, "s")
     found[at] = replace(found[at], heading=said, role="time", factor=factor, unit=unit)
@@ -160,8 +158,7 @@ def _linked(columns: Sequence[Column], values: Array, time: int) -> _Tracks:
         for axis in "xy"
     )
     axes = [[own[track] for track in x if track in y] for own in (x, y)]
-    points = np.stack([values[:, own] for own in axes], axis=-1)
-    tracks = _together(values[:, time], points)
+    tracks = _together(values[:, time], np.stack([values[:, own] for own in axes], axis=-1))
     table = np.full((len(values), 1 + 2 * len(tracks)), np.nan)
     table[:, 0] = values[:, time]
     found = [columns[time]]

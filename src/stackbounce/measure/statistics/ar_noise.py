@@ -42,13 +42,10 @@ def whitened(values: Samples, rounding: float) -> Samples:
 
     chunks = values[: len(values) // _CHUNK * _CHUNK].reshape(-1, _CHUNK)
     energies = np.einsum("ij,ij->i", chunks, chunks)
-    middle = np.median(energies) if len(chunks) else 0.0
-    quiet = chunks[energies <= middle]
+    quiet = chunks[energies <= (np.median(energies) if len(chunks) else 0.0)]
     some = quiet[:: max(1, len(quiet) // 512)].astype(np.float64)
-    products = [
-        float(np.einsum("ij,ij->", some[:, lag:], some[:, : _CHUNK - lag]))
-        for lag in range(_ORDER + 1)
-    ]
+    lagged = ((some[:, lag:], some[:, : _CHUNK - lag]) for lag in range(_ORDER + 1))
+    products = [float(np.einsum("ij,ij->", *pair)) for pair in lagged]
     products[0] = products[0] * (1.0 + 1e-7) + some.size * rounding
     if not products[0] > 0.0:
         return values

@@ -175,8 +175,7 @@ class Hysteretic(ContactLaw):
         soft_a, soft_b = self.stiffness ** (-1.0 / p), other.stiffness ** (-1.0 / p)
         f = soft_a / (soft_a + soft_b)
         kept = f * self.restitution**2 + (1.0 - f) * other.restitution**2
-        stiffness = (soft_a + soft_b) ** -p
-        return Hysteretic(stiffness, exponent=p, restitution=math.sqrt(kept))
+        return Hysteretic((soft_a + soft_b) ** -p, exponent=p, restitution=math.sqrt(kept))
 
 
 _ONE_OF = Hysteretic.loss_fields

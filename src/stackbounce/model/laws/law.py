@@ -63,8 +63,7 @@ def stiffness_in(unit: str) -> Quantity:
     >>> stiffness_in("N/m**2").symbol
     'N/m**2'
     """
-    slider = (5e3, 1e2, 1e6) if unit == "N/m" else (2e5, 1e3, 1e10)
-    return number_in(unit, positive, slider)
+    return number_in(unit, positive, (5e3, 1e2, 1e6) if unit == "N/m" else (2e5, 1e3, 1e10))
 
 
 def number_in(

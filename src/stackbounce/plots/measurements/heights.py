@@ -49,8 +49,7 @@ def draw(data: Any, found: Any, axes: Any = None) -> Figure:  # noqa: ARG001
         errors = np.nan_to_num([height.std_dev for height in rows])
         axes.errorbar(at, values, yerr=errors, fmt="o", color=COLORS[0], capsize=3, label="read")
         for k, restitution in enumerate(found.restitutions, start=1):
-            text = "e = " + with_error(restitution, ".3f")
-            annotate(axes, text, (at[k], values[k]), COLORS[0])
+            annotate(axes, "e = " + with_error(restitution, ".3f"), (at[k], values[k]), COLORS[0])
         after = "bounce" if found.repeated else "after bounce"
         axes.set_xticks(at, ["drop", *(f"{after} {k}" for k in at[:-1])])
         axes.set_ylim(0.0, 1.12 * float(values.max()))

@@ -58,8 +58,7 @@ def _draw_ball(axes: Axes, ball: Any, color: str, found: Any) -> None:
     impacts = dict(zip(ball.bounces, met, strict=True))
     for j, (first, last) in enumerate(ball.fit.flights):
         start = impacts.get(j - 1, times[first])
-        stop = impacts.get(j, times[last - 1])
-        at = np.linspace(start, stop, _SAMPLES)
+        at = np.linspace(start, impacts.get(j, times[last - 1]), _SAMPLES)
         axes.plot(at, found.fitted(ball, j, at), color=color, linewidth=1.4)
     rows = zip(ball.impact_times, ball.levels, ball.restitutions, strict=True)
     for k, (time, level, kept) in enumerate(rows):

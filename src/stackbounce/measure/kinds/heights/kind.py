@@ -99,8 +99,7 @@ def _hint(data: Any, columns: Sequence[Any]) -> tuple[str, OptionHint | None]:
         what, names = "track", {clock.attrs["column"]: "time", places[0].attrs["column"]: "y"}
     else:
         return "", None
-    file = str(data.attrs.get("source", "FILE"))
-    return what, OptionHint({"holds": what, "names": names}, file)
+    return what, OptionHint({"holds": what, "names": names}, str(data.attrs.get("source", "FILE")))
 
 
 def _is_clock(column: Any) -> bool:

@@ -85,8 +85,7 @@ def press(data: Dataset | Any, *, tabulated: bool = False) -> Press:
     chosen = max(pressed, key=lambda k: (len(found[k].unloading) > 0, k))
     result = result_of(record, found[chosen])
     which = f"{chosen + 1} of {len(found)}" if len(found) > 1 else None
-    notes = (*record.notes, *_notes(result))
-    return replace(result, cycle=which, notes=notes, tabulated=tabulated)
+    return replace(result, cycle=which, notes=(*record.notes, *_notes(result)), tabulated=tabulated)
 
 
 def _notes(found: Press) -> list[str]:

@@ -133,8 +133,7 @@ def _branches(record: Record, cycle: Cycle) -> tuple[_Points, _Points, tuple[Arr
     y = y - line @ levels
     unseen = quantisation_error(record.step, float(y[slack].std())) if len(levels) else 0.0
     up = _Points(x[:count], y[:count], line[:count])
-    down = _Points(x[count:], y[count:], line[count:])
-    return up, down, (levels, weights, unseen)
+    return up, _Points(x[count:], y[count:], line[count:]), (levels, weights, unseen)
 
 
 def _averaged(values: Array) -> Array:

@@ -106,8 +106,7 @@ def _scatter(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[f
     # R. DerSimonian and N. Laird, Controlled Clinical Trials 7, 177 (1986), eq 9
     variance = (square - freedom) / float(weights.sum() - (weights**2).sum() / weights.sum())
     mean = float(np.average(falls, weights=1.0 / (errors**2 + variance)))
-    scatter = math.sqrt(variance)
-    return scatter / max(abs(mean), 1e-300), math.sqrt(square / freedom)
+    return math.sqrt(variance) / max(abs(mean), 1e-300), math.sqrt(square / freedom)
 
 
 def _change(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[float, float]:
@@ -150,17 +149,15 @@ def _polynomial(
     z = (times[part] - times[part][0]) / half - 1.0
     level = heights[part] - heights[part].mean()
     terms, covariance = np.polyfit(z, level, degree, cov="unscaled")
-    errors = np.sqrt(np.diag(covariance))
-    return terms[::-1], errors[::-1], half, level - np.polyval(terms, z)
+    return terms[::-1], np.sqrt(np.diag(covariance))[::-1], half, level - np.polyval(terms, z)
 
 
 def accelerations(times: Array, heights: Array, wide: int, least: float = -1.0) -> Array:
     """Return the accelerations of parabolas through windows of points, where it moves by more."""
     if len(heights) < wide:
         return np.zeros(0)
-    times, heights = (
-        np.lib.stride_tricks.sliding_window_view(array, wide) for array in (times, heights)
-    )
+    windows = np.lib.stride_tricks.sliding_window_view
+    times, heights = windows(times, wide), windows(heights, wide)
     moves = np.ptp(heights, axis=1) > least
     times, heights = times[moves], heights[moves]
     since = times - times.mean(axis=1, keepdims=True)

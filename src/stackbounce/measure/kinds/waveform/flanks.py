@@ -275,5 +275,4 @@ def _curve(points: _Points, shape: Shape, start: float, unknown: float, scaled: 
     """Return the best curve, from the touch on."""
     times = np.linspace(start, points.times[-1], 60)
     u = (times - start) / points.unit
-    force: Array = scaled @ shape.rows(u, np.array(unknown), averaged=False)
-    return times, force
+    return times, scaled @ shape.rows(u, np.array(unknown), averaged=False)

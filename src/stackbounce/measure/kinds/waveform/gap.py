@@ -198,8 +198,7 @@ def sensor_gap(data: Any, *, impact_speed: Any = None, contact_time: Any = None)
     if impact_speed is None or contact_time is None:
         missing = "impact speed" if impact_speed is None else "contact time of the lower ball alone"
         return SensorGap(None, later, (said, f"the gap needs the {missing} too"))
-    gap = gap_from_delay(later, impact_speed, contact_time=contact_time)
-    return SensorGap(gap, later, (said,))
+    return SensorGap(gap_from_delay(later, impact_speed, contact_time=contact_time), later, (said,))
 
 
 def _spring_gap(t: float, v: float, tau: float) -> float:

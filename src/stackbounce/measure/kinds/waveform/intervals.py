@@ -46,8 +46,7 @@ def smoothed(values: Array, width: int) -> Array:
     """
     import pandas as pd
 
-    rolling = pd.Series(values).rolling(max(width, 1), center=True, min_periods=1)
-    return np.asarray(rolling.mean())
+    return np.asarray(pd.Series(values).rolling(max(width, 1), center=True, min_periods=1).mean())
 
 
 def which_sign(signal: Array, noise: float) -> int:
