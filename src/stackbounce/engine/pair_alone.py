@@ -7,11 +7,11 @@ gives
 
 where y goes from 0, where it touches at the rate V, over 1/2 at the largest compression, C, to 1.
 The time since the touch is an incomplete beta function (NIST Digital Library of Mathematical
-Functions, 8.17.8): up to y = 1/2,
+Functions, section 8.17): up to y = 1/2,
 
     t = (c/V) F(2 s, 1; 1 + s; y),
 
-with the hypergeometric function F, computed by the continued fraction of Gauss (ibid., 15.7.5).
+with the hypergeometric function F, from the continued fraction of Gauss (ibid., section 15.7).
 The other contact is open: its compression, plus a share of c, grows at a steady rate.
 """
 
@@ -111,7 +111,6 @@ def _go(x: Floats, i: int) -> bool:
         x[lane.STATUS + i] = ASK
         return False
     if r_other > 0.0 and c_other > -margin:
-        x[lane.BY_TIME + i] = 2.0 * x[lane.SCALE + k] * x[lane.SCALE + k] / x[lane.V0 + i]
         return inward and c_other > margin and _meet(x, i, k, m)
     x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = 0.0, -m.speed
     x[lane.Y + lane.C + other], x[lane.Y + lane.R + other] = c_other, r_other
@@ -146,6 +145,7 @@ def _meet(x: Floats, i: int, k: int, m: LoneMotion) -> bool:
                 x[lane.Y + lane.R + k] = r - slower
                 x[lane.Y + lane.R + 2 * i + LANES - k] = m.rate - m.share * (r - slower)
                 x[lane.Y + lane.T + i] += time - m.time + wait
+                x[lane.BY_TIME + i] = 2.0 * x[lane.SCALE + k] * x[lane.SCALE + k] / x[lane.V0 + i]
                 touch(x, i, 2 * i + LANES - k)
                 return True
             y = 0.5 - 0.5 * (r - slower) / m.speed
