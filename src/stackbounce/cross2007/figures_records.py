@@ -81,7 +81,8 @@ def draw_figure_7(bench: Bench) -> style.Picture:
     forces = ("load", [force] * len(points), {"units": "N"})
     curves = {"force": forces, "compression": ("load", list(points.values()), {"units": "m"})}
     bench.curves.append(xr.Dataset(curves, {"load": list(points)}))
-    return style.describe("7", figure, stiffness=1e-4 * (force / bench("static.tennis")))
+    stiffness = force / bench("static.tennis")
+    return style.describe("7", figure, stiffness=1e-4 * stiffness)
 
 
 def draw_figure_8(bench: Bench) -> style.Picture:

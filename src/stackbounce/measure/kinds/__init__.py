@@ -12,8 +12,9 @@ from stackbounce.measure.kinds.waveform import WAVEFORM
 
 __all__ = ["KINDS", "TYPED", "Kind", "kind_named"]
 
-_OF_FILES: tuple[Kind, ...] = (KNOCKS, PRESS, WAVEFORM, SOUND, TRACK, ACCELERATION, TABLE)
-KINDS: dict[str, Kind] = {kind.name: kind for kind in _OF_FILES}
+KINDS: dict[str, Kind] = {
+    kind.name: kind for kind in (KNOCKS, PRESS, WAVEFORM, SOUND, TRACK, ACCELERATION, TABLE)
+}
 """What a file can hold; the first one that a file's columns fit is what it holds."""
 
 TYPED: tuple[Kind, ...] = (TABLE, CONTACT)

@@ -73,7 +73,8 @@ def on_the_clock(
         Their numbers, as in the file.
     """
     found = list(columns)
-    clocks = {role for roles in kind.columns for role in roles} & {"time", "knock_time"}
+    needed = {role for roles in kind.columns for role in roles}
+    clocks = needed & {"time", "knock_time"}
     places = [k for k, column in enumerate(found) if column.role in clocks]
     if not places:
         return found, []

@@ -51,7 +51,8 @@ def read_wav(content: bytearray) -> tuple[Dataset, str, list[str]]:
         raise FileError("it is a WAV sound without a sample")
     if frames * channels > CELLS:
         raise FileError(f"it is a WAV sound of more than {CELLS} samples: cut out the bounces")
-    samples = _decoded(form, memoryview(content)[start : start + frames * frame], frames)
+    part = memoryview(content)[start : start + frames * frame]
+    samples = _decoded(form, part, frames)
     sound = _folded(samples)
     integers = samples.dtype.kind in "iu"
     bad = ~np.isfinite(sound)

@@ -42,7 +42,8 @@ def whitened(values: Samples, rounding: float) -> Samples:
 
     chunks = values[: len(values) // _CHUNK * _CHUNK].reshape(-1, _CHUNK)
     energies = np.einsum("ij,ij->i", chunks, chunks)
-    quiet = chunks[energies <= (np.median(energies) if len(chunks) else 0.0)]
+    middle = np.median(energies) if len(chunks) else 0.0
+    quiet = chunks[energies <= middle]
     some = quiet[:: max(1, len(quiet) // 512)].astype(np.float64)
     lagged = ((some[:, lag:], some[:, : _CHUNK - lag]) for lag in range(_ORDER + 1))
     products = [float(np.einsum("ij,ij->", *pair)) for pair in lagged]

@@ -180,8 +180,9 @@ def _what_is_seen(record: Record, gravity: float) -> str:
 def _flights(record: Record, gravity: float, *, whole: bool = True) -> list[Flight]:
     """Return the free flights; if `whole`, without those with the first or the last sample."""
     times, felt = record.times, record.felt
-    linear = _LINEAR_NEAR_ZERO, _LINEAR_NEAR_SHARE
-    within, most = linear if record.linear else (_NEAR_ZERO, _NEAR_SHARE)
+    within, most = (
+        (_LINEAR_NEAR_ZERO, _LINEAR_NEAR_SHARE) if record.linear else (_NEAR_ZERO, _NEAR_SHARE)
+    )
     return [
         Flight(int(a), int(b))
         for a, b in zip(*runs(felt < _FLYING * gravity), strict=True)

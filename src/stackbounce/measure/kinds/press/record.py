@@ -104,7 +104,8 @@ def cycles(record: Record) -> list[Cycle]:
     # an end of the record can be a peak
     padded = np.pad(path, 1, constant_values=low - 10.0 * (high - low))
     peaks = find_peaks(padded, prominence=min(deep, 0.9 * (high - low)))[0] - 1
-    edges = [0, *(int(a + path[a : b + 1].argmin()) for a, b in pairwise(peaks)), len(path) - 1]
+    valleys = [int(a + path[a : b + 1].argmin()) for a, b in pairwise(peaks)]
+    edges = [0, *valleys, len(path) - 1]
     return [_cycle(record, edges[k], int(peak), edges[k + 1]) for k, peak in enumerate(peaks)]
 
 

@@ -218,7 +218,8 @@ def aligned(
     shifts: Array = np.zeros(len(about))
     compared, template = _compared(_shifted(bands, window, shifts), window, bands, None)
     for k in range(_ROUNDS):
-        found = _best(bands, window, compared, shifts, reach if k < _WIDE_ROUNDS else reach / 3.0)
+        near = reach if k < _WIDE_ROUNDS else reach / 3.0
+        found = _best(bands, window, compared, shifts, near)
         # The others move away from a knock as it moves towards them.
         shifts = shifts + (found - shifts) * (len(about) - 1.0) / len(about)
         shifts = np.clip(shifts - np.median(shifts), -reach, reach)
@@ -306,7 +307,8 @@ def _best(
     steps = np.clip(steps, 0, bands.logs.shape[2] - 1)
     logs = np.take_along_axis(bands.logs, steps[:, None], axis=2)
     weights = compared.weights[..., ::-1]
-    pairs = ((logs**2, weights), (logs, weights * compared.wanted[..., ::-1]))
+    wanted = weights * compared.wanted[..., ::-1]
+    pairs = ((logs**2, weights), (logs, wanted))
     squared, crossed = (fftconvolve(*pair, "valid", axes=-1) for pair in pairs)
     squares = (squared - 2.0 * crossed).sum(axis=1)
     at = np.clip(np.argmin(squares, axis=1), 1, 2 * most - 1)

@@ -154,7 +154,8 @@ def _sigmas_above_chance(chain: Chain, rises: Rises) -> float:
         steps = random.permutation(np.diff(rises.times))
         order = random.permutation(len(rises.times))
         times = rises.times[0] + np.concatenate([[0.0], np.cumsum(steps)])
-        scores.append(find_chain(Rises(times, *(column[order] for column in rises[1:]))).score)
+        mixed = Rises(times, *(column[order] for column in rises[1:]))
+        scores.append(find_chain(mixed).score)
         sigmas = (chain.score - np.mean(scores)) / np.fmax(np.std(scores), _LEAST_DEVIATION)
         if len(scores) > 4 and not _SIGMAS / 3.0 < sigmas < 2.0 * _SIGMAS:
             break

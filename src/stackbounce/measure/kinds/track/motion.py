@@ -106,7 +106,8 @@ def _scatter(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[f
     # R. DerSimonian and N. Laird, Controlled Clinical Trials 7, 177 (1986), eq 9
     variance = (square - freedom) / float(weights.sum() - (weights**2).sum() / weights.sum())
     mean = float(np.average(falls, weights=1.0 / (errors**2 + variance)))
-    return math.sqrt(variance) / max(abs(mean), 1e-300), math.sqrt(square / freedom)
+    scatter = math.sqrt(variance)
+    return scatter / max(abs(mean), 1e-300), math.sqrt(square / freedom)
 
 
 def _change(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[float, float]:

@@ -88,7 +88,8 @@ def quiet_parts(record: Record, quiet: Mask, *, hum: bool) -> Quiet:
     """
     if quiet.sum() < 3:
         level, noise = first_guess(record)
-        return Quiet(Base(np.full(len(quiet), level), 1, np.zeros(len(quiet))), noise, noise, noise)
+        flat = Base(np.full(len(quiet), level), 1, np.zeros(len(quiet)))
+        return Quiet(flat, noise, noise, noise)
     times = record.times - record.times[0]
     span = max(float(times[-1]), record.step)
     line = np.stack([np.ones_like(times), times / span - 0.5], axis=1)

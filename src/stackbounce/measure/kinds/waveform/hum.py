@@ -79,7 +79,8 @@ def _fitted(
     columns = np.column_stack([columns, 2.0 * np.pi * since * turned])
     known = np.append(np.zeros(columns.shape[1] - 1), np.std(rest) / _SPREAD)
     rows = np.vstack([columns[quiet], known])
-    return columns, rows, regression(rows, np.append(values[quiet], known[-1] * (main - tone)))[0]
+    told = np.append(values[quiet], known[-1] * (main - tone))
+    return columns, rows, regression(rows, told)[0]
 
 
 def fit_quiet(columns: Array, values: Array, quiet: Mask) -> Array:

@@ -60,7 +60,8 @@ def find_peaks(times: Array, values: Array, noise: float, density: float) -> lis
     tops = maxima(padded, prominence=stand_out)[0] - 1
     if not len(tops):
         tops = np.array([int(np.argmax(even))])
-    edges = [0, *(int(a + np.argmin(even[a:b])) for a, b in pairwise(tops)), len(even) - 1]
+    dips = [int(a + np.argmin(even[a:b])) for a, b in pairwise(tops)]
+    edges = [0, *dips, len(even) - 1]
     rooms = zip(tops.tolist(), pairwise(edges), strict=True)
     return [_cap(times, values, even, top, room, density) for top, room in rooms]
 
@@ -157,4 +158,5 @@ def flat_top(values: Array, quantum: float) -> bool:
     first, last = runs(at)
     if (last - first + 1).max() < _FLAT:
         return False
-    return bool(((values > top - 1.5 * step) & ~at).sum() <= _JUST_BELOW * at.sum())
+    below = (values > top - 1.5 * step) & ~at
+    return bool(below.sum() <= _JUST_BELOW * at.sum())
