@@ -2,7 +2,8 @@
 
 A good script, not a straw man: it stops at every touch and release and goes on from there, so that
 no step goes over the place where c^1.5 is not smooth or a force changes its curve, and its
-tolerances fit each number's size.
+tolerances fit each number's size. What `solve_ivp` cannot see, two crossings of one level within a
+step, it loses: one in a hundred drops with hysteresis comes out wrong, and its error says so.
 """
 
 import math
@@ -13,7 +14,8 @@ from scipy.integrate import solve_ivp
 
 from benchmarks.bundle import Bundle
 
-END = 1.0  # s; all is over long before
+END = 1e6  # s: an event comes before, however slowly a ball approaches
+EVENTS = 300  # of one drop, at most: one that lost an event can go on for ever
 
 
 def rebound(case: dict[str, Any], rtol: float) -> np.ndarray:
@@ -38,7 +40,7 @@ def rebound(case: dict[str, Any], rtol: float) -> np.ndarray:
         return (-q0, -v0), (q0 - q1 - gap, v0 - v1)
 
     def slope(_: float, y: np.ndarray) -> list[float]:
-        floor, upper = (one(c, rate) for one, (c, rate) in zip(forces, contacts(y), strict=True))
+        floor, upper = (force(c, rate) for force, (c, rate) in zip(forces, contacts(y), strict=True))
         return [*y[2:].tolist(), (floor - upper) / m0, upper / m1]
 
     def event(i: int, part: int, level: float, direction: int) -> Any:
@@ -48,18 +50,20 @@ def rebound(case: dict[str, Any], rtol: float) -> np.ndarray:
         distance.terminal, distance.direction = True, direction
         return distance
 
-    t, y = 0.0, np.array([0.0, 0.0, *case["velocities"]])
+    y = np.array([0.0, 0.0, *case["velocities"]])
     closed = [True, gap == 0.0]
     atol = rtol * np.array([length, length, speed, speed])
-    while any(closed) or y[2] < 0.0 or y[3] < y[2]:
+    for _ in range(EVENTS):
+        if not any(closed) and 0.0 <= y[2] <= y[3]:
+            break
         events = [event(i, 0, 0.0, -1 if closed[i] else 1) for i in (0, 1)]
         turns = [i for i in (0, 1) if closed[i] and forces[i].bundle]
         ends = [i for i in turns if 0.0 < forces[i].bundle.end < math.inf]
         ways = {i: -1 if forces[i].bundle.loading else 1 for i in turns}  # of the rate at a turn
         events += [event(i, 1, 0.0, ways[i]) for i in turns]
         events += [event(i, 0, forces[i].bundle.end, -ways[i]) for i in ends]
-        done = solve_ivp(slope, (t, END), y, "DOP853", events=events, rtol=rtol, atol=atol)
-        t, y = done.t[-1], done.y[:, -1]
+        done = solve_ivp(slope, (0.0, END), y, "DOP853", events=events, rtol=rtol, atol=atol)
+        y = done.y[:, -1]
         happened = [len(times) > 0 for times in done.t_events]
         for i in (0, 1):
             closed[i] ^= happened[i]

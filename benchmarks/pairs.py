@@ -225,10 +225,11 @@ def rows(entries: list[Entry]) -> list[list[str]]:
     """Return the entries as rows of text."""
     return [
         [
-            *(one.law, one.way, f"{one.setting:g}" if one.setting == one.setting else "–"),
-            *(f"{one.drops}", f"{1e6 * one.seconds:.3g}", f"{one.median:.1e}", f"{one.most:.1e}"),
+            *(entry.law, entry.way, "–" if math.isnan(entry.setting) else f"{entry.setting:g}"),
+            *(f"{entry.drops}", f"{1e6 * entry.seconds:.3g}"),
+            *(f"{entry.median:.1e}", f"{entry.most:.1e}"),
         ]
-        for one in entries
+        for entry in entries
     ]
 
 
