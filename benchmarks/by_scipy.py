@@ -40,7 +40,9 @@ def rebound(case: dict[str, Any], rtol: float) -> np.ndarray:
         return (-q0, -v0), (q0 - q1 - gap, v0 - v1)
 
     def slope(_: float, y: np.ndarray) -> list[float]:
-        floor, upper = (force(c, rate) for force, (c, rate) in zip(forces, contacts(y), strict=True))
+        floor, upper = (
+            force(c, rate) for force, (c, rate) in zip(forces, contacts(y), strict=True)
+        )
         return [*y[2:].tolist(), (floor - upper) / m0, upper / m1]
 
     def event(i: int, part: int, level: float, direction: int) -> Any:

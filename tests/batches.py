@@ -45,11 +45,12 @@ def swept_in_lanes(entry, drops, options):
     return out, asked
 
 
-def pairs(count, seed, reach=3.0):
+def pairs(count, seed, reach=3.0, gravity=False):
     """Return drops of two balls under laws of every form that `engine.pairs` knows.
 
     Masses and stiffnesses differ by up to ten to the power ``reach``; losses are weak to strong; a
-    third of the balls touch, gaps of the others are 1e-6 to 10 compressions.
+    third of the balls touch, gaps of the others are 1e-6 to 10 compressions. Gravity, if any, is
+    1e-6 to 1/300 of a typical acceleration in the impact.
     """
     random = np.random.default_rng(seed)
     form = random.choice(codes.PAIR_FORMS, (count, 2))
@@ -73,7 +74,10 @@ def pairs(count, seed, reach=3.0):
     gap = depth * 10.0 ** random.uniform(-6.0, 1.0, (count, 2))
     gap[random.random(count) < 1.0 / 3.0] = 0.0
     gap[:, 0] = 0.0
-    return Drops(mass, form, stiffness, exponent, loss, relaxing, gap, -speed, np.zeros(count))
+    g = np.zeros(count)
+    if gravity:
+        g = speed[:, 0] ** 2 / depth.max(axis=1) * 10.0 ** random.uniform(-6.0, -2.5, count)
+    return Drops(mass, form, stiffness, exponent, loss, relaxing, gap, -speed, g)
 
 
 def rigid_pairs(count, seed, reach=3.0, least=0.0):

@@ -11,7 +11,7 @@ import pytest
 from adversary.table import begin, expect, row
 
 TESTS = Path(__file__).parents[1]
-COUNTS = {"signals": 3, "kills": 7, "pairs": 14, "stores": 16, "disks": 10}
+COUNTS = {"signals": 2, "kills": 7, "pairs": 14, "stores": 10, "disks": 6}
 
 
 @pytest.mark.slow

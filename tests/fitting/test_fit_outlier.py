@@ -82,7 +82,7 @@ def test_how_often_the_outlier_is_named():
     random = np.random.default_rng(21)
     seen = {True: Counter(), False: Counter()}
     for spoiled, counts in seen.items():
-        for _ in range(100):
+        for _ in range(50):
             shifts, k = random.standard_normal(8), int(random.integers(8))
             shifts[k] += 5.0 * spoiled * random.choice([-1.0, 1.0])
             found = problem(shifts).fit()
@@ -90,7 +90,7 @@ def test_how_often_the_outlier_is_named():
                 named = outlier(found)
                 own = found.residuals[k].label if spoiled else ""
                 counts["named" if named == own else "another" if named else "none"] += 1
-    assert seen[True].total() > 80
+    assert seen[True].total() > 40
     assert seen[True]["named"] > 0.8 * seen[True].total()
-    assert seen[True]["another"] <= 2
-    assert seen[False]["another"] <= 4
+    assert seen[True]["another"] <= 1
+    assert seen[False]["another"] <= 2

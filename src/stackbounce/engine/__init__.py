@@ -34,7 +34,7 @@ work          what a run costs, by which it is limited
 batch         one drop, or many one after the other, in the arrays of one stack
 two_rigid     two rigid balls without gravity: many drops, fast
 two_springs   two balls on springs without gravity: many drops, fast
-pairs         two balls on other contacts without gravity: many drops, fast
+pairs         two balls on other contacts: many drops, fast
 pair_alone    one contact of two such balls that presses alone: without steps
 pair_events   what happens to two such balls between steps
 pair_step     one step of many such drops at the same time

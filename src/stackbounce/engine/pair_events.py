@@ -201,6 +201,26 @@ def _fly(x: Floats, i: int) -> None:
 
 
 @kernel
+def _fall(x: Floats, i: int) -> None:
+    """Let both balls fly under gravity, in steps, or end the drop.
+
+    It ends if neither ball approaches what is below it, and no contact presses again while one is
+    still compressed. The floor's compression is c + r t + g t^2/2, that of the balls c + r t.
+    """
+    g, c, lower = x[lane.GRAVITY + i], x[lane.Y + lane.C + i], x[lane.Y + lane.R + i]
+    c_balls, upper = x[lane.Y + lane.C + LANES + i], x[lane.Y + lane.R + LANES + i]
+    square = lower * lower - 2.0 * g * c
+    if min(abs(lower), abs(upper)) <= _least_rate(x, i):
+        x[lane.STATUS + i] = ASK
+    elif max(lower, upper) > 0.0:
+        go_by(x, i, TIME, x[lane.BY_TIME + i])
+    elif square < 0.0 or math.sqrt(square) - lower < -g * c_balls / upper:
+        x[lane.STATUS + i] = ASK
+    else:
+        x[lane.STATUS + i] = FINISHED
+
+
+@kernel
 def look_after(x: Floats, i: int) -> None:
     """Decide how a lane goes on whose step meets an event, or may, or comes near one."""
     doubt = x[lane.DOUBT + i] + x[lane.DOUBT + LANES + i] > 0.0
@@ -420,5 +440,7 @@ def go_apart(x: Floats, i: int, k: int) -> None:
         x[lane.STATUS + i] = ASK
     elif x[lane.PRESSING + i] + x[lane.PRESSING + LANES + i] > 0.0:
         go_by(x, i, TIME, x[lane.BY_TIME + i])
+    elif x[lane.GRAVITY + i] > 0.0:
+        _fall(x, i)
     else:
         _fly(x, i)

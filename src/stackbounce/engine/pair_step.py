@@ -87,9 +87,9 @@ _LANE = _EACH + 45 * BOTH
 OVER_1, OVER_2, H, START, M, N, Q, MODE = (_LANE + k * LANES for k in range(8))
 V0, ROW, STATUS, ASKS, STEPS, OVER_ERROR, GROW, BY_TIME = (_LANE + k * LANES for k in range(8, 16))
 # The event that a step is to end at: its contact, its kind, and the time to it; dt of a whole step
-# at the rates of a stage; and the velocity by which an event may come too early or too late.
-CONTACT, KIND, WAIT, STAGE_DT, UNSURE = (_LANE + k * LANES for k in range(16, 21))
-TOLERANCE = _LANE + 21 * LANES  # the error allowed in a step, over the impact speed
+# at the rates of a stage; the velocity by which an event may come too early or too late; gravity.
+CONTACT, KIND, WAIT, STAGE_DT, UNSURE, GRAVITY = (_LANE + k * LANES for k in range(16, 22))
+TOLERANCE = _LANE + 22 * LANES  # the error allowed in a step, over the impact speed
 COARSE = TOLERANCE + 1  # the largest estimate of order 3 with which the others can be trusted
 GENERAL = TOLERANCE + 2  # 1 if some exponent is neither 1 nor 1.5
 # 1 if some contact creeps, has hysteresis, or has a gain that changes
@@ -178,7 +178,7 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
         floor, balls = x[F + i], x[F + LANES + i]
         a0 = (balls - floor) * x[OVER_1 + i]
         a1 = x[DRIFT + LANES + i] - a0 - balls * x[OVER_2 + i]
-        a0 += x[DRIFT + i]
+        a0 += x[DRIFT + i] + x[GRAVITY + i]
         speed = x[Q + i] + x[BY_R + i] * r0 + x[BY_R + LANES + i] * r1
         speed += x[BY_A + i] * a0 + x[BY_A + LANES + i] * a1
         h = x[H + i]

@@ -1,4 +1,4 @@
-"""Many drops of two balls on contacts with a nonlinear or lossy force, without gravity, in lanes.
+"""Many drops of two balls on contacts with a nonlinear or lossy force, in lanes.
 
 All lanes step together (`pair_step`). Between steps, lanes that meet an event are looked after one
 by one (`pair_events`). A contact that presses alone needs no steps under some laws (`pair_alone`).
@@ -29,7 +29,7 @@ _COARSE = 2.0  # the largest estimate of order 3, for an error of 1; it falls wi
 
 @kernel
 def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> None:
-    """Compute the outcomes of many drops of two balls without gravity.
+    """Compute the outcomes of many drops of two balls.
 
     Parameters
     ----------
@@ -79,7 +79,8 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
 def _idle(x: Floats, i: int) -> None:
     """Let a lane fly without a drop."""
     x[lane.STATUS + i], x[lane.ROW + i] = codes.ASK, -1.0
-    x[lane.V0 + i], x[lane.STEPS + i], x[lane.UNSURE + i] = 1.0, 0.0, 0.0
+    x[lane.V0 + i], x[lane.GRAVITY + i] = 1.0, 0.0
+    x[lane.STEPS + i], x[lane.UNSURE + i] = 0.0, 0.0
     for k in (i, LANES + i):
         x[lane.PRESSING + k], x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = 0.0, -1.0, 0.0
         x[lane.Y + lane.S + k], x[lane.MU_NOW + k], x[lane.NU + k] = 0.0, 0.0, 0.0
@@ -93,6 +94,7 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
     x[lane.ROW + i], x[lane.STATUS + i], x[lane.V0 + i], x[lane.STEPS + i] = row, 0.0, speed, 0.0
     x[lane.OVER_1 + i], x[lane.OVER_2 + i] = 1.0 / drops.mass[row, 0], 1.0 / drops.mass[row, 1]
     x[lane.Y + lane.T + i], x[lane.BY_TIME + i] = 0.0, math.inf
+    x[lane.GRAVITY + i] = drops.gravity[row]
     x[lane.UNSURE + i] = _FIRST_UNSURE * x[lane.TOLERANCE] * speed
     over_mass = 0.0
     for b in range(2):

@@ -71,14 +71,15 @@ def choose_lanes(drop: Drop, numbers: "Iterable[Number]", options: Options) -> s
     """
     contacts = [contact_numbers(law)[0:3:2] for law in drop.contacts]
     together = len(set(drop.start_velocities)) == 1 and drop.start_velocities[0] < 0.0
-    free = any(n.part == "velocities" or n.field == "gravity" for n in numbers)
+    together &= all(n.part != "velocities" for n in numbers)
     whole = options.until == math.inf and options.event_limit >= LANE_EVENTS
-    if len(contacts) != 2 or drop.gravity != 0.0 or free or not (together and whole):
+    if len(contacts) != 2 or not (together and whole):
         return None
-    if all(form == codes.RIGID for form, _ in contacts):
+    forms, varied = {form for form, _ in contacts}, {n.field for n in numbers}
+    weightless = drop.gravity == 0.0 and "gravity" not in varied
+    if weightless and forms == {codes.RIGID}:
         return "run_two_rigid"
-    if set(contacts) == {(codes.POWER, 1.0)} and all(n.field != "exponent" for n in numbers):
+    if weightless and set(contacts) == {(codes.POWER, 1.0)} and "exponent" not in varied:
         return "run_two_springs"
-    forms = {form for form, _ in contacts}
     least = _CYCLES_RTOL if codes.HYSTERETIC in forms else LANES_RTOL
     return "run_pairs" if forms <= set(codes.PAIR_FORMS) and options.rtol >= least else None

@@ -89,11 +89,11 @@ export class Points {
     const { base, drop, varied } = this;
     const { forms, layout } = theEngine();
     const together = new Set(base.velocity).size === 1 && base.velocity[0] < 0;
-    const free = varied.some(({ number }) => number.part === "velocities" || number.field === "gravity");
     const few = known.limits.events < layout.limits.lanes; // a drop in lanes counts no events
-    if (drop.balls.length !== 2 || drop.gravity !== 0 || !together || free || few) return null;
+    if (drop.balls.length !== 2 || !together || few || varied.some(({ number }) => number.part === "velocities")) return null;
+    const weightless = drop.gravity === 0 && varied.every(({ number }) => number.field !== "gravity");
     const linear = base.form.every((form, i) => form === forms.POWER && base.second[i] === 1);
-    if (linear && varied.every(({ number }) => number.field !== "exponent")) return "run_two_springs";
+    if (weightless && linear && varied.every(({ number }) => number.field !== "exponent")) return "run_two_springs";
     return base.form.every((form) => layout.pair_forms.includes(form)) ? "run_pairs" : null;
   }
 
