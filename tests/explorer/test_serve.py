@@ -4,6 +4,7 @@ import asyncio
 import base64
 import contextlib
 import dataclasses
+import gc
 import hashlib
 import json
 import math
@@ -188,12 +189,14 @@ def test_pages_of_the_paper(tmp_path):
     assert [other.status_code for other in others] == [404] * 8
 
 
-def test_a_paper_that_failed_says_so_and_is_tried_again(tmp_path):
+def test_a_paper_that_failed_says_so_and_is_tried_again(tmp_path, caplog):
     stub = Stub(LIMITS)
     stub.error = FileError("no room left")
     first, second, third = pages(stub, tmp_path, [""] * 3)
     assert str(second) == "no room left"
     assert first.headers["refresh"] == third.headers["refresh"] == "2"
+    gc.collect()
+    assert not caplog.records  # that nobody asked for the third answer
 
 
 # --- jobs have limits of time and memory, and no client keeps the processes from the others

@@ -78,9 +78,8 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
 @kernel
 def _idle(x: Floats, i: int) -> None:
     """Let a lane fly without a drop."""
-    x[lane.STATUS + i], x[lane.ROW + i] = codes.ASK, -1.0
-    x[lane.V0 + i], x[lane.GRAVITY + i] = 1.0, 0.0
-    x[lane.STEPS + i], x[lane.UNSURE + i] = 0.0, 0.0
+    x[lane.STATUS + i], x[lane.ROW + i], x[lane.V0 + i] = codes.ASK, -1.0, 1.0
+    x[lane.STEPS + i], x[lane.UNSURE + i], x[lane.GRAVITY + i] = 0.0, 0.0, 0.0
     for k in (i, LANES + i):
         x[lane.PRESSING + k], x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = 0.0, -1.0, 0.0
         x[lane.Y + lane.S + k], x[lane.MU_NOW + k], x[lane.NU + k] = 0.0, 0.0, 0.0

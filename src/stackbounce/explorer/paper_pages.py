@@ -59,6 +59,7 @@ class Papers:
         """
         if self._job is None:
             self._job = asyncio.create_task(self._write())
+            self._job.add_done_callback(lambda job: job.cancelled() or job.exception())  # seen
         if not self._job.done():
             return FileResponse(_STATIC / "waiting.html", headers={"refresh": _AGAIN})
         job = self._job
