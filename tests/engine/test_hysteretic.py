@@ -100,6 +100,7 @@ def test_a_vibration_loses_energy_in_more_cycles_than_are_remembered():
     assert late / early == pytest.approx(490.0 / 1990.0, rel=0.05)
 
 
+@pytest.mark.slow
 def test_stacks_with_hysteresis_come_to_rest_where_their_curves_carry_them():
     """At rest each force is its weight, at about the compression of the last moment before."""
     random, seen = np.random.default_rng(8), 0

@@ -36,8 +36,9 @@ def test_as_the_general_engine(rtol, count, gravity):
     Under gravity a few drops come to rest, or swing until they meet the limit.
     """
     drops = pairs(count, seed=int(-math.log10(rtol)), reach=1.5, gravity=gravity)
-    out, exact = run(drops, rtol), swept(FINITE, drops, (math.inf, 1e-13, LIMIT, 10**7))
-    whole, _ = swept_in_lanes("run_pairs", drops, Options(math.inf, rtol, LIMIT, 10**7))
+    work = 10**7 if gravity else 10**12
+    out, exact = run(drops, rtol), swept(FINITE, drops, (math.inf, 1e-13, LIMIT, work))
+    whole, _ = swept_in_lanes("run_pairs", drops, Options(math.inf, rtol, LIMIT, work))
     ended = exact.status == codes.FINISHED
     assert gravity or ended.all()
     assert np.array_equal(whole.status, exact.status)

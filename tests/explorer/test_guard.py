@@ -23,6 +23,7 @@ def test_other_sites_are_kept_out(server):
             assert server.get("/api/places", headers={name: value}).status_code == status, value
 
 
+@pytest.mark.slow
 def test_the_page_itself_may_ask_by_each_name_of_this_machine(server, address_of_server):
     asked = {"json": ASKED, "headers": {"origin": address_of_server.rstrip("/")}}
     assert server.post("/api/predict", **asked).status_code == 200

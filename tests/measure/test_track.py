@@ -272,6 +272,7 @@ def test_a_lens_is_told(bend):
     assert found.balls[0].drop_height.std_dev > 1e-3
 
 
+@pytest.mark.slow
 def test_twenty_thousand_rows_take_seconds():
     began = time.process_time()
     with pytest.raises(InvalidValue, match="must hold a ball"):
