@@ -53,7 +53,6 @@ def test_the_truth_lies_within_one_sigma_in_two_of_three(trial, seeds):
 
 
 @pytest.mark.slow
-@pytest.mark.release
 @pytest.mark.parametrize("trial", waveform.RINGING.values(), ids=waveform.RINGING)
 def test_errors_by_a_sensor_that_rings_are_not_bold(trial):
     for quantity, share in shares(trial, range(150)).items():
