@@ -133,9 +133,9 @@ def test_a_drop_does_not_depend_on_the_others():
         assert bits(array[13:14]) == bits(single)
 
 
-@pytest.mark.parametrize("rtol", [1e-3, 1e-9])
-def test_plain_python_and_compiled_code(rtol):
-    drops = pairs(40, seed=7, reach=1.0)
+@pytest.mark.parametrize(("rtol", "gravity"), [(1e-3, False), (1e-3, True), (1e-9, False)])
+def test_plain_python_and_compiled_code(rtol, gravity):
+    drops = pairs(40, seed=7, reach=1.0, gravity=gravity)
     out, compiled = new_outcomes(40, 2), run(drops, rtol)
     with np.errstate(all="ignore"):
         run_pairs(drops, rtol, out, lane_workspace(compiled=False))
