@@ -204,8 +204,9 @@ def _fly(x: Floats, i: int) -> None:
 def _fall(x: Floats, i: int) -> None:
     """Let both balls fly under gravity, in steps, or end the drop.
 
-    It ends if neither ball approaches what is below it, and no contact presses again while one is
-    still compressed. The floor's compression is c + r t + g t^2/2, that of the balls c + r t.
+    As in the general engine, it ends if neither ball approaches what is below it now, unless the
+    lower ball comes back to the floor before the last contact that is still compressed opens. The
+    floor's compression is c + r t + g t^2/2, that of the balls c + r t.
     """
     g, c, lower = x[lane.GRAVITY + i], x[lane.Y + lane.C + i], x[lane.Y + lane.R + i]
     c_balls, upper = x[lane.Y + lane.C + LANES + i], x[lane.Y + lane.R + LANES + i]

@@ -5,9 +5,9 @@ engine        solves
 ============= ==========================================================================
 `RIGID`       sequences of instantaneous collisions (eqs 1 to 4)
 `FINITE`      simultaneous contacts of finite duration (eqs 5, 6 and section V)
-two rigid     batches of two rigid balls (`engine.two_rigid`)
-two springs   batches of two balls on springs, many at a time (`engine.two_springs`)
-pairs         batches of two balls under other laws, many at a time (`engine.pairs`)
+two rigid     batches of two rigid balls without gravity (`engine.two_rigid`)
+two springs   batches of two balls on springs without gravity (`engine.two_springs`)
+pairs         batches of two balls under other laws, or on springs with gravity (`engine.pairs`)
 ============= ==========================================================================
 
 The last three do not answer drops that are near the limits of their accuracy (`batch.run_lanes`).

@@ -160,11 +160,11 @@ def sweep(
 
     Notes
     -----
-    Every drop is solved as by `simulate`, except two balls without gravity that are run to their
-    end. On springs they have a faster engine, which differs by round-off; under `Hertz`,
-    `PowerLaw`, `Dashpot`, `Viscoelastic` and `HuntCrossley` another one, which differs by about
-    `rtol`. Both pass drops near their limits of accuracy on to the general one. For a picture an
-    `rtol` of 1e-4 is enough.
+    Every drop is solved as by `simulate`, except two balls that are run to their end. Without
+    gravity springs have a faster engine, which differs by round-off. Springs under gravity,
+    `Hertz`, `PowerLaw`, `Dashpot`, `StandardLinearSolid`, `Viscoelastic`, `HuntCrossley` and
+    `Hysteretic` have another one, which differs by about `rtol`. Both pass drops near their limits
+    of accuracy on to the general one. For a picture an `rtol` of 1e-4 is enough.
     The result of a drop depends on its own numbers only: it is the same bit for bit whatever the
     chunks, blocks or threads.
 
