@@ -89,6 +89,7 @@ def layout() -> dict[str, Any]:
         "causes": _numbered("ENDLESS STIFF EXTREME"),
         "events": _numbered(_EVENTS),
         "forms": _numbered("ABSENT POWER"),
+        "linear_forms": list(codes.LINEAR_FORMS),
         # a browser has no vectors for the powers of hysteresis
         "pair_forms": [form for form in codes.PAIR_FORMS if form != codes.HYSTERETIC],
     }

@@ -45,19 +45,21 @@ def swept_in_lanes(entry, drops, options):
     return out, asked
 
 
-def pairs(count, seed, reach=3.0, gravity=False):
-    """Return drops of two balls under laws of every form that `engine.pairs` knows.
+def pairs(count, seed, reach=3.0, gravity=False, forms=codes.PAIR_FORMS):
+    """Return drops of two balls under laws of all forms that an engine in lanes knows.
 
     Masses and stiffnesses differ by up to ten to the power ``reach``; losses are weak to strong; a
     third of the balls touch, gaps of the others are 1e-6 to 10 compressions. Gravity, if any, is
     1e-6 to 1/300 of a typical acceleration in the impact.
     """
     random = np.random.default_rng(seed)
-    form = random.choice(codes.PAIR_FORMS, (count, 2))
+    form = random.choice(forms, (count, 2))
     mass = 10.0 ** random.uniform(-0.5 * reach, 0.5 * reach, (count, 2))
     stiffness = 10.0 ** (6.0 + random.uniform(-0.5 * reach, 0.5 * reach, (count, 2)))
     speed = np.repeat(10.0 ** random.uniform(-1.0, 1.0, (count, 1)), 2, axis=1)
     exponent = random.choice([1.5, 1.5, 1.0, 2.2], (count, 2))
+    if forms == codes.LINEAR_FORMS:
+        exponent[:] = 1.0
     exponent[form == codes.VISCOELASTIC] = 1.5
     exponent[(form == codes.DASHPOT) | (form == codes.RELAXING)] = 1.0
     depth = (mass * speed**2 / stiffness) ** (1.0 / (exponent + 1.0))

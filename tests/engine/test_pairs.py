@@ -7,10 +7,10 @@ import pytest
 
 import stackbounce as sb
 from batches import bits, in_lanes, numbers_of, pairs, rigid_pairs, swept, swept_in_lanes
-from stackbounce.engine import codes, pair_step, two_springs
+from stackbounce.engine import codes, pair_series, pair_step, two_springs
 from stackbounce.engine.elementary import swift_exp, swift_log
 from stackbounce.engine.memory import FINITE, lane_workspace
-from stackbounce.engine.pairs import run_pairs
+from stackbounce.engine.pairs import run_linear, run_pairs
 from stackbounce.engine.records import SCRATCH
 from stackbounce.run.batch import new_outcomes
 from stackbounce.run.engines import choose_lanes
@@ -19,6 +19,10 @@ from stackbounce.run.paths import number_at
 
 HERTZ = sb.Drop([sb.Ball(0.15), sb.Ball(0.057)], [sb.Hertz(1e6)] * 2, impact_speed=2.0)
 LIMIT = 1_000_000
+SLOW = pytest.mark.slow
+
+
+ENTRIES = [(run_pairs, codes.PAIR_FORMS, 1e-6), (run_linear, codes.LINEAR_FORMS, LIMIT)]
 
 
 def run(drops, rtol):
@@ -28,10 +32,10 @@ def run(drops, rtol):
 @pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9, 1e-12])
 @pytest.mark.parametrize(
     ("count", "gravity"),
-    [(3000, False), (1000, True), pytest.param(40_000, False, marks=pytest.mark.slow)],
+    [(3000, False), (1000, True), pytest.param(40_000, False, marks=SLOW)],
 )
 def test_as_the_general_engine(rtol, count, gravity):
-    """Counts are right, and errors near the tolerance, but for drops that magnify any error.
+    """Counts are right, and errors near the tolerance, but for four drops that magnify any error.
 
     Under gravity a few drops come to rest. A few swing, too gently to matter, to the limit.
     """
@@ -47,13 +51,34 @@ def test_as_the_general_engine(rtol, count, gravity):
     assert known.mean() > (0.7 if rtol == 1e-3 else 0.95)
     error = np.abs(whole.rebound_ratio - exact.rebound_ratio).max(axis=1)[ended]
     assert np.median(error) < 0.5 * rtol
-    assert np.quantile(error, 0.9999) < 10.0 * rtol
+    assert np.quantile(error, 1.0 - 4.0 / count) < 10.0 * rtol
     last = np.nanmax(exact.last_release[known], axis=1)[:, None]
     for name in ("first_touch", "last_release"):
         time, right = getattr(out, name)[known], getattr(exact, name)[known]
         assert np.array_equal(np.isnan(time), np.isnan(right))
         late = np.abs(time - right) / last
         assert np.nanquantile(late, 0.98) < 10.0 * rtol
+
+
+@pytest.mark.parametrize("gravity", [False, True])
+@pytest.mark.parametrize(("count", "reach"), [(3000, 1.5), pytest.param(40_000, 3.0, marks=SLOW)])
+def test_linear_contacts_are_solved_exactly(count, reach, gravity):
+    """Also weakly and strongly damped ones, whose counts are those of the general engine."""
+    drops = pairs(count, seed=7, reach=reach, gravity=gravity, forms=codes.LINEAR_FORMS)
+    out, whole = in_lanes("run_linear", drops, LIMIT), Options(math.inf, 1e-13, LIMIT, 10**7)
+    exact, known = swept(FINITE, drops, whole), out.status == codes.FINISHED
+    assert known.mean() > 0.95
+    assert (exact.status[known] == codes.FINISHED).all()
+    assert np.array_equal(out.collisions[known], exact.collisions[known])
+    error = np.abs(out.rebound_ratio - exact.rebound_ratio).max(axis=1)[known]
+    assert np.median(error) < 1e-14
+    assert np.quantile(error, 0.99) < 1e-12
+    assert error.max() < 1e-9  # drops that magnify any error
+    last = np.nanmax(exact.last_release[known], axis=1)[:, None]
+    for name in ("first_touch", "last_release"):
+        time, right = getattr(out, name)[known], getattr(exact, name)[known]
+        assert np.array_equal(np.isnan(time), np.isnan(right))
+        assert np.nanquantile(np.abs(time - right) / last, 0.98) < 1e-12
 
 
 def test_a_short_cycle_of_hysteresis_is_not_missed():
@@ -119,12 +144,14 @@ def test_the_balls_touch_at_any_time_while_the_floor_presses(exponent):
     assert out.first_touch[done] == pytest.approx(exact.first_touch[done], rel=1e-10, nan_ok=True)
 
 
-def test_a_drop_does_not_depend_on_the_others():
-    drops = pairs(700, seed=6)
-    whole = run(drops, 1e-6)
+@pytest.mark.parametrize(("entry", "forms", "limit"), ENTRIES)
+def test_a_drop_does_not_depend_on_the_others(entry, forms, limit):
+    drops = pairs(700, seed=6, forms=forms)
     chosen = np.random.default_rng(1).permutation(700)
-    mixed = run(numbers_of(drops, chosen), 1e-6)
-    alone = run(numbers_of(drops, slice(13, 14)), 1e-6)
+    whole, mixed, alone = (
+        in_lanes(entry.__name__, numbers_of(drops, rows), limit)
+        for rows in (slice(None), chosen, slice(13, 14))
+    )
     done = whole.status == codes.FINISHED
     assert done[13]
     for array, other, single in zip(whole, mixed, alone, strict=True):
@@ -133,12 +160,13 @@ def test_a_drop_does_not_depend_on_the_others():
         assert bits(array[13:14]) == bits(single)
 
 
-@pytest.mark.parametrize(("rtol", "gravity"), [(1e-3, False), (1e-3, True), (1e-9, False)])
-def test_plain_python_and_compiled_code(rtol, gravity):
-    drops = pairs(40, seed=7, reach=1.0, gravity=gravity)
-    out, compiled = new_outcomes(40, 2), run(drops, rtol)
+@pytest.mark.parametrize("gravity", [False, True])
+@pytest.mark.parametrize(("entry", "forms", "limit"), ENTRIES)
+def test_plain_python_and_compiled_code(entry, forms, limit, gravity):
+    drops = pairs(40, seed=7, reach=1.0, gravity=gravity, forms=forms)
+    out, compiled = new_outcomes(40, 2), in_lanes(entry.__name__, drops, limit)
     with np.errstate(all="ignore"):
-        run_pairs(drops, rtol, out, lane_workspace(compiled=False))
+        entry(drops, limit, out, lane_workspace(compiled=False))
     done = out.status == codes.FINISHED
     assert done.sum() > 25
     assert bits(out.status) == bits(compiled.status)
@@ -148,12 +176,15 @@ def test_plain_python_and_compiled_code(rtol, gravity):
 
 @pytest.mark.parametrize("scale", [1e-300, 1e-150, 1e150, 1e300])
 @pytest.mark.parametrize("name", ["mass", "first", "velocity", "gap"])
-@pytest.mark.parametrize("rigid", [False, True])
-def test_extremes_are_right_or_left_to_the_general_engine(name, scale, rigid):
-    drops = rigid_pairs(60, 8, least=0.7) if rigid else pairs(60, seed=8, reach=1.0)
+@pytest.mark.parametrize("kind", ["rigid", "linear", "pairs"])
+def test_extremes_are_right_or_left_to_the_general_engine(name, scale, kind):
+    forms = codes.LINEAR_FORMS if kind == "linear" else codes.PAIR_FORMS
+    rigid = kind == "rigid"
+    drops = rigid_pairs(60, 8, least=0.7) if rigid else pairs(60, 8, reach=1.0, forms=forms)
     factor = [1.0, scale] if rigid and name == "mass" else scale
     drops = drops._replace(**{name: getattr(drops, name) * factor})
-    out = in_lanes("run_two_rigid", drops, 10_000) if rigid else run(drops, 1e-6)
+    entries = {"rigid": "run_two_rigid", "linear": "run_linear"}
+    out = in_lanes(entries[kind], drops, 10_000) if kind in entries else run(drops, 1e-6)
     done = out.status == codes.FINISHED
     assert np.isin(out.status, [codes.FINISHED, codes.ASK]).all()
     assert np.isfinite(out.rebound_ratio[done]).all()
@@ -161,8 +192,8 @@ def test_extremes_are_right_or_left_to_the_general_engine(name, scale, rigid):
     assert retained == pytest.approx(1.0, abs=1e-4)
 
 
-def test_both_engines_in_lanes_have_room():
-    assert max(pair_step.SLOTS, two_springs.SLOTS) <= SCRATCH
+def test_all_engines_in_lanes_have_room():
+    assert max(pair_step.SLOTS, pair_series.SLOTS, two_springs.SLOTS) <= SCRATCH
 
 
 @pytest.mark.parametrize(
@@ -170,7 +201,9 @@ def test_both_engines_in_lanes_have_room():
     [
         ({}, {}, [], "run_pairs"),
         ({"contacts": [sb.Spring(1e4)] * 2}, {}, [], "run_two_springs"),
-        ({"contacts": [sb.Spring(1e4), sb.Dashpot(1e4, 1.0)]}, {}, ["gaps.0"], "run_pairs"),
+        ({"contacts": [sb.Spring(1e4), sb.Dashpot(1e4, 1.0)]}, {}, ["gaps.0"], "run_linear"),
+        ({"contacts": [sb.Hertz(1e6), sb.Dashpot(1e4, 1.0)]}, {}, [], "run_pairs"),
+        ({"contacts": [sb.Hertz(1e6), sb.StandardLinearSolid(1e4, 0.5, 2e-3)]}, {}, [], None),
         ({"contacts": [sb.PowerLaw(1e4, 1.0)] * 2}, {}, ["contacts.0.exponent"], "run_pairs"),
         ({"contacts": [sb.Hysteretic(1e4, restitution=0.8)] * 2}, {}, [], "run_pairs"),
         ({"contacts": [sb.Hysteretic(1e4, restitution=0.8)] * 2}, {"rtol": 1e-12}, [], None),
@@ -180,7 +213,7 @@ def test_both_engines_in_lanes_have_room():
         ({"contacts": [None, sb.Hertz(1e6)], "velocities": [1.0, -1.0]}, {}, [], None),
         ({"gravity": 9.8}, {}, [], "run_pairs"),
         ({}, {}, ["gravity"], "run_pairs"),
-        ({"contacts": [sb.Spring(1e4)] * 2}, {}, ["gravity"], "run_pairs"),
+        ({"contacts": [sb.Spring(1e4)] * 2}, {}, ["gravity"], "run_linear"),
         ({"contacts": [sb.Rigid(0.8)] * 2, "gravity": 9.8}, {}, [], None),
         ({}, {"until": 1.0}, [], None),
         ({}, {"rtol": 1e-14}, [], None),

@@ -295,13 +295,14 @@ def outcomes():
 
 
 def two_balls():
-    """Return the bits of the outcomes of two balls by both engines in lanes."""
+    """Return the bits of the outcomes of two balls by the engines in lanes."""
     drops = numbers_of(drops_of(SEED, 0, 10_000))
     drops = drops._replace(velocity=np.repeat(-np.abs(drops.velocity[:, :1]), 2, axis=1))
     found = []
     for entry, some, limit in (
         ("run_two_springs", drops, 10_000),
         ("run_pairs", pairs(2000, SEED), 1e-6),
+        ("run_linear", pairs(2000, SEED, forms=codes.LINEAR_FORMS), 10_000),
     ):
         out = in_lanes(entry, some, limit)
         done = out.status == sb.Status.FINISHED

@@ -27,7 +27,7 @@ while (place < given.length) {
     for (const values of [run.velocity, run.log, run.infinite]) tell(values);
     for (const values of [position, velocity, compression, force, stored]) tell(values);
   } else {
-    const outcomes = engine.sweep(drops, { rtol, until, eventLimit, lanes: [null, null, "run_two_springs", "run_pairs"][job] });
+    const outcomes = engine.sweep(drops, { rtol, until, eventLimit, lanes: [null, null, "run_two_springs", "run_pairs", "run_linear"][job] });
     for (const { name } of layout.records.Outcomes) tell(outcomes[name]);
   }
 }

@@ -22,7 +22,7 @@ SEED = 3
 BATCHES = 12  # all heights that have rigid and finite batches, and a third rigid
 SAMPLED = 4  # one drop in so many is looked at on its way
 LIMIT = 300
-SIMULATE, SWEEP, SPRINGS, PAIRS = range(4)
+SIMULATE, SWEEP, SPRINGS, PAIRS, LINEAR = range(5)
 RUN = Path(__file__).with_name("run_engine.mjs")
 ENGINE = files("stackbounce.explorer").joinpath("static/js/engine/engine.js")
 
@@ -104,11 +104,15 @@ def test_two_springs(tmp_path, count):
     assert (asked > 0) == (count > 1)
 
 
-@pytest.mark.parametrize("rtol", [1e-4, 1e-9])
-def test_pairs(tmp_path, rtol):
-    drops, options = pairs(300, SEED), Options(math.inf, rtol, 1_000_000)
-    out, asked = swept_in_lanes("run_pairs", drops, options)
-    compare([job(PAIRS, drops, False, options)], list(map(np.ravel, out)), tmp_path)
+@pytest.mark.parametrize(
+    ("entry", "kind", "rtol"),
+    [("run_pairs", PAIRS, 1e-4), ("run_pairs", PAIRS, 1e-9), ("run_linear", LINEAR, 1e-12)],
+)
+def test_pairs(tmp_path, entry, kind, rtol):
+    forms = codes.LINEAR_FORMS if kind == LINEAR else codes.PAIR_FORMS
+    drops, options = pairs(300, SEED, forms=forms), Options(math.inf, rtol, 1_000_000)
+    out, asked = swept_in_lanes(entry, drops, options)
+    compare([job(kind, drops, False, options)], list(map(np.ravel, out)), tmp_path)
     assert 0 < asked < 100
 
 

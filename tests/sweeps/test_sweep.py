@@ -20,6 +20,7 @@ LAWS = {
     "springs": [sb.Spring(2500.0), sb.Spring(1000.0)],
     "hertz": [sb.Hertz(1e5), sb.PowerLaw(1e5, 1.3)],
     "damped": [sb.Dashpot(2500.0, 1.0), sb.Viscoelastic(1e5, 1e-4)],
+    "linear": [sb.Dashpot(2500.0, 1.0), sb.StandardLinearSolid(1e4, 0.5, 2e-3)],
     "losses": [sb.HuntCrossley(1e5, 1.5, 0.1), sb.Hysteretic(1e4, restitution=0.8)],
     "hysteresis": [sb.Hysteretic(1e4, restitution=0.8), sb.Spring(1e3)],
 }
@@ -29,7 +30,7 @@ OTHER_NAMES = {"rebound_ratio": "rebound_ratios"}  # of a result, where a sweep 
 def assert_same(element, drop, until=None, rtol=1e-12):
     """Bit for bit, but for two balls, which have engines of their own."""
     lanes = choose_lanes(drop, [], run_options(drop, until, rtol, 1_000_000))
-    near = {"run_two_springs": 1e-12, "run_pairs": 10.0 * rtol}.get(lanes)
+    near = 10.0 * rtol if lanes == "run_pairs" else 1e-12
     result = sb.simulate(drop, until=until, rtol=rtol)
     for name in element.data_vars:
         expected = getattr(result, OTHER_NAMES.get(name, name))

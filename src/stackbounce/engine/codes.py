@@ -32,7 +32,8 @@ BOND = 14  # a spring and a dashpot that also pull: the contact never opens
 RIGID_POWER = 15  # an instantaneous collision whose restitution is a power of the speed
 RIGID_LOSS = 16  # the same; its loss is a power of the speed
 
-PAIR_FORMS = (POWER, HYSTERETIC, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY, RELAXING)  # of `pairs`
+PAIR_FORMS = (POWER, HYSTERETIC, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY)  # of `pairs`
+LINEAR_FORMS = (POWER, DASHPOT, RELAXING)  # of `pairs`, by series: a power has the exponent 1
 
 # phases of a contact; from COMPRESSING on it presses and joins its balls into a cluster
 OPEN = 0

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any, get_type_hints
 
 from stackbounce.engine.batch import run_batch, run_drop, run_rigid_batch, run_rigid_drop
-from stackbounce.engine.pairs import run_pairs
+from stackbounce.engine.pairs import run_linear, run_pairs
 from stackbounce.engine.sideways import carry_sideways, place_pushes
 from stackbounce.engine.two_rigid import run_two_rigid
 from stackbounce.engine.two_springs import run_two_springs
@@ -17,7 +17,8 @@ ENTRIES: dict[str, Callable[..., Any]] = {
     entry.__name__: entry
     for entry in (
         *(run_drop, run_rigid_drop, run_batch, run_rigid_batch),
-        *(run_two_rigid, run_two_springs, run_pairs, place_pushes, carry_sideways),
+        *(run_two_rigid, run_two_springs, run_linear, run_pairs),
+        *(place_pushes, carry_sideways),
     )
 }
 """The entries by their names."""

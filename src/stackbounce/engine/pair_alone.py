@@ -63,9 +63,8 @@ def _has_formula(x: Floats, i: int) -> bool:
     other = 2 * i + LANES - k
     alone = x[lane.PRESSING + k] > 0.0 and x[lane.PRESSING + other] == 0.0
     alone = alone and x[lane.LEVEL + other] == 0.0
-    lossless = x[lane.D + k] == 0.0 and x[lane.NU + k] == 0.0 and x[lane.LOSS + k] == 0.0
-    free = x[lane.Y + lane.S + other] == 0.0 and x[lane.GRAVITY + i] == 0.0
-    return alone and lossless and free
+    lossless = x[lane.D + k] == 0.0 and x[lane.LOSS + k] == 0.0
+    return alone and lossless and x[lane.GRAVITY + i] == 0.0
 
 
 @kernel

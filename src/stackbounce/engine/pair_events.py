@@ -145,18 +145,18 @@ def touch(x: Floats, i: int, k: int) -> None:
 @kernel
 def free_rate(x: Floats, k: int) -> float:
     """Return the rate at which the gap of contact k closes, without its surface's own rate."""
-    return x[lane.Y + lane.R + k] - x[lane.NU + k] * x[lane.Y + lane.S + k]
+    return x[lane.Y + lane.R + k] - x[lane.NU + k] * x[lane.S + k]
 
 
 @kernel
 def _advance(x: Floats, k: int, wait: float) -> None:
     """Let both sides of contact k fly freely for a time, while its surface recovers."""
-    r, surface = free_rate(x, k), x[lane.Y + lane.S + k]
+    r, surface = free_rate(x, k), x[lane.S + k]
     x[lane.Y + lane.C + k] += wait * r
     if surface != 0.0:
         left = surface * exp(-x[lane.NU + k] * wait)
         x[lane.Y + lane.C + k] += surface - left
-        x[lane.Y + lane.S + k], x[lane.Y + lane.R + k] = left, r + x[lane.NU + k] * left
+        x[lane.S + k], x[lane.Y + lane.R + k] = left, r + x[lane.NU + k] * left
 
 
 @kernel
@@ -167,7 +167,7 @@ def _flight_time(x: Floats, k: int) -> float:
     """
     c, r, nu, surface = x[lane.Y + lane.C + k], free_rate(x, k), x[lane.NU + k], 0.0
     time = -c / x[lane.Y + lane.R + k]
-    surface = x[lane.Y + lane.S + k]
+    surface = x[lane.S + k]
     if surface != 0.0:
         for _ in range(_ROUNDS):
             left = surface * exp(-nu * time)
@@ -176,7 +176,7 @@ def _flight_time(x: Floats, k: int) -> float:
 
 
 @kernel
-def _fly(x: Floats, i: int) -> None:
+def fly(x: Floats, i: int) -> None:
     """Let both balls fly freely until a contact touches, or end the drop."""
     first, contact, least = math.inf, -1, _least_rate(x, i)
     for k in (i, LANES + i):
@@ -184,6 +184,8 @@ def _fly(x: Floats, i: int) -> None:
         touches = r > least
         wait = _flight_time(x, k) if touches and c < 0.0 else math.inf
         close = abs(wait - first) < _TOGETHER * wait
+        if r < -least and x[lane.Y + lane.R + k] > -least:  # the surface still follows the ball
+            return
         if not (touches or x[lane.Y + lane.R + k] < -least) or close or (touches and c > 0.0):
             x[lane.STATUS + i] = ASK
             return
@@ -233,7 +235,7 @@ def look_after(x: Floats, i: int) -> None:
     elif doubt or x[lane.OVER_ERROR + i] < 1.0 or not _is_steady(x, i):
         go_by(x, i, TIME, _PART * x[lane.WAIT + i])
     else:
-        _apply_event(x, i)
+        apply_event(x, i)
 
 
 @kernel
@@ -276,11 +278,12 @@ def _wait(left: float, rate: float, change: float) -> float:
 
 
 @kernel
-def _accept(x: Floats, i: int) -> None:
+def accept(x: Floats, i: int) -> None:
     """Let the state at the end of the step of a lane be the present one, see also `pair_step`."""
     for j in range(i, lane.STATE, LANES):
         x[lane.Y + j] = x[lane.NEW + j]
     for k in (i, LANES + i):
+        x[lane.S + k] = x[lane.S_NEW + k]
         if x[lane.PRESSING + k] == 0.0 and x[lane.Y + lane.C + k] <= 0.0:
             open_now(x, k)
 
@@ -288,7 +291,7 @@ def _accept(x: Floats, i: int) -> None:
 @kernel
 def _take(x: Floats, i: int) -> None:
     """Take the step of a lane, and aim the next one at the event that is expected in it, if any."""
-    _accept(x, i)
+    accept(x, i)
     grow = x[lane.GROW + i]
     if x[lane.MODE + i] == TIME:
         x[lane.H + i] *= grow
@@ -415,10 +418,10 @@ def _changes(x: Floats, i: int, k: int) -> int:
 
 
 @kernel
-def _apply_event(x: Floats, i: int) -> None:
+def apply_event(x: Floats, i: int) -> None:
     """Take a step that ends at an event, and apply that event."""
     k, kind = int(x[lane.CONTACT + i]), x[lane.KIND + i]
-    _accept(x, i)
+    accept(x, i)
     if kind == TOUCH:
         touch(x, i, k)
         return
@@ -444,4 +447,4 @@ def go_apart(x: Floats, i: int, k: int) -> None:
     elif x[lane.GRAVITY + i] > 0.0:
         _fall(x, i)
     else:
-        _fly(x, i)
+        fly(x, i)

@@ -13,16 +13,9 @@ The force of a pressing contact is
 where a is 1 and b is 0, or the other way round (see `forces`): a Hertz contact has p = 1.5, a = 1
 and d = 0; that of Hunt and Crossley a = 1; a dashpot p = 1 and b = 1; a viscoelastic one p = 1.5
 and b = 1. F is not cut off at 0, so that a step is smooth that passes the end of a contact; it is
-then repeated up to that end. Two forms have more numbers:
-
-- With hysteresis, F becomes F (ADDED + KEPT s) + HELD s + OFFSET, with the share s = (c/C)^M that
-  is left of the force at the peak C (see `cycles`). One cycle is followed, none inside it.
-- A contact that creeps counts c from its surface, whose compression is S. There its force
-  k (1 + z) c has the simplest form, and with w as in `forces`
-
-      S' = mu c - nu S,    mu = z nu,    nu = 1/((1 + z) w),
-
-  where mu is 0 while it is open. Its rate r = c' is that of the balls less S'.
+then repeated up to that end. With hysteresis, F becomes F (ADDED + KEPT s) + HELD s + OFFSET, with
+the share s = (c/C)^M that is left of the force at the peak C (see `cycles`). One cycle is followed,
+none inside it.
 
 The independent variable s of a step is chosen so that the motion is smooth in it and the step ends
 exactly at an event (M. Henon, Physica D 5, 412, 1982). With weights,
@@ -51,8 +44,8 @@ from stackbounce.engine.kernels import Floats, kernel
 LANES = 32  # a power of two
 BOTH = 2 * LANES  # a slot for each contact: the floor's, then the balls'
 
-# A state: compressions beyond the surfaces, their rates, the surfaces' compressions, and time.
-C, R, S, T = 0, BOTH, 2 * BOTH, 3 * BOTH
+# A state: compressions, their rates, and time.
+C, R, T = 0, BOTH, 2 * BOTH
 STATE = T + LANES
 # The present state and that at the end of the step; without time, the state of a stage, its rates,
 # and those of earlier stages.
@@ -70,26 +63,28 @@ A, B, D, SIGN, GAIN_SIGN, OWN, BY_R, BY_A = (_EACH + k * BOTH for k in range(6, 
 # next.
 SCALE, COUNT, FIRST, LAST, DOUBT, SOON = (_EACH + k * BOTH for k in range(14, 20))
 DT, MARGIN, NEXT, TAKEN = (_EACH + k * BOTH for k in range(20, 24))  # the same for both contacts
-# a, b, d of the gain that is watched, and the compression that is; the rates mu and nu of the
-# surface, mu while it presses, and the part of r' that is the surface's.
-END_A, END_B, END_D, LEVEL, MU, NU, MU_NOW, DRIFT = (_EACH + k * BOTH for k in range(24, 32))
+# a, b, d of the gain that is watched, and the compression that is.
+END_A, END_B, END_D, LEVEL = (_EACH + k * BOTH for k in range(24, 28))
+# Of a contact that creeps, see `pair_series`: the rates mu and nu of its surface, mu while it
+# presses; the surface's compression, now and at the end of the step.
+MU, NU, MU_NOW, S, S_NEW = (_EACH + k * BOTH for k in range(28, 33))
 # Of hysteresis: M, 0 without; 1/C; the four numbers of the force; its curve, C, and where it was
 # compressed again.
-LOSS, OVER_PEAK, ADDED, KEPT, HELD, OFFSET = (_EACH + k * BOTH for k in range(32, 38))
-CURVE, PEAK, TURN, BASE, EXPONENT = (_EACH + k * BOTH for k in range(38, 43))
+LOSS, OVER_PEAK, ADDED, KEPT, HELD, OFFSET = (_EACH + k * BOTH for k in range(33, 39))
+CURVE, PEAK, TURN, BASE, EXPONENT = (_EACH + k * BOTH for k in range(39, 44))
 # A typical compression over the impact speed, and how near 0 a turn of the compression is not sure.
-SPAN, WIDE = _EACH + 43 * BOTH, _EACH + 44 * BOTH
+SPAN, WIDE = _EACH + 44 * BOTH, _EACH + 45 * BOTH
 # Slots for each lane: 1/m1, 1/m2; the step in s, s where it begins, and the weights m, n, q; how
 # the step goes; impact speed, row, status; 1 if `pairs` must decide how the lane goes on; steps so
 # far; the allowed error over that of the step, and the factor for the next step; the last step by
 # time.
-_LANE = _EACH + 45 * BOTH
+_LANE = _EACH + 46 * BOTH
 OVER_1, OVER_2, H, START, M, N, Q, MODE = (_LANE + k * LANES for k in range(8))
 V0, ROW, STATUS, ASKS, STEPS, OVER_ERROR, GROW, BY_TIME = (_LANE + k * LANES for k in range(8, 16))
-# The event that a step is to end at: its contact, its kind, and the time to it; dt of a whole step
-# at the rates of a stage; the velocity by which an event may come too early or too late; gravity.
-CONTACT, KIND, WAIT, STAGE_DT, UNSURE, GRAVITY = (_LANE + k * LANES for k in range(16, 22))
-TOLERANCE = _LANE + 22 * LANES  # the error allowed in a step, over the impact speed
+# The event that a step is to end at: its contact, its kind, and the time to it; the velocity by
+# which an event may come too early or too late; gravity.
+CONTACT, KIND, WAIT, UNSURE, GRAVITY = (_LANE + k * LANES for k in range(16, 21))
+TOLERANCE = _LANE + 21 * LANES  # the error allowed in a step, over the impact speed
 COARSE = TOLERANCE + 1  # the largest estimate of order 3 with which the others can be trusted
 GENERAL = TOLERANCE + 2  # 1 if some exponent is neither 1 nor 1.5
 # 1 if some contact creeps, has hysteresis, or has a gain that changes
@@ -168,17 +163,12 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
             rest = x[BASE + i]
             force = x[F + i] * (x[ADDED + i] + x[KEPT + i] * rest)
             x[F + i] = force + x[HELD + i] * rest + x[OFFSET + i]
-    if x[CREEPS] > 0.0:
-        for i in range(BOTH):
-            mu, nu = x[MU_NOW + i], x[NU + i]
-            rate = mu * x[NOW + C + i] - nu * x[NOW + S + i]
-            x[OUT + S + i], x[DRIFT + i] = rate, nu * rate - mu * x[NOW + R + i]
     for i in range(LANES):
         r0, r1 = x[NOW + R + i], x[NOW + R + LANES + i]
         floor, balls = x[F + i], x[F + LANES + i]
         a0 = (balls - floor) * x[OVER_1 + i]
-        a1 = x[DRIFT + LANES + i] - a0 - balls * x[OVER_2 + i]
-        a0 += x[DRIFT + i] + x[GRAVITY + i]
+        a1 = -a0 - balls * x[OVER_2 + i]
+        a0 += x[GRAVITY + i]
         speed = x[Q + i] + x[BY_R + i] * r0 + x[BY_R + LANES + i] * r1
         speed += x[BY_A + i] * a0 + x[BY_A + LANES + i] * a1
         h = x[H + i]
@@ -187,14 +177,6 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
         x[OUT + R + i], x[OUT + R + LANES + i] = dt * a0, dt * a1
         x[NEW + T + i] += weight * dt
         x[ACC_NEW + i], x[ACC_NEW + LANES + i] = a0, a1
-        x[STAGE_DT + i] = dt
-    if x[CREEPS] > 0.0:
-        for i in range(LANES):
-            dt = x[STAGE_DT + i]
-            x[OUT + S + i], x[OUT + S + LANES + i] = (
-                dt * x[OUT + S + i],
-                dt * x[OUT + S + LANES + i],
-            )
 
 
 @kernel
@@ -216,46 +198,45 @@ def take_step(x: Floats) -> None:
 
     Those of orders 3 and 5, without signs, are left in K3 and K4.
     """
-    size = T if x[CREEPS] > 0.0 else S  # of a state without time
     for i in range(LANES):
         x[NEW + T + i] = x[Y + T + i]
-    for i in range(size):
+    for i in range(T):
         x[NOW + i] = x[Y + i]
     _find_rates(x, 0.0, _END[0])
     for i in range(BOTH):
         x[ACC + i] = x[ACC_NEW + i]
-    _go_to(x, size, K1, _TO_2, (K1,))
+    _go_to(x, K1, _TO_2, (K1,))
     _find_rates(x, 0.05260015195876773, 0.0)
-    _go_to(x, size, K3, _TO_3, (K1, K3))
+    _go_to(x, K3, _TO_3, (K1, K3))
     _find_rates(x, 0.0789002279381516, 0.0)
-    _go_to(x, size, K3, _TO_4, (K1, K3))
+    _go_to(x, K3, _TO_4, (K1, K3))
     _find_rates(x, 0.1183503419072274, 0.0)
-    _go_to(x, size, K4, _TO_5, (K1, K3, K4))
+    _go_to(x, K4, _TO_5, (K1, K3, K4))
     _find_rates(x, 0.2816496580927726, 0.0)
-    _go_to(x, size, K5, _TO_6, (K1, K4, K5))
+    _go_to(x, K5, _TO_6, (K1, K4, K5))
     _find_rates(x, 0.3333333333333333, _END[1])
-    _go_to(x, size, K6, _TO_7, (K1, K4, K5, K6))
+    _go_to(x, K6, _TO_7, (K1, K4, K5, K6))
     _find_rates(x, 0.25, _END[2])
-    _go_to(x, size, K7, _TO_8, (K1, K4, K5, K6, K7))
+    _go_to(x, K7, _TO_8, (K1, K4, K5, K6, K7))
     _find_rates(x, 0.3076923076923077, _END[3])
-    _go_to(x, size, K8, _TO_9, (K1, K4, K5, K6, K7, K8))
+    _go_to(x, K8, _TO_9, (K1, K4, K5, K6, K7, K8))
     _find_rates(x, 0.6512820512820513, _END[4])
-    _go_to(x, size, K9, _TO_10, (K1, K4, K5, K6, K7, K8, K9))
+    _go_to(x, K9, _TO_10, (K1, K4, K5, K6, K7, K8, K9))
     _find_rates(x, 0.6, _END[5])
-    _go_to(x, size, K10, _TO_11, (K1, K4, K5, K6, K7, K8, K9, K10))
+    _go_to(x, K10, _TO_11, (K1, K4, K5, K6, K7, K8, K9, K10))
     _find_rates(x, 0.8571428571428571, _END[6])
-    _go_to(x, size, K11, _TO_12, (K1, K4, K5, K6, K7, K8, K9, K10, K11))
+    _go_to(x, K11, _TO_12, (K1, K4, K5, K6, K7, K8, K9, K10, K11))
     _find_rates(x, 1.0, _END[7])
-    for i in range(size):
+    for i in range(T):
         x[NEW + i] = x[Y + i] + _weighted(x, i, _END)
         third, fifth = _weighted(x, i, _THIRD), _weighted(x, i, _FIFTH)
         x[K3 + i], x[K4 + i] = abs(third), abs(fifth)
 
 
 @kernel
-def _go_to(x: Floats, size: int, own: int, a: Sequence[float], earlier: Sequence[int]) -> None:
+def _go_to(x: Floats, own: int, a: Sequence[float], earlier: Sequence[int]) -> None:
     """Keep the rates of a stage in a slot, and make the state of the next one from earlier ones."""
-    for i in range(size):
+    for i in range(T):
         x[own + i] = x[OUT + i]
         way = a[0] * x[earlier[0] + i]
         for j in range(1, len(a)):
@@ -385,11 +366,7 @@ def _go_on(x: Floats) -> None:
         c, c_new, r, r_new = x[Y + C + i], x[NEW + C + i], x[Y + R + i], x[NEW + R + i]
         x[Y + C + i] = c_new if x[TAKEN + i] > 0.0 else c
         x[Y + R + i] = r_new if x[TAKEN + i] > 0.0 else r
-    if x[CREEPS] > 0.0:
-        for i in range(BOTH):
-            surface, surface_new = x[Y + S + i], x[NEW + S + i]
-            x[Y + S + i] = surface_new if x[TAKEN + i] > 0.0 else surface
-    if x[LOSES] > 0.0:  # as `_accept` in `pair_events` does
+    if x[LOSES] > 0.0:  # as `accept` in `pair_events` does
         for i in range(BOTH):
             c, sign, level = x[Y + C + i], x[GAIN_SIGN + i], x[LEVEL + i]
             away = x[PRESSING + i] == 0.0 and c <= 0.0

@@ -1,8 +1,9 @@
 """Many drops of two balls on contacts with a nonlinear or lossy force, in lanes.
 
-All lanes step together (`pair_step`). Between steps, lanes that meet an event are looked after one
-by one (`pair_events`). A contact that presses alone needs no steps under some laws (`pair_alone`).
-A lane whose drop has ended takes the next one. No lane affects another.
+All lanes step together: by a Runge-Kutta method (`pair_step`), or where all contacts are linear by
+power series (`pair_series`). Between steps, lanes that meet an event are looked after one by one
+(`pair_events`). A nonlinear contact that presses alone needs no steps under some laws
+(`pair_alone`). A lane whose drop has ended takes the next one. No lane affects another.
 """
 
 import math
@@ -13,6 +14,13 @@ from stackbounce.engine.elementary import near_root, nearest_exponent, power
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.pair_alone import go_alone
 from stackbounce.engine.pair_events import begin_open, free_rate, go_by, look_after, press, touch
+from stackbounce.engine.pair_series import (
+    COUNTED,
+    LIMIT,
+    ORDER,
+    look_after_series,
+    step_by_series,
+)
 from stackbounce.engine.pair_step import LANES, TIME, judge_step, take_step
 from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import Drops, Outcomes, Workspace
@@ -24,6 +32,7 @@ _FIRST_ROOT = 24  # it falls with this root of the error
 _FIRST_UNSURE = 2.0  # allowed errors of a step: what is not sure from the beginning
 _LEVELS, _LEVELS_PER_BIT = 1.5, 0.2  # of a continued fraction, for an error of rtol/100
 _REACH = 0.2  # of a compression, for an error of 1: so far do three derivatives lead
+_ROUND_OFF = 1e-13  # of a step by series, over the impact speed
 _COARSE = 2.0  # the largest estimate of order 3, for an error of 1; it falls with its cube root
 
 
@@ -34,9 +43,8 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
     Parameters
     ----------
     drops : Drops
-        The parameters of n drops, of the forms POWER, HYSTERETIC, DASHPOT, VISCOELASTIC,
-        HUNT_CROSSLEY and RELAXING.
-        Both balls come with the lower one's velocity.
+        The parameters of n drops, of the forms `codes.PAIR_FORMS`. Both balls come with the lower
+        one's velocity.
     rtol : float
         The error of the velocities that is aimed at, over the impact speed.
     out : Outcomes
@@ -47,10 +55,38 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
     """
     x = space.floats
     x[lane.TOLERANCE], x[lane.COARSE] = _STEP * rtol, _COARSE * power(rtol, 1.0 / 3.0)
-    x[lane.GENERAL] = x[lane.CREEPS] = x[lane.REMEMBERS] = x[lane.LOSES] = 0.0
     x[lane.LEVELS] = _LEVELS - _LEVELS_PER_BIT * nearest_exponent(rtol)
     x[lane.REACH] = _REACH * near_root(rtol, 3)
-    first = _FIRST * near_root(rtol, _FIRST_ROOT)
+    _run(drops, _FIRST * near_root(rtol, _FIRST_ROOT), False, out, x)
+
+
+@kernel
+def run_linear(drops: Drops, event_limit: int, out: Outcomes, space: Workspace) -> None:
+    """Compute the outcomes of many drops of two balls on linear contacts, up to round-off.
+
+    Parameters
+    ----------
+    drops : Drops
+        The parameters of n drops, of the forms `codes.LINEAR_FORMS`. Both balls come with the lower
+        one's velocity.
+    event_limit : int
+        The number of steps, of which each has one event at most, after which a drop gets the status
+        ASK.
+    out, space
+        As for `run_pairs`.
+    """
+    x = space.floats
+    x[lane.TOLERANCE], x[COUNTED], x[LIMIT] = _ROUND_OFF, ORDER, event_limit
+    _run(drops, 1.0, True, out, x)
+
+
+@kernel
+def _run(drops: Drops, first: float, linear: bool, out: Outcomes, x: Floats) -> None:
+    """Let all drops pass through the lanes.
+
+    ``first`` is the first step by a root after a touch, over the root of a typical compression.
+    """
+    x[lane.GENERAL] = x[lane.CREEPS] = x[lane.REMEMBERS] = x[lane.LOSES] = 0.0
     rows = len(out.status)
     left, row = rows, 0
     for i in range(LANES):
@@ -58,8 +94,11 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
     while left > 0:
         for i in range(LANES):
             if x[lane.STATUS + i] == 0.0 and x[lane.ASKS + i] > 0.0:
-                look_after(x, i)
-                go_alone(x, i)
+                if linear:
+                    look_after_series(x, i)
+                else:
+                    look_after(x, i)
+                    go_alone(x, i)
             while x[lane.STATUS + i] != 0.0:
                 done = int(x[lane.ROW + i])
                 if done >= 0:
@@ -69,10 +108,14 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
                     _idle(x, i)
                     break
                 _begin(drops, x, i, row, first)
-                go_alone(x, i)
+                if not linear:
+                    go_alone(x, i)
                 row += 1
-        take_step(x)
-        judge_step(x)
+        if linear:
+            step_by_series(x)
+        else:
+            take_step(x)
+            judge_step(x)
 
 
 @kernel
@@ -82,7 +125,8 @@ def _idle(x: Floats, i: int) -> None:
     x[lane.STEPS + i], x[lane.UNSURE + i], x[lane.GRAVITY + i] = 0.0, 0.0, 0.0
     for k in (i, LANES + i):
         x[lane.PRESSING + k], x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = 0.0, -1.0, 0.0
-        x[lane.Y + lane.S + k], x[lane.MU_NOW + k], x[lane.NU + k] = 0.0, 0.0, 0.0
+        x[lane.S + k], x[lane.S_NEW + k], x[lane.MU_NOW + k], x[lane.NU + k] = 0.0, 0.0, 0.0, 0.0
+        x[lane.LEVEL + k] = 0.0
     go_by(x, i, TIME, 1.0)
 
 
@@ -100,7 +144,7 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
         k = b * LANES + i
         _take_law(drops, x, row, b, k)
         x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = -drops.gap[row, b], 0.0
-        x[lane.Y + lane.S + k] = 0.0
+        x[lane.S + k], x[lane.S_NEW + k] = 0.0, 0.0
         x[lane.COUNT + k], x[lane.FIRST + k], x[lane.LAST + k] = 0.0, math.nan, math.nan
         begin_open(x, k)
         # k c^(p + 1) is about m v^2
@@ -144,7 +188,7 @@ def _take_law(drops: Drops, x: Floats, row: int, b: int, k: int) -> None:
     x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k] = watched
     x[lane.STIFFNESS + k], x[lane.POWER + k] = stiffness, p - 1.0
     x[lane.LOSS + k], x[lane.PEAK + k], x[lane.TURN + k] = held, 1.0, 0.0
-    x[lane.MU + k], x[lane.NU + k], x[lane.DRIFT + k] = mu, nu, 0.0
+    x[lane.MU + k], x[lane.NU + k] = mu, nu
     if p not in (1.0, 1.5):
         x[lane.GENERAL] = 1.0
 

@@ -1,16 +1,17 @@
 """The one place that chooses how drops are run: the engine, and compiled code or plain Python.
 
-============= ==========================================================================
+============= =================================================================================
 engine        solves
-============= ==========================================================================
+============= =================================================================================
 `RIGID`       sequences of instantaneous collisions (eqs 1 to 4)
 `FINITE`      simultaneous contacts of finite duration (eqs 5, 6 and section V)
 two rigid     batches of two rigid balls without gravity (`engine.two_rigid`)
 two springs   batches of two balls on springs without gravity (`engine.two_springs`)
-pairs         batches of two balls under other laws, or on springs with gravity (`engine.pairs`)
-============= ==========================================================================
+linear        batches of two balls under any linear law, with or without gravity (`engine.pairs`)
+pairs         batches of two balls under other laws, with or without gravity (`engine.pairs`)
+============= =================================================================================
 
-The last three do not answer drops that are near the limits of their accuracy (`batch.run_lanes`).
+The last four do not answer drops that are near the limits of their accuracy (`batch.run_lanes`).
 
 Compiled code is used wherever there is some for this machine (`engine.native`). Plain Python gives
 the same bits, about a hundred times slower.
@@ -77,9 +78,10 @@ def choose_lanes(drop: Drop, numbers: "Iterable[Number]", options: Options) -> s
         return None
     forms, varied = {form for form, _ in contacts}, {n.field for n in numbers}
     weightless = drop.gravity == 0.0 and "gravity" not in varied
+    linear = forms <= set(codes.LINEAR_FORMS) and "exponent" not in varied
     if weightless and forms == {codes.RIGID}:
         return "run_two_rigid"
-    if weightless and set(contacts) == {(codes.POWER, 1.0)} and "exponent" not in varied:
-        return "run_two_springs"
+    if linear and all(exponent == 1.0 for _, exponent in contacts):
+        return "run_two_springs" if weightless and forms == {codes.POWER} else "run_linear"
     least = _CYCLES_RTOL if codes.HYSTERETIC in forms else LANES_RTOL
     return "run_pairs" if forms <= set(codes.PAIR_FORMS) and options.rtol >= least else None

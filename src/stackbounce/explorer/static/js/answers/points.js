@@ -92,8 +92,9 @@ export class Points {
     const few = known.limits.events < layout.limits.lanes; // a drop in lanes counts no events
     if (drop.balls.length !== 2 || !together || few || varied.some(({ number }) => number.part === "velocities")) return null;
     const weightless = drop.gravity === 0 && varied.every(({ number }) => number.field !== "gravity");
-    const linear = base.form.every((form, i) => form === forms.POWER && base.second[i] === 1);
-    if (weightless && linear && varied.every(({ number }) => number.field !== "exponent")) return "run_two_springs";
+    const linear = base.form.every((form, i) => layout.linear_forms.includes(form) && base.second[i] === 1);
+    if (linear && varied.every(({ number }) => number.field !== "exponent"))
+      return weightless && base.form.every((form) => form === forms.POWER) ? "run_two_springs" : "run_linear";
     return base.form.every((form) => layout.pair_forms.includes(form)) ? "run_pairs" : null;
   }
 

@@ -1,0 +1,308 @@
+"""One step of many drops of two balls on linear contacts at the same time, by power series.
+
+The state of a lane and its slots are those of `pair_step`. While no contact touches or opens, the
+motion is that of a linear system. With gravity g, the free closing rates v of both contacts obey
+
+    v0' = (F1 - F0)/m1 + g,    v1' = -(F1 - F0)/m1 - F1/m2,    F = k (c + d c')
+
+for contacts that press (0 is the floor's). A contact that creeps counts c from its surface, whose
+compression is s. There its force k (1 + z) c has the simplest form, and with w as in `forces`
+
+    s' = mu c - nu s,    c' = v - s',    mu = z nu,    nu = 1/((1 + z) w),
+
+where mu is 0 while it is open. A power series in time follows term by term, and holds for a step
+of any length up to ``_REACH`` over the largest rate in the motion. Thus a step ends exactly at an
+event, which is found in two stages: a lower bound of what the contact waits for (the compression
+of a contact that creeps or is open, else c + d c') gives the time until which nothing happens, and
+the first root of the series after that is the event if it is sure that there is no earlier one.
+The loops have no branches, so that a compiler vectorises them.
+"""
+
+import math
+
+from stackbounce.engine import pair_step as lane
+from stackbounce.engine.codes import ASK
+from stackbounce.engine.kernels import Floats, kernel
+from stackbounce.engine.pair_events import GAIN, RELEASE, TOUCH, accept, apply_event, fly
+from stackbounce.engine.pair_step import BOTH, LANES
+
+ORDER = 25  # of the series
+_REACH = 3.0  # the longest step, times the largest rate: the last term is then below 1e-12
+_FLIGHT = 1e30  # s: the longest step of balls that no force acts on
+_ROUNDS = 3  # to find a root: what the last one changes is then small
+_NEAR = 1e-5  # of a step: a change so small leaves an error below round-off
+_STEPS = 200.0  # longer runs accumulate round-off
+
+# Terms of the series in parts of a step, a slot for each contact: compression and its surface's;
+# and, a slot for each lane, of what the contact waits for that may end the step.
+C_TERMS = lane.SLOTS
+S_TERMS = C_TERMS + (ORDER + 1) * BOTH
+TERMS = S_TERMS + (ORDER + 1) * BOTH
+# Slots for each contact: a term of its free closing rate; the rate at which its surface follows;
+# the weights of c and c' in what it waits for, which is positive; the bound, the time until which
+# it is safe.
+_EACH = TERMS + ORDER * LANES
+V, CREEP, SIDE, DAMP, BOUND, SAFE = (_EACH + k * BOTH for k in range(6))
+# Slots for each lane: the longest step, and its inverse; the part of it that is made; 1 if an event
+# ends it, and 1 if that is the floor's; the times until which one contact is safe, and both are;
+# what the contact waits for, its slope, half its second derivative, and how sure the root is.
+_LANE = _EACH + 6 * BOTH
+LENGTH, OVER_LENGTH, PART, LANDS, FLOOR, ONE, TWO = (_LANE + k * LANES for k in range(7))
+VALUE, SLOPE, BEND, SURE = (_LANE + k * LANES for k in range(7, 11))
+# The order: in a slot, so that a compiler does not unroll the loops. The most steps of a drop.
+COUNTED = _LANE + 11 * LANES
+LIMIT = COUNTED + 1
+SLOTS = LIMIT + 1
+_MASK = 31  # no change: it shows a compiler the range of a term's number
+
+
+@kernel
+def step_by_series(x: Floats) -> None:
+    """Move each lane on, at most to its next event; `look_after_series` applies that."""
+    order = int(x[COUNTED]) & _MASK
+    _choose_lengths(x)
+    _expand(x, order)
+    _find_safe_times(x, order)
+    _choose_contact(x, order)
+    for _ in range(_ROUNDS):
+        _improve_root(x, order)
+    _choose_steps(x)
+    _move(x, order)
+    _take(x)
+
+
+@kernel
+def look_after_series(x: Floats, i: int) -> None:
+    """Apply the event that ends the step of a lane, or decide how a free flight goes on."""
+    k = i if x[FLOOR + i] > 0.0 else LANES + i
+    if x[lane.DOUBT + i] > 0.0:
+        x[lane.STATUS + i] = ASK
+    elif x[LANDS + i] == 0.0:
+        fly(x, i)
+    elif x[lane.LEVEL + k] > 0.0 and x[lane.NEW + lane.C + k] < 0.0:
+        accept(x, i)  # it opened before it could press again
+    else:
+        kind = TOUCH
+        if x[lane.PRESSING + k] > 0.0:
+            kind = GAIN if x[lane.D + k] > 0.0 else RELEASE
+        x[lane.CONTACT + i], x[lane.KIND + i] = k, kind
+        apply_event(x, i)
+
+
+@kernel
+def _choose_lengths(x: Floats) -> None:
+    """Choose the longest step of each lane, and what each contact waits for.
+
+    The squares of the largest rates of undamped balls, of dashpots and of surfaces add up to a
+    bound of the square of the largest rate.
+    """
+    for i in range(BOTH):
+        pressing, surface = x[lane.PRESSING + i], x[lane.S + i]
+        side = 1.0 if pressing > 0.0 else -1.0
+        x[SIDE + i] = side
+        x[DAMP + i] = side * x[lane.D + i] if pressing + x[lane.LEVEL + i] > 0.0 else 0.0
+        x[CREEP + i] = x[lane.NU + i] + x[lane.MU_NOW + i] if pressing + surface > 0.0 else 0.0
+    for i in range(LANES):
+        k, one = LANES + i, x[lane.OVER_1 + i]
+        k0, k1 = x[lane.PRESSING + i] * one, x[lane.PRESSING + k] * (one + x[lane.OVER_2 + i])
+        both = x[lane.PRESSING + i] * x[lane.PRESSING + k] * (one * one)
+        springs = 0.5 * (k0 + k1 + math.sqrt((k0 - k1) * (k0 - k1) + 4.0 * both))
+        dashpots = k0 * x[lane.D + i] + k1 * x[lane.D + k]
+        creep = max(x[CREEP + i], x[CREEP + k])
+        rate = math.sqrt(springs + dashpots * dashpots + creep * creep)
+        length = _REACH / max(rate, _REACH / _FLIGHT)
+        over, unsure = 1.0 / length, x[lane.UNSURE + i]
+        x[LENGTH + i], x[OVER_LENGTH + i] = length, over
+        x[DAMP + i], x[DAMP + k] = over * x[DAMP + i], over * x[DAMP + k]
+        x[lane.MARGIN + i], x[lane.MARGIN + k] = (
+            unsure * x[lane.SPAN + i],
+            unsure * x[lane.SPAN + k],
+        )
+
+
+@kernel
+def _expand(x: Floats, order: int) -> None:
+    """Compute the terms of the series, see the head of this module."""
+    creeps = x[lane.CREEPS] > 0.0
+    for i in range(BOTH):
+        c, r, s = x[lane.Y + lane.C + i], x[lane.Y + lane.R + i], x[lane.S + i]
+        x[C_TERMS + i], x[S_TERMS + i] = c, s
+        x[V + i] = r + (x[lane.MU_NOW + i] * c - x[lane.NU + i] * s)
+    for j in range(order):
+        at, over = (j & _MASK) * BOTH, 1.0 / (j + 1.0)
+        c_now, s_now = C_TERMS + at, S_TERMS + at
+        c_next, s_next = c_now + BOTH, s_now + BOTH
+        for i in range(LANES):
+            k, h, v0, v1 = LANES + i, x[LENGTH + i] * over, x[V + i], x[V + LANES + i]
+            floor = x[lane.PRESSING + i] * (x[c_now + i] + x[lane.D + i] * v0)
+            balls = x[lane.PRESSING + k] * (x[c_now + k] + x[lane.D + k] * v1)
+            push = (balls - floor) * x[lane.OVER_1 + i]
+            x[V + i], x[V + k] = h * push, -h * (push + balls * x[lane.OVER_2 + i])
+            x[c_next + i], x[c_next + k] = h * v0, h * v1
+        if j == 0:
+            for i in range(LANES):
+                x[V + i] += x[LENGTH + i] * x[lane.GRAVITY + i]
+        if creeps:
+            for i in range(LANES):
+                k, h = LANES + i, x[LENGTH + i] * over
+                s0 = h * (x[lane.MU_NOW + i] * x[c_now + i] - x[lane.NU + i] * x[s_now + i])
+                s1 = h * (x[lane.MU_NOW + k] * x[c_now + k] - x[lane.NU + k] * x[s_now + k])
+                x[s_next + i], x[s_next + k] = s0, s1
+                x[c_next + i] -= s0
+                x[c_next + k] -= s1
+
+
+@kernel
+def _find_safe_times(x: Floats, order: int) -> None:
+    """Find for each contact a part of the step before which it cannot change.
+
+    All terms but the first two are replaced by a parabola that lies below them, as in `lockstep`.
+    """
+    for i in range(BOTH):
+        x[BOUND + i] = 0.0
+    for j in range(order - 1, 1, -1):
+        now = C_TERMS + (j & _MASK) * BOTH
+        for i in range(BOTH):
+            term = x[SIDE + i] * x[now + i] + (j + 1.0) * x[DAMP + i] * x[now + BOTH + i]
+            x[BOUND + i] = term + min(0.0, x[BOUND + i])
+    for i in range(BOTH):
+        c, c1, c2 = x[C_TERMS + i], x[C_TERMS + BOTH + i], x[C_TERMS + 2 * BOTH + i]
+        p0, p1 = x[SIDE + i] * c + x[DAMP + i] * c1, x[SIDE + i] * c1 + 2.0 * x[DAMP + i] * c2
+        h, margin = x[BOUND + i], x[lane.MARGIN + i]
+        start = p0 - margin if p0 > margin else 0.0
+        square = p1 * p1 - 4.0 * h * start
+        q = abs(p1) + math.sqrt(max(0.0, square))
+        over = 2.0 * start if p1 < 0.0 else q
+        under = (q if square >= 0.0 else 0.0) if p1 < 0.0 else -2.0 * h
+        root = over / (under if under > 0.0 else 1.0)
+        root = root if under > 0.0 else 1.0
+        x[SAFE + i] = min(1.0, root)
+
+
+@kernel
+def _choose_contact(x: Floats, order: int) -> None:
+    """Choose the contact that is safe for the shorter time, and make the series of its wait."""
+    for i in range(LANES):
+        safe, other, k = x[SAFE + i], x[SAFE + LANES + i], LANES + i
+        floor = 1.0 if safe <= other else 0.0
+        balls = 1.0 - floor
+        x[FLOOR + i], x[PART + i] = floor, min(safe, other)
+        x[ONE + i], x[TWO + i] = max(safe, other), min(safe, other)
+        # sums: a choice between two slots would be compiled to a slow choice between addresses
+        x[VALUE + i], x[SLOPE + i] = floor * x[SIDE + i], balls * x[SIDE + k]
+        x[BEND + i], x[SURE + i] = floor * x[DAMP + i], balls * x[DAMP + k]
+    for j in range(order):
+        now = C_TERMS + (j & _MASK) * BOTH
+        for i in range(LANES):
+            term = x[VALUE + i] * x[now + i] + x[SLOPE + i] * x[now + LANES + i]
+            rate = x[BEND + i] * x[now + BOTH + i] + x[SURE + i] * x[now + BOTH + LANES + i]
+            x[TERMS + (j & _MASK) * LANES + i] = term + (j + 1.0) * rate
+
+
+@kernel
+def _improve_root(x: Floats, order: int) -> None:
+    """Go on to the root of the parabola that agrees with the series to second order.
+
+    Horner's scheme gives value and derivatives, and the terms of what is left when the root is
+    divided out, of which a lower bound shows whether there is another root before.
+    """
+    for i in range(LANES):
+        x[VALUE + i] = x[TERMS + ((order - 1) & _MASK) * LANES + i]
+        x[SLOPE + i], x[BEND + i], x[SURE + i] = 0.0, 0.0, 0.0
+    for j in range(order - 2, -1, -1):
+        term = TERMS + (j & _MASK) * LANES
+        for i in range(LANES):
+            u, f, g = x[PART + i], x[VALUE + i], x[SLOPE + i]
+            x[BEND + i] = x[BEND + i] * u + g
+            x[SLOPE + i] = g * u + f
+            x[SURE + i] = u * min(0.0, x[SURE + i]) - f
+            x[VALUE + i] = f * u + x[term + i]
+    for i in range(LANES):
+        f, g, h = x[VALUE + i], x[SLOPE + i], x[BEND + i]
+        square = g * g - 4.0 * h * f
+        under = math.sqrt(max(square, 0.0)) - g
+        there = square >= 0.0 and under > 0.0
+        d = 2.0 * f / (under if there else 1.0)
+        there = there and abs(d) < 1.0
+        x[PART + i] += d if there else 0.0
+        x[LANDS + i] = 1.0 if there and abs(d) < _NEAR else 0.0
+
+
+@kernel
+def _choose_steps(x: Floats) -> None:
+    """Let each lane step to the event if it is sure, else to the end of the safe time."""
+    limit, error = min(x[LIMIT], _STEPS), x[lane.TOLERANCE]
+    for i in range(LANES):
+        u, unsure, steps = x[PART + i], x[lane.UNSURE + i], x[lane.STEPS + i] + 1.0
+        sure = x[SURE + i] > -error * x[lane.V0 + i] * x[LENGTH + i]
+        sure = sure and x[SLOPE + i] < -unsure * x[LENGTH + i]
+        sure = sure and 0.0 < u <= min(x[ONE + i], 1.0)
+        lands = x[LANDS + i] if sure else 0.0
+        u = u if lands > 0.0 else x[TWO + i]
+        stuck = 1.0 if u <= 0.0 or steps > limit else 0.0
+        x[LANDS + i], x[PART + i], x[lane.DOUBT + i], x[lane.STEPS + i] = lands, u, stuck, steps
+        x[lane.UNSURE + i] = unsure + error * x[lane.V0 + i]
+        x[lane.NEW + lane.T + i] = x[lane.Y + lane.T + i] + u * x[LENGTH + i]
+        holds = x[lane.PRESSING + i] + x[lane.PRESSING + LANES + i] + x[lane.GRAVITY + i]
+        flies = 1.0 if holds == 0.0 else 0.0
+        x[lane.ASKS + i] = lands + stuck + flies
+        x[lane.TAKEN + i] = x[lane.TAKEN + LANES + i] = 1.0 - lands
+
+
+@kernel
+def _move(x: Floats, order: int) -> None:
+    """Compute the state at the end of each step; the rate is the slope of the compression."""
+    last = (order & _MASK) * BOTH
+    for i in range(BOTH):
+        x[lane.NEW + lane.C + i], x[lane.NEW + lane.R + i] = x[C_TERMS + last + i], 0.0
+    for j in range(order - 1, -1, -1):
+        now = C_TERMS + (j & _MASK) * BOTH
+        for i in range(LANES):
+            u, k = x[PART + i], LANES + i
+            c0, c1 = x[lane.NEW + lane.C + i], x[lane.NEW + lane.C + k]
+            x[lane.NEW + lane.R + i] = c0 + u * x[lane.NEW + lane.R + i]
+            x[lane.NEW + lane.R + k] = c1 + u * x[lane.NEW + lane.R + k]
+            x[lane.NEW + lane.C + i], x[lane.NEW + lane.C + k] = (
+                x[now + i] + u * c0,
+                x[now + k] + u * c1,
+            )
+    for i in range(LANES):
+        over = x[OVER_LENGTH + i]
+        x[lane.NEW + lane.R + i] *= over
+        x[lane.NEW + lane.R + LANES + i] *= over
+    if x[lane.CREEPS] > 0.0:
+        for i in range(BOTH):
+            x[lane.S_NEW + i] = x[S_TERMS + last + i]
+        for j in range(order - 1, -1, -1):
+            now = S_TERMS + (j & _MASK) * BOTH
+            for i in range(LANES):
+                u, k = x[PART + i], LANES + i
+                x[lane.S_NEW + i] = x[now + i] + u * x[lane.S_NEW + i]
+                x[lane.S_NEW + k] = x[now + k] + u * x[lane.S_NEW + k]
+
+
+@kernel
+def _take(x: Floats) -> None:
+    """Take all steps that end at no event.
+
+    A surface that has recovered but for less than what is not sure has recovered. A contact that is
+    not compressed any more waits for a touch.
+    """
+    for i in range(BOTH):
+        c, r, s, s_new = (
+            x[lane.Y + lane.C + i],
+            x[lane.Y + lane.R + i],
+            x[lane.S + i],
+            x[lane.S_NEW + i],
+        )
+        rest = s_new if x[lane.PRESSING + i] > 0.0 or s_new > x[lane.MARGIN + i] else 0.0
+        c_new, r_new = x[lane.NEW + lane.C + i], x[lane.NEW + lane.R + i]
+        r_new += x[lane.NU + i] * (rest - s_new)
+        x[lane.S + i] = rest if x[lane.TAKEN + i] > 0.0 else s
+        x[lane.Y + lane.R + i] = r_new if x[lane.TAKEN + i] > 0.0 else r
+        c, level = c_new if x[lane.TAKEN + i] > 0.0 else c, x[lane.LEVEL + i]
+        x[lane.Y + lane.C + i] = c
+        x[lane.LEVEL + i] = 0.0 if x[lane.PRESSING + i] == 0.0 and c <= 0.0 else level
+    for i in range(LANES):
+        t, t_new = x[lane.Y + lane.T + i], x[lane.NEW + lane.T + i]
+        x[lane.Y + lane.T + i] = t_new if x[lane.TAKEN + i] > 0.0 else t
