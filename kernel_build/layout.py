@@ -90,8 +90,7 @@ def layout() -> dict[str, Any]:
         "events": _numbered(_EVENTS),
         "forms": _numbered("ABSENT POWER"),
         "linear_forms": list(codes.LINEAR_FORMS),
-        # a browser has no vectors for the powers of hysteresis
-        "pair_forms": [form for form in codes.PAIR_FORMS if form != codes.HYSTERETIC],
+        "pair_forms": list(codes.PAIR_FORMS),
     }
 
 

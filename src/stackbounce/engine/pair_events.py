@@ -11,13 +11,11 @@ from stackbounce.engine import pair_step as lane
 from stackbounce.engine.codes import ASK, FINISHED
 from stackbounce.engine.elementary import exp, power
 from stackbounce.engine.kernels import Floats, kernel
-from stackbounce.engine.pair_step import EVENT, LANES, ROOT, TIME
+from stackbounce.engine.pair_step import BOTH, EVENT, LANES, ROOT, TIME
 
 # kinds of event; GAIN: the gain that is watched is 0; RETURN: the compression comes back to a
 # turning point
 TOUCH, RELEASE, GAIN, RETURN = 0.0, 1.0, 2.0, 3.0
-# curves of a contact with hysteresis: loading, out from the peak, in again, and out from there
-IN, OUT, IN_AGAIN, OUT_AGAIN = 0.0, 1.0, 2.0, 3.0
 
 _SLOW = 1e-5  # of the impact speed: it is not sure that slower contacts touch or open
 _TOGETHER = 1e-6  # of a time: it is not sure which of two contacts that are so close touches first
@@ -63,7 +61,7 @@ def press(x: Floats, i: int, k: int) -> None:
     x[lane.PRESSING + k], x[lane.SIGN + k], x[lane.GAIN_SIGN + k] = x[lane.STIFFNESS + k], 1.0, 1.0
     x[lane.MU_NOW + k] = x[lane.MU + k]
     if x[lane.LOSS + k] > 0.0:
-        _follow(x, k, IN)
+        _forget(x, k)
     if x[lane.COUNT + k] == 0.0:
         x[lane.FIRST + k] = x[lane.Y + lane.T + i]
     x[lane.COUNT + k] += 1.0
@@ -80,49 +78,58 @@ def open_now(x: Floats, k: int) -> None:
 def begin_open(x: Floats, k: int) -> None:
     """Let contact k be open, and remember nothing."""
     open_now(x, k)
-    _follow(x, k, IN)
+    _forget(x, k)
 
 
 @kernel
-def _follow(x: Floats, k: int, curve: float) -> None:
-    """Let contact k follow one of its curves, see `cycles`; without hysteresis this is IN.
+def _forget(x: Floats, k: int) -> None:
+    """Let contact k be on its loading curve; this is all that there is without hysteresis."""
+    x[lane.OUTWARD + k], x[lane.DEPTH + k], x[lane.HIGHS + k] = 0.0, 0.0, 1.0
+    _follow(x, k)
 
-    OUT begins at a peak, and IN_AGAIN at a turning point below it. OUT_AGAIN begins at a second
-    peak, which is now: elements above the turning point remember that, the others the first one.
-    """
-    c, peak, loads = x[lane.Y + lane.C + k], x[lane.PEAK + k], curve in (IN, IN_AGAIN)
-    turn = x[lane.TURN + k] if curve >= IN_AGAIN else 0.0
-    held = x[lane.STIFFNESS + k] * power(turn, x[lane.POWER + k] + 1.0)
-    kept = 0.0 if loads else 1.0
-    if curve == OUT_AGAIN:
-        kept = power(peak / c, x[lane.LOSS + k])
-    x[lane.CURVE + k], x[lane.OVER_PEAK + k] = curve, 1.0 / peak
-    x[lane.ADDED + k], x[lane.KEPT + k] = 1.0 if loads else 0.0, kept
-    x[lane.HELD + k], x[lane.OFFSET + k] = held * (1.0 - kept), -held if loads else 0.0
-    x[lane.LEVEL + k] = peak if curve == IN_AGAIN else turn
+
+@kernel
+def _follow(x: Floats, k: int) -> None:
+    """Set the numbers of the force of contact k on its present curve (see `cycles`)."""
+    out, depth = x[lane.OUTWARD + k], int(x[lane.DEPTH + k])
+    peak, held, before = x[lane.TOP + k] if out > 0.0 else x[lane.HIGHS + k], 0.0, 0.0
+    for j in range(depth):
+        high, low = x[lane.HIGHS + j * BOTH + k], x[lane.LOWS + j * BOTH + k]
+        upto = x[lane.STIFFNESS + k] * power(low, x[lane.POWER + k] + 1.0)
+        held += (upto - before) * power(peak / high, x[lane.LOSS + k])
+        before = upto
+    x[lane.OVER_PEAK + k], x[lane.ADDED + k], x[lane.KEPT + k] = 1.0 / peak, 1.0 - out, out
+    x[lane.HELD + k], x[lane.OFFSET + k] = held - out * before, (out - 1.0) * before
+    ends = lane.LOWS if out > 0.0 else lane.HIGHS
+    x[lane.LEVEL + k] = x[ends + (depth - 1) * BOTH + k] if depth > 0 else 0.0
 
 
 @kernel
 def _turn_or_return(x: Floats, i: int, k: int, kind: float) -> None:
     """Let contact k with hysteresis go over to another curve: at rest, or where a cycle closes.
 
-    The general engine follows a cycle inside a cycle, and one that turns close to where it ends.
+    The general engine follows a turn close to where the curve ends, and more cycles.
     """
-    curve, near = x[lane.CURVE + k], _least_rate(x, i) * x[lane.BY_TIME + i]
+    out, depth = x[lane.OUTWARD + k] > 0.0, int(x[lane.DEPTH + k])
+    c, near = x[lane.Y + lane.C + k], _least_rate(x, i) * x[lane.BY_TIME + i]
     if kind == RETURN:
-        curve -= 2.0
-    elif curve == OUT_AGAIN or abs(x[lane.Y + lane.C + k] - x[lane.LEVEL + k]) < near:
+        depth -= 1
+        if out:
+            x[lane.TOP + k] = x[lane.HIGHS + depth * BOTH + k]
+    elif abs(c - x[lane.LEVEL + k]) < near or (out and depth == lane.CYCLES):
         x[lane.STATUS + i] = ASK
     else:
-        if curve == IN:
-            x[lane.PEAK + k] = x[lane.Y + lane.C + k]
-        elif curve == OUT:
-            x[lane.TURN + k] = x[lane.Y + lane.C + k]
+        if out:
+            x[lane.HIGHS + depth * BOTH + k], x[lane.LOWS + depth * BOTH + k] = x[lane.TOP + k], c
+            depth += 1
+        else:
+            x[lane.TOP + k] = c
         x[lane.Y + lane.R + k] = 0.0
-        curve += 1.0
-    x[lane.SIGN + k] = -1.0 if curve == IN_AGAIN else 1.0
-    x[lane.GAIN_SIGN + k] = 1.0 if curve in (IN, IN_AGAIN) else -1.0
-    _follow(x, k, curve)
+        out = not out
+    x[lane.OUTWARD + k], x[lane.DEPTH + k] = 1.0 if out else 0.0, depth
+    x[lane.SIGN + k] = 1.0 if out or depth == 0 else -1.0
+    x[lane.GAIN_SIGN + k] = -1.0 if out else 1.0
+    _follow(x, k)
     go_by(x, i, TIME, x[lane.BY_TIME + i])
 
 
@@ -398,7 +405,8 @@ def _changes(x: Floats, i: int, k: int) -> int:
     """Return how often the compression of contact k changes its sign in a step, at most.
 
     That is the number of sign changes of its Bernstein coefficients, see `pair_step`. If it only
-    comes so near 0 that this is not sure, the lane ends with the status ASK.
+    comes so near 0 that this is not sure, the lane ends with the status ASK. With hysteresis such a
+    turn is an event of its own.
     """
     dt, sign = x[lane.DT + i], x[lane.SIGN + k]
     c, r, acc = x[lane.Y + lane.C + k] - x[lane.LEVEL + k], x[lane.Y + lane.R + k], x[lane.ACC + k]
@@ -410,7 +418,7 @@ def _changes(x: Floats, i: int, k: int) -> int:
     for value in (c + fifth * r, second, third, c_new - fifth * r_new, c_new):
         if value * present < 0.0:
             present, changes = -present, changes + 1
-    if changes == 0 and sign * r < 0.0 and sign * r_new > 0.0:
+    if changes == 0 and sign * r < 0.0 and sign * r_new > 0.0 and not _turns(x, k):
         turn = c - 0.5 * r * r / acc if acc != 0.0 else 0.0
         if min(sign * turn, abs(c), abs(c_new)) < max(x[lane.MARGIN + k], x[lane.WIDE + k]):
             x[lane.STATUS + i] = ASK
@@ -422,6 +430,10 @@ def apply_event(x: Floats, i: int) -> None:
     """Take a step that ends at an event, and apply that event."""
     k, kind = int(x[lane.CONTACT + i]), x[lane.KIND + i]
     accept(x, i)
+    r, back = x[lane.Y + lane.R + k], abs(x[lane.ACC_NEW + k])
+    if kind < GAIN and r * x[lane.ACC_NEW + k] < 0.0 and r * r < 2.0 * back * x[lane.WIDE + k]:
+        x[lane.STATUS + i] = ASK  # it would come back before it is sure that it was there
+        return
     if kind == TOUCH:
         touch(x, i, k)
         return

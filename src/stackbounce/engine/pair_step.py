@@ -14,8 +14,7 @@ where a is 1 and b is 0, or the other way round (see `forces`): a Hertz contact 
 and d = 0; that of Hunt and Crossley a = 1; a dashpot p = 1 and b = 1; a viscoelastic one p = 1.5
 and b = 1. F is not cut off at 0, so that a step is smooth that passes the end of a contact; it is
 then repeated up to that end. With hysteresis, F becomes F (ADDED + KEPT s) + HELD s + OFFSET, with
-the share s = (c/C)^M that is left of the force at the peak C (see `cycles`). One cycle is followed,
-none inside it.
+the share s = (c/C)^M that is left of the force at a peak C (see `cycles`).
 
 The independent variable s of a step is chosen so that the motion is smooth in it and the step ends
 exactly at an event (M. Henon, Physica D 5, 412, 1982). With weights,
@@ -43,6 +42,7 @@ from stackbounce.engine.kernels import Floats, kernel
 
 LANES = 32  # a power of two
 BOTH = 2 * LANES  # a slot for each contact: the floor's, then the balls'
+CYCLES = 4  # of hysteresis, inside one another: the general engine follows more of them
 
 # A state: compressions, their rates, and time.
 C, R, T = 0, BOTH, 2 * BOTH
@@ -68,17 +68,19 @@ END_A, END_B, END_D, LEVEL = (_EACH + k * BOTH for k in range(24, 28))
 # Of a contact that creeps, see `pair_series`: the rates mu and nu of its surface, mu while it
 # presses; the surface's compression, now and at the end of the step.
 MU, NU, MU_NOW, S, S_NEW = (_EACH + k * BOTH for k in range(28, 33))
-# Of hysteresis: M, 0 without; 1/C; the four numbers of the force; its curve, C, and where it was
-# compressed again.
+# Of hysteresis: M, 0 without; 1/C; the four numbers of the force; 1 on the way out, and the peak of
+# that; how many cycles are remembered, and numbers to be raised to a power.
 LOSS, OVER_PEAK, ADDED, KEPT, HELD, OFFSET = (_EACH + k * BOTH for k in range(33, 39))
-CURVE, PEAK, TURN, BASE, EXPONENT = (_EACH + k * BOTH for k in range(39, 44))
+OUTWARD, TOP, DEPTH, BASE, EXPONENT = (_EACH + k * BOTH for k in range(39, 44))
 # A typical compression over the impact speed, and how near 0 a turn of the compression is not sure.
 SPAN, WIDE = _EACH + 44 * BOTH, _EACH + 45 * BOTH
+# The peaks and the turning points below them of the cycles that are remembered.
+HIGHS, LOWS = _EACH + 46 * BOTH, _EACH + (46 + CYCLES) * BOTH
 # Slots for each lane: 1/m1, 1/m2; the step in s, s where it begins, and the weights m, n, q; how
 # the step goes; impact speed, row, status; 1 if `pairs` must decide how the lane goes on; steps so
 # far; the allowed error over that of the step, and the factor for the next step; the last step by
 # time.
-_LANE = _EACH + 46 * BOTH
+_LANE = LOWS + CYCLES * BOTH
 OVER_1, OVER_2, H, START, M, N, Q, MODE = (_LANE + k * LANES for k in range(8))
 V0, ROW, STATUS, ASKS, STEPS, OVER_ERROR, GROW, BY_TIME = (_LANE + k * LANES for k in range(8, 16))
 # The event that a step is to end at: its contact, its kind, and the time to it; the velocity by
@@ -87,11 +89,11 @@ CONTACT, KIND, WAIT, UNSURE, GRAVITY = (_LANE + k * LANES for k in range(16, 21)
 TOLERANCE = _LANE + 21 * LANES  # the error allowed in a step, over the impact speed
 COARSE = TOLERANCE + 1  # the largest estimate of order 3 with which the others can be trusted
 GENERAL = TOLERANCE + 2  # 1 if some exponent is neither 1 nor 1.5
-# 1 if some contact creeps, has hysteresis, or has a gain that changes
-CREEPS, REMEMBERS, LOSES = TOLERANCE + 3, TOLERANCE + 4, TOLERANCE + 5
+# 1 if some contact creeps, has hysteresis, has a gain that changes, or one that is watched
+CREEPS, REMEMBERS, LOSES, WATCHES = (TOLERANCE + k for k in range(3, 7))
 # Of `pair_alone`: half the levels of a continued fraction; how far derivatives lead, over c.
-LEVELS, REACH = TOLERANCE + 6, TOLERANCE + 7
-SLOTS = TOLERANCE + 8
+LEVELS, REACH = TOLERANCE + 7, TOLERANCE + 8
+SLOTS = TOLERANCE + 9
 
 TIME, ROOT, EVENT = 0.0, 1.0, 2.0  # modes: by time, by a root from a touch on, up to an event
 
@@ -314,7 +316,7 @@ def _look_for_events(x: Floats) -> None:
         x[DOUBT + i] = 1.0 - x[OWN + i] if low < margin else 0.0
         low = sign * (c_new + ahead * (r_new + 0.5 * ahead * acc_new))
         x[SOON + i] = 1.0 if low < 0.0 else 0.0
-    if x[LOSES] > 0.0:
+    if x[WATCHES] > 0.0:
         for i in range(BOTH):
             a, b, d, sign = x[END_A + i], x[END_B + i], x[END_D + i], x[GAIN_SIGN + i]
             gain = a + b * x[Y + C + i] + d * x[Y + R + i]
@@ -366,7 +368,7 @@ def _go_on(x: Floats) -> None:
         c, c_new, r, r_new = x[Y + C + i], x[NEW + C + i], x[Y + R + i], x[NEW + R + i]
         x[Y + C + i] = c_new if x[TAKEN + i] > 0.0 else c
         x[Y + R + i] = r_new if x[TAKEN + i] > 0.0 else r
-    if x[LOSES] > 0.0:  # as `accept` in `pair_events` does
+    if x[WATCHES] > 0.0:  # as `accept` in `pair_events` does
         for i in range(BOTH):
             c, sign, level = x[Y + C + i], x[GAIN_SIGN + i], x[LEVEL + i]
             away = x[PRESSING + i] == 0.0 and c <= 0.0

@@ -86,7 +86,7 @@ def _run(drops: Drops, first: float, linear: bool, out: Outcomes, x: Floats) -> 
 
     ``first`` is the first step by a root after a touch, over the root of a typical compression.
     """
-    x[lane.GENERAL] = x[lane.CREEPS] = x[lane.REMEMBERS] = x[lane.LOSES] = 0.0
+    x[lane.GENERAL] = x[lane.CREEPS] = x[lane.REMEMBERS] = x[lane.LOSES] = x[lane.WATCHES] = 0.0
     rows = len(out.status)
     left, row = rows, 0
     for i in range(LANES):
@@ -180,6 +180,8 @@ def _take_law(drops: Drops, x: Floats, row: int, b: int, k: int) -> None:
     if form in (codes.POWER, codes.RELAXING, codes.HYSTERETIC):
         loss = 0.0
     if loss > 0.0 or held > 0.0:
+        x[lane.WATCHES] = 1.0
+    if loss > 0.0:
         x[lane.LOSES] = 1.0
     else:
         pure, slope = 1.0, 0.0
@@ -187,7 +189,7 @@ def _take_law(drops: Drops, x: Floats, row: int, b: int, k: int) -> None:
     watched = (0.0, 0.0, 1.0) if held > 0.0 else (pure, slope, loss)
     x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k] = watched
     x[lane.STIFFNESS + k], x[lane.POWER + k] = stiffness, p - 1.0
-    x[lane.LOSS + k], x[lane.PEAK + k], x[lane.TURN + k] = held, 1.0, 0.0
+    x[lane.LOSS + k] = held
     x[lane.MU + k], x[lane.NU + k] = mu, nu
     if p not in (1.0, 1.5):
         x[lane.GENERAL] = 1.0

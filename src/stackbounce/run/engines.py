@@ -32,8 +32,6 @@ from stackbounce.run.options import Options
 if TYPE_CHECKING:
     from stackbounce.run.paths import Number
 
-_CYCLES_RTOL = 1e-11  # with hysteresis: the general engine is as fast below
-
 
 def choose_compiled(compiled: bool | None) -> bool:
     """Return whether compiled code is run; by default wherever there is some.
@@ -83,5 +81,5 @@ def choose_lanes(drop: Drop, numbers: "Iterable[Number]", options: Options) -> s
         return "run_two_rigid"
     if linear and all(exponent == 1.0 for _, exponent in contacts):
         return "run_two_springs" if weightless and forms == {codes.POWER} else "run_linear"
-    least = _CYCLES_RTOL if codes.HYSTERETIC in forms else LANES_RTOL
-    return "run_pairs" if forms <= set(codes.PAIR_FORMS) and options.rtol >= least else None
+    known = forms <= set(codes.PAIR_FORMS) and options.rtol >= LANES_RTOL
+    return "run_pairs" if known else None
