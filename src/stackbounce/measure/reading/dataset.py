@@ -172,27 +172,21 @@ def _attributes(column: Column) -> dict[str, str | float]:
     return {**told, "column": column.index + 1, **frame}
 
 
-def _named(columns: Sequence[Column], without: Sequence[str]) -> list[str]:
-    """Return names for columns, each only once."""
-    names: list[str] = list(without)
-    for column in columns:
-        name, k = column.variable, 1
-        while name in names:
-            k += 1
-            name = f"{column.variable}_{k}"
-        names.append(name)
-    return names[len(without) :]
-
-
 def _data(
     columns: Sequence[Column], values: Array, dimensions: Sequence[str]
 ) -> dict[str, tuple[str, Array, dict[str, Any]]]:
-    """Return the variables of columns along the first dimension; none is called as one of them."""
-    names = _named(columns, dimensions)
-    return {
-        name: (dimensions[0], np.ascontiguousarray(values[:, k]), _attributes(columns[k]))
-        for k, name in enumerate(names)
-    }
+    """Return the variables of columns along the first dimension, each by a name of its own.
+
+    None is called as a dimension.
+    """
+    found: dict[str, tuple[str, Array, dict[str, Any]]] = {}
+    for column, own in zip(columns, values.T, strict=True):
+        name, count = column.variable, 1
+        while name in found or name in dimensions:
+            count += 1
+            name = f"{column.variable}_{count}"
+        found[name] = (dimensions[0], np.ascontiguousarray(own), _attributes(column))
+    return found
 
 
 _Built = tuple[Mapping[str, Any], Mapping[str, Any], list[str]]
