@@ -8,7 +8,7 @@ import numpy as np
 from stackbounce.library_types import Axes, Figure, SubFigure
 from stackbounce.plots.fitted_curves import Curve, Points, draw_fitted, spread_over
 from stackbounce.plots.scales import Scale, label, show_in_handy_unit
-from stackbounce.plots.style import list_axes, read_style, written
+from stackbounce.plots.style import list_axes, written
 from stackbounce.run.paths import Number, numbers_of, value_in
 from stackbounce.run.quantities import QUANTITIES, Array
 
@@ -71,12 +71,9 @@ def draw_into(axes: Any, fits: Mapping[str, Any], number: Number) -> Figure:
     InvalidValue
         If there are not one or two axes for each measured quantity.
     """
-    import matplotlib as mpl
-
     count = len(list_quantities(next(iter(fits.values()))))
     figure, own = list_axes(axes, count, 2 * count)
-    with mpl.rc_context(read_style()):
-        draw_by_number([own[k::count] for k in range(count)], fits, number)
+    draw_by_number([own[k::count] for k in range(count)], fits, number)
     return figure
 
 

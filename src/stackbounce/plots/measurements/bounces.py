@@ -59,7 +59,6 @@ def draw(data: Any, found: Any, axes: Any = None) -> Figure:  # noqa: ARG001
 
 def _formula(law: Any) -> str:
     if law.form == "linear":
-        return f"e = {law.coefficient.nominal_value:.3f} − {law.slope:.1uS} v/(m/s)".replace(
-            "− -", "+ "
-        )
+        line = f"e = {law.coefficient.nominal_value:.3f} − {law.slope:.1uS} v/(m/s)"
+        return line.replace("− -", "+ ")
     return f"e = {law.coefficient.nominal_value:.3f} (v/(m/s))$^{{{-law.slope:.1uS}}}$"
