@@ -32,11 +32,8 @@ def find_number(fit: Any) -> Number | None:
     known = [numbers_of(drop) for drop in drops]
     if any(own.keys() != known[0].keys() for own in known) or fit.records:
         return None
-    differ = [
-        number
-        for number in known[0].values()
-        if len({value_in(drop, number) for drop in drops}) > 1
-    ]
+    values = {number: {value_in(drop, number) for drop in drops} for number in known[0].values()}
+    differ = [number for number, different in values.items() if len(different) > 1]
     own = any(objective.own(key) for key in objective.drops)
     return differ[0] if len(differ) == 1 and not own else None
 

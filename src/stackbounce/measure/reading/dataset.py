@@ -126,9 +126,7 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
         free.sort(key=lambda k: found[k].unit != wanted)
         if not free:
             needs = " and ".join(" or ".join(roles) for roles in KINDS[holds].columns)
-            names = ", ".join(
-                column.heading.text or f"column {column.index + 1}" for column in found[:20]
-            )
+            names = ", ".join(map(_name, found[:20]))
             said = f": {a_or_an(holds)} needs columns of {needs}; it has {names}: by their units "
             raise about_option("holds", f"{said}none of them is {' or '.join(roles)}")
         taken.add(free[0])
@@ -160,15 +158,18 @@ def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
     ]
 
 
+def _name(column: Column) -> str:
+    return column.heading.text or f"column {column.index + 1}"
+
+
 def _attributes(column: Column) -> dict[str, str | float]:
     """Return the attributes of a column in the Dataset.
 
     `column` is its number in the file, `unit_in_file` its unit there, known or not; `frame` is what
     a frame lasts, where times are frames.
     """
-    name = column.heading.text or f"column {column.index + 1}"
     frame = {"frame": column.factor} if column.heading.unit == FRAME else {}
-    told = {"units": column.unit, "unit_in_file": column.heading.unit, "long_name": name}
+    told = {"units": column.unit, "unit_in_file": column.heading.unit, "long_name": _name(column)}
     return {**told, "column": column.index + 1, **frame}
 
 
