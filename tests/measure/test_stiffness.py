@@ -6,7 +6,7 @@ from uncertainties import correlation_matrix, ufloat
 import stackbounce as sb
 from stackbounce.errors import InvalidValue
 from stackbounce.measure import dynamic_stiffness, law_constants
-from stackbounce.measure.kinds.contact import CONTACT
+from stackbounce.measure.kinds.contact.kind import of_numbers
 from stackbounce.measure.setup import Setup
 
 MEASURED = {
@@ -29,7 +29,7 @@ def test_errors_of_both():
     ("law", "known"), [("Rigid", ["restitution"]), ("Spring", ["mass", "contact_time"])]
 )
 def test_a_contact_without_a_restitution_or_without_a_time(law, known):
-    found = CONTACT.of_numbers(Setup(**{name: MEASURED[name] for name in known}))
+    found = of_numbers(Setup(**{name: MEASURED[name] for name in known}))
     assert found.parts()["contact"]["law"] == law
 
 

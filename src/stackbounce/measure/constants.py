@@ -214,10 +214,9 @@ def one_ball(parts: Sequence[Mapping[str, Any]], **ball: Any) -> Drop:
     """
     known: dict[str, Any] = {}
     start: dict[str, Any] = {"height": _HEIGHT}
-    contacts: list[Mapping[str, Any]] = []
+    contacts = [part["contact"] for part in parts if "contact" in part]
     for part in parts:
         known |= part.get("ball", {})
-        contacts += [part["contact"]] if "contact" in part else []
         for key in ("impact_speed", "height"):
             start = {key: part[key]} if key in part else start
     known |= {key: value for key, value in ball.items() if value is not None}

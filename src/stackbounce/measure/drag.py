@@ -194,20 +194,15 @@ def drag_of(mass: Any, diameter: Any, drag_coefficient: Any, air_density: Any) -
                 f"{shown(drag_coefficient)}"
             )
         if air_density is not None:
-            raise InvalidValue(
-                Message(
-                    "the density of the air counts with a ",
-                    OptionHint({"drag_coefficient": None}),
-                    " only, got none",
-                )
-            )
+            hint = OptionHint({"drag_coefficient": None})
+            wrong = Message("the density of the air counts with a ", hint, " only, got none")
+            raise InvalidValue(wrong)
         return None
     if mass is None or diameter is None:
         needed = {"mass": mass, "diameter": diameter}
         missing = OptionHint({name: None for name, value in needed.items() if value is None})
-        raise InvalidValue(
-            Message("a drag coefficient needs mass and diameter of the ball: give ", missing)
-        )
+        wrong = Message("a drag coefficient needs mass and diameter of the ball: give ", missing)
+        raise InvalidValue(wrong)
     return Drag(mass, diameter, known, Air.density if air_density is None else air_density)
 
 

@@ -182,16 +182,13 @@ def force_channels(data: Dataset) -> list[str]:
 def channels(data: Dataset, force: Curve | None = None) -> list[Curve]:
     """Return a record's channels over time; `force` replaces the first one if that is a force."""
     curves: list[Curve] = []
-    for key, channel in data.data_vars.items():
-        name = str(key)
-        if channel.dims != ("time",):
-            continue
-        if force is not None and _is_force(name) and not curves:
-            curves.append(force._replace(label=name))
-            continue
-        what = "force" if _is_force(name) else "other"
-        unit = str(channel.attrs.get("units", ""))
-        curves.append(Curve(name, what, data["time"].values, channel.values, unit))
+    for name, channel in data.data_vars.items():
+        if channel.dims == ("time",):
+            what = "force" if _is_force(str(name)) else "other"
+            unit = str(channel.attrs.get("units", ""))
+            curves.append(Curve(str(name), what, data["time"].values, channel.values, unit))
+    if force is not None and curves and curves[0].what == "force":
+        curves[0] = force._replace(label=curves[0].label)
     return curves
 
 

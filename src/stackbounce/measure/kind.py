@@ -13,10 +13,6 @@ if TYPE_CHECKING:
     from stackbounce.measure.setup import Setup
 
 
-IN_AIR = ("mass", "diameter", "drag_coefficient", "air_density")
-"""The options that tell the drag of the air."""
-
-
 @dataclass(frozen=True)
 class Kind:
     """A kind of measurement; `stackbounce.measure.kinds.KINDS` lists all of them.

@@ -24,6 +24,9 @@ class OptionHint:
     file: str = ""
 
 
+PART = OptionHint({"start": None, "stop": None})
+"""The options that choose a part of a record."""
+
 Wording: TypeAlias = Callable[[OptionHint], str]
 """What a user interface makes of a hint."""
 

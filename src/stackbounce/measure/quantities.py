@@ -190,14 +190,12 @@ def quantity_with_error(text: str, unit: str, name: str, written: str = "") -> f
     >>> quantity_with_error("57 g ± 5", "kg", "mass"), quantity_with_error("57(5) g", "kg", "mass")
     (0.057+/-0.005, 0.057+/-0.005)
     """
-    from uncertainties import ufloat
-
     value, error = _split(text)
     own = unit_of_both(text) or written
     if error is None:
         return quantity(_with_unit(value, own), unit, name)
     wide = deviation(name, quantity(_with_unit(error, own), unit, name), zero=False)
-    return ufloat(quantity(_with_unit(value, own), unit, name), wide)
+    return known_to(quantity(_with_unit(value, own), unit, name), wide)
 
 
 def unit_of_both(text: str) -> str | None:

@@ -8,7 +8,7 @@ import numpy as np
 from stackbounce.library_types import Axes, Figure, SubFigure
 from stackbounce.plots.fitted_curves import Curve, Points, draw_fitted, spread_over
 from stackbounce.plots.scales import Scale, label, show_in_handy_unit
-from stackbounce.plots.style import list_axes, read_style, written
+from stackbounce.plots.style import list_axes, written
 from stackbounce.run.paths import Number, numbers_of, value_in
 from stackbounce.run.quantities import QUANTITIES, Array
 
@@ -32,11 +32,8 @@ def find_number(fit: Any) -> Number | None:
     known = [numbers_of(drop) for drop in drops]
     if any(own.keys() != known[0].keys() for own in known) or fit.records:
         return None
-    differ = [
-        number
-        for number in known[0].values()
-        if len({value_in(drop, number) for drop in drops}) > 1
-    ]
+    values = {number: {value_in(drop, number) for drop in drops} for number in known[0].values()}
+    differ = [number for number, different in values.items() if len(different) > 1]
     own = any(objective.own(key) for key in objective.drops)
     return differ[0] if len(differ) == 1 and not own else None
 
@@ -71,12 +68,9 @@ def draw_into(axes: Any, fits: Mapping[str, Any], number: Number) -> Figure:
     InvalidValue
         If there are not one or two axes for each measured quantity.
     """
-    import matplotlib as mpl
-
     count = len(list_quantities(next(iter(fits.values()))))
     figure, own = list_axes(axes, count, 2 * count)
-    with mpl.rc_context(read_style()):
-        draw_by_number([own[k::count] for k in range(count)], fits, number)
+    draw_by_number([own[k::count] for k in range(count)], fits, number)
     return figure
 
 

@@ -57,9 +57,8 @@ def _extent(fit: Any, k: int) -> tuple[float, float]:
     low, high = parameter.span
     slope = abs(parameter.slope(float(fit.x[k])))
     reach = _REACH * fit[parameter.name].std_dev / slope
-    near = [
-        minimum.x[k] for minimum in fit.minima if minimum.chi_squared < fit.chi_squared + _WORTH
-    ]
+    worth = fit.chi_squared + _WORTH
+    near = [minimum.x[k] for minimum in fit.minima if minimum.chi_squared < worth]
     return max(low, min(near) - reach), min(high, max(near) + reach)
 
 
@@ -137,8 +136,6 @@ def fitted(fit: Any, *, axes: Any = None) -> Figure:
     """
     check_kind(fit, "fit", "Fit")
     residuals, records, number = fit.residuals, fit.records[:_MOST_RECORDS], find_number(fit)
-    if axes is not None and number:
-        return draw_into(axes, {"": fit}, number)
     count = len(fit.names) if len(fit.names) in (1, 2) and not records else 0
     draws: list[Any] = []
     if residuals and not number:
@@ -150,6 +147,8 @@ def fitted(fit: Any, *, axes: Any = None) -> Figure:
     heights = [4.4 if number else 1.8] if residuals else []
     heights += [2.4] * len(records) + [3.0] * bool(count)
     with styled_figure(_WIDE, sum(heights) + 0.3) as figure:
+        if axes is not None and number:
+            return draw_into(axes, {"": fit}, number)
         if axes is not None:
             figure, given = list_axes(axes, len(draws))
             own = iter(given)

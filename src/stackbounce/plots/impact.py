@@ -136,9 +136,8 @@ def _draw_bands(
     after = times[times >= 0.0]
     for k, (low, high) in enumerate(zip(*prediction.band(after, name), strict=True)):
         if prediction.drop.contacts[k] is not None or name == "position":
-            axes.fill_between(
-                1e3 * after, factor * low, factor * high, color=color_of(k), alpha=0.3, linewidth=0
-            )
+            look: Any = {"color": color_of(k), "alpha": 0.3, "linewidth": 0}
+            axes.fill_between(1e3 * after, factor * low, factor * high, **look)
 
 
 def _draw_contacts(axes: Axes, result: Result, times: Array, forces: Array) -> None:

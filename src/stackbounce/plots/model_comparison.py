@@ -57,13 +57,13 @@ def compared(comparison: Any, *, axes: Any = None) -> Figure:
     lines = sum(1 + len(score.same_as) for score in comparison.scores)
     best = {name: comparison[name] for name in names[:_FEW]}
     number = find_number(comparison[names[0]])
-    if axes is not None and number:
-        return draw_into(axes, best, number)
     pulls = comparison.pulls.sel(model=names)
     wide = 5.0 + 0.55 * min(pulls.sizes["datum"], _WIDEST)
     if number:
         wide = _SCORES + _PANEL * len(list_quantities(comparison[names[0]]))
     with styled_figure(max(8.0, wide), max(4.4 if number else 0.0, 1.9 + 0.42 * lines)) as figure:
+        if axes is not None and number:
+            return draw_into(axes, best, number)
         if number:
             ratios: Any = {"width_ratios": (_SCORES, wide - _SCORES)}
             beside, others = np.ravel(figure.subfigures(1, 2, **ratios))

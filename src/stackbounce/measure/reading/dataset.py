@@ -126,9 +126,7 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
         free.sort(key=lambda k: found[k].unit != wanted)
         if not free:
             needs = " and ".join(" or ".join(roles) for roles in KINDS[holds].columns)
-            names = ", ".join(
-                column.heading.text or f"column {column.index + 1}" for column in found[:20]
-            )
+            names = ", ".join(map(_name, found[:20]))
             said = f": {a_or_an(holds)} needs columns of {needs}; it has {names}: by their units "
             raise about_option("holds", f"{said}none of them is {' or '.join(roles)}")
         taken.add(free[0])
@@ -160,39 +158,36 @@ def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
     ]
 
 
+def _name(column: Column) -> str:
+    return column.heading.text or f"column {column.index + 1}"
+
+
 def _attributes(column: Column) -> dict[str, str | float]:
     """Return the attributes of a column in the Dataset.
 
     `column` is its number in the file, `unit_in_file` its unit there, known or not; `frame` is what
     a frame lasts, where times are frames.
     """
-    name = column.heading.text or f"column {column.index + 1}"
     frame = {"frame": column.factor} if column.heading.unit == FRAME else {}
-    told = {"units": column.unit, "unit_in_file": column.heading.unit, "long_name": name}
+    told = {"units": column.unit, "unit_in_file": column.heading.unit, "long_name": _name(column)}
     return {**told, "column": column.index + 1, **frame}
-
-
-def _named(columns: Sequence[Column], without: Sequence[str]) -> list[str]:
-    """Return names for columns, each only once."""
-    names: list[str] = list(without)
-    for column in columns:
-        name, k = column.variable, 1
-        while name in names:
-            k += 1
-            name = f"{column.variable}_{k}"
-        names.append(name)
-    return names[len(without) :]
 
 
 def _data(
     columns: Sequence[Column], values: Array, dimensions: Sequence[str]
 ) -> dict[str, tuple[str, Array, dict[str, Any]]]:
-    """Return the variables of columns along the first dimension; none is called as one of them."""
-    names = _named(columns, dimensions)
-    return {
-        name: (dimensions[0], np.ascontiguousarray(values[:, k]), _attributes(columns[k]))
-        for k, name in enumerate(names)
-    }
+    """Return the variables of columns along the first dimension, each by a name of its own.
+
+    None is called as a dimension.
+    """
+    found: dict[str, tuple[str, Array, dict[str, Any]]] = {}
+    for column, own in zip(columns, values.T, strict=True):
+        name, count = column.variable, 1
+        while name in found or name in dimensions:
+            count += 1
+            name = f"{column.variable}_{count}"
+        found[name] = (dimensions[0], np.ascontiguousarray(own), _attributes(column))
+    return found
 
 
 _Built = tuple[Mapping[str, Any], Mapping[str, Any], list[str]]

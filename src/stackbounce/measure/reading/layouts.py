@@ -191,9 +191,8 @@ def general(text: Text) -> Layout:
     shown = ", ".join(column.heading.text for column in columns[:3])
     more = " …" if len(columns) > 3 else ""
     doubts = () if len(names) >= width else (f"columns from {len(names) + 1} on have no name",)
-    return Layout(
-        "table of numbers", f"a header names its columns: {shown}{more}", columns, first, doubts
-    )
+    why = f"a header names its columns: {shown}{more}"
+    return Layout("table of numbers", why, columns, first, doubts)
 
 
 def _numbers(text: Text, first: int, width: int) -> Array:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from stackbounce.errors import InvalidType, InvalidValue, nearest, positive, shown
 from stackbounce.library_types import Dataset
 from stackbounce.measure.kinds import KINDS, kind_named
-from stackbounce.measure.messages import Message, OptionHint, about_option
+from stackbounce.measure.messages import PART, Message, OptionHint, about_option
 from stackbounce.measure.reading.roles import Column, slug
 from stackbounce.units import in_si, quantity, unit_written
 
@@ -152,8 +152,7 @@ def part_of(
     if not kept.size:
         first, last = float(along.min()), float(along.max())
         got = f" must leave some of the record, which goes from {first:.6g} to {last:.6g} {unit}"
-        hint = OptionHint({"start": None, "stop": None})
-        raise InvalidValue(Message(hint, f"{got}, got {shown(start)} to {shown(stop)}"))
+        raise InvalidValue(Message(PART, f"{got}, got {shown(start)} to {shown(stop)}"))
     if kept.size == along.size:
         return data
     return data.isel({dim: kept for dim in data.dims if dim != "track"})

@@ -117,12 +117,11 @@ def _by_steps(kind: Kind, column: Column, times: Array) -> tuple[Column, list[st
     if column.unit or column.heading.unit or not fitting or fitting[0] == "s":
         return column, []
     name = column.heading.name or column.index + 1
-    doubt = Message(
+    said = (
         f"no unit is told for {name}: taken as {fitting[0]}, as steps of {step:.4g} s are too long "
-        f"for a file of {kind.name}; ",
-        OptionHint({"units": {name: "s"}}),
-        " tells another",
+        f"for a file of {kind.name}; "
     )
+    doubt = Message(said, OptionHint({"units": {name: "s"}}), " tells another")
     return replace(column, factor=_UNITS[fitting[0]][0], unit="s"), [doubt]
 
 

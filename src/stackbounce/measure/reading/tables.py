@@ -376,13 +376,9 @@ def _first(tree: Element, of: str) -> Element | None:
     return next(_objects(tree, of), None)
 
 
-def _property(one: Element | None, name: str) -> Element | None:
-    return None if one is None else one.find(f"property[@name='{name}']")
-
-
 def _text(one: Element | None, name: str) -> str:
-    found = _property(one, name)
-    return "" if found is None else " ".join((found.text or "").split())
+    text = "" if one is None else one.findtext(f"property[@name='{name}']", "")
+    return " ".join(text.split())
 
 
 def _float_of(one: Element | None, name: str, default: float) -> float:
@@ -394,7 +390,7 @@ def _float_of(one: Element | None, name: str, default: float) -> float:
 
 def _frames(one: Element | None) -> Iterator[tuple[int, Element]]:
     """Yield the objects in the array framedata of an object, with their places in it."""
-    array = _property(one, "framedata")
+    array = None if one is None else one.find("property[@name='framedata']")
     for each in () if array is None else array.findall("property"):
         place, inner = (each.get("name") or "").strip("[]"), each.find("object")
         if place.isdecimal() and len(place) < 9 and inner is not None:

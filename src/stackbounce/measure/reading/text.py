@@ -187,13 +187,8 @@ def _head(content: str) -> tuple[list[int], list[str]]:
 
 def count_numbers(row: list[str], decimal: str) -> int:
     """Return how many numbers a row has; 0 if any cell is something else."""
-    count = 0
-    for cell in row[:COLUMNS]:
-        value = number(cell, decimal)
-        if value is None:
-            return 0
-        count += value == value  # NaN is not itself
-    return count
+    values = [number(cell, decimal) for cell in row[:COLUMNS]]
+    return 0 if None in values else sum(value == value for value in values)  # NaN is not itself
 
 
 def word_in(rows: list[list[str]], decimal: str, start: int) -> str:

@@ -130,9 +130,8 @@ def _side_by_side(columns: Sequence[Column], values: Array, time: int, at: int) 
     lengths = points[at].value_counts()
     longest = points[points[at].isin(lengths.index[:_TRACKS])]
     places = [k for k, column in enumerate(columns) if column.role in ("x", "y")]
-    table = longest.drop_duplicates([time, at], keep="last").pivot(
-        index=time, columns=at, values=places
-    )
+    single = longest.drop_duplicates([time, at], keep="last")
+    table = single.pivot(index=time, columns=at, values=places)
     found = [replace(columns[k], track=f"track {track:g}") for k, track in table.columns]
     left = len(lengths) - _TRACKS
     doubts = [f"{left} shorter tracks are left out"] if left > 0 else []
@@ -190,9 +189,8 @@ def _together(times: Array, points: Array) -> list[dict[int, Array]]:
         live += new
     found = [track for track in tracks if len(track) >= _LEAST]
     ranges = [float(np.ptp(list(track.values()), axis=0).max()) for track in found]
-    moving = [
-        track for track, wide in zip(found, ranges, strict=True) if wide > _STILL * max(ranges)
-    ]
+    widest = max(ranges, default=0.0)
+    moving = [track for track, wide in zip(found, ranges, strict=True) if wide > _STILL * widest]
     return sorted(moving, key=len, reverse=True)[:_TRACKS]
 
 

@@ -39,9 +39,8 @@ def draw(data: Any, found: Any, axes: Any = None) -> Figure:  # noqa: ARG001
             axes.plot(grid, middle, _LINES[law.form], color=COLORS[1 + k], label=_formula(law))
             if law.form == "linear":
                 wide = np.array([number.std_dev for number in line])
-                axes.fill_between(
-                    grid, middle - wide, middle + wide, color=COLORS[1], alpha=0.15, linewidth=0
-                )
+                band: Any = {"color": COLORS[1], "alpha": 0.15, "linewidth": 0}
+                axes.fill_between(grid, middle - wide, middle + wide, **band)
         mean = f"; mean {found.mean:.1uS}" if found.mean.std_dev > 0.0 else ""
         marks: Any = {"fmt": "o", "color": COLORS[0], "markersize": 6}
         bars: Any = {"yerr": errors, "capsize": 3, "elinewidth": 1.3}
@@ -59,7 +58,6 @@ def draw(data: Any, found: Any, axes: Any = None) -> Figure:  # noqa: ARG001
 
 def _formula(law: Any) -> str:
     if law.form == "linear":
-        return f"e = {law.coefficient.nominal_value:.3f} − {law.slope:.1uS} v/(m/s)".replace(
-            "− -", "+ "
-        )
+        line = f"e = {law.coefficient.nominal_value:.3f} − {law.slope:.1uS} v/(m/s)"
+        return line.replace("− -", "+ ")
     return f"e = {law.coefficient.nominal_value:.3f} (v/(m/s))$^{{{-law.slope:.1uS}}}$"

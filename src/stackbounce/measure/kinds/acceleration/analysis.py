@@ -3,14 +3,14 @@
 import math
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
 from stackbounce.errors import positive
-from stackbounce.measure.finding import Finding, rigid_contact
+from stackbounce.measure.finding import Finding, Listed, rigid_contact
 from stackbounce.measure.kinds.acceleration.series import is_held, record_of, refuse_gain, series_of
-from stackbounce.measure.quantities import Array, Number, Row, known_rows, nominal
+from stackbounce.measure.quantities import Array, Number, Row, known_rows, known_to, nominal
 from stackbounce.measure.setup import Setup
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.units import checked
@@ -24,12 +24,14 @@ class Accelerometer(Finding):
 
     Attributes
     ----------
+    mean : ufloat or None
+        The one restitution that leads from the first impact speed to the last rebound speed.
+    drop_height : ufloat or None
+        Of a fall from rest, in m.
     fall : ufloat or None
         From the release to the first touch, in s; None where the record does not hold it.
     flights : tuple of ufloat
         Between neighbouring bounces, in s.
-    drop_height : ufloat or None
-        Of a fall from rest, in m.
     apex_heights : tuple of ufloat
         Of the flights, in m.
     impact_speeds : tuple of ufloat
@@ -37,8 +39,6 @@ class Accelerometer(Finding):
     restitutions : tuple of ufloat
         Of each bounce between two flights, or between the fall and a flight. Neighbours share a
         flight, so their errors are correlated.
-    mean : ufloat or None
-        The one restitution that leads from the first impact speed to the last rebound speed.
     contact_times : tuple of (ufloat or None)
         Of the bounces, in s; None where the sampling is too coarse.
     peaks : tuple of float
@@ -54,13 +54,13 @@ class Accelerometer(Finding):
 
     picture: ClassVar[str] = "acceleration"
 
-    fall: Number | None
+    mean: Annotated[Number | None, Listed("restitution, mean")]
+    drop_height: Annotated[Number | None, Listed("drop height", "m")]
+    fall: Annotated[Number | None, Listed("time of fall", "s")]
     flights: tuple[Number, ...]
-    drop_height: Number | None
     apex_heights: tuple[Number, ...]
     impact_speeds: tuple[Number, ...]
     restitutions: tuple[Number, ...]
-    mean: Number | None
     contact_times: tuple[Number | None, ...]
     peaks: tuple[float, ...]
     notes: tuple[str, ...]
@@ -77,15 +77,12 @@ class Accelerometer(Finding):
             ((self.contact_times, "contact time of bounce", "s"),),
             ((self.peaks, "largest acceleration in bounce", "m/s^2"),),
         )  # fmt: skip
-        rows: list[tuple[str, Any, str]] = [
-            ("restitution, mean", self.mean, ""),
-            ("drop height", self.drop_height, "m"),
-            ("time of fall", self.fall, "s"),
-        ]
+        rows = super().rows()
         for columns in listed:
             for k in range(len(columns[0][0])):
-                rows += [(f"{name} {k}", values[k], unit) for values, name, unit in columns]
-        return known_rows(rows)
+                own = [(f"{name} {k}", values[k], unit) for values, name, unit in columns]
+                rows += known_rows(own)
+        return rows
 
     def parts(self) -> dict[str, Any]:
         """Return the floor's contact and the drop height, as in a drop's TOML."""
@@ -194,10 +191,8 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
 
 def _edge(times: Array, k: int) -> Any:
     """Return a time that is uniformly distributed between samples k - 1 and k."""
-    from uncertainties import ufloat
-
     step = float(times[k] - times[k - 1])
-    return ufloat(0.5 * float(times[k] + times[k - 1]), step / math.sqrt(12.0))
+    return known_to(0.5 * float(times[k] + times[k - 1]), step / math.sqrt(12.0))
 
 
 def _notes(times: Array, counts: list[int], held: bool) -> list[str]:

@@ -19,8 +19,8 @@ _WANTED = "data must hold a free fall and a bounce, got "
 # Set by hand on the records of `tests/synthetic/accelerometer.py`, and on swings, jumps and rides
 # (`tests/motions.py`), which must be refused.
 _FLYING = 0.5  # of gravity: below it, it flies
-_NEAR_ZERO, _NEAR_SHARE = 0.35, 0.5  # of gravity: below it is at least this share of a flight
-_LINEAR_NEAR_ZERO, _LINEAR_NEAR_SHARE = 0.15, 0.8  # the same, if gravity was subtracted
+_NEAR = (0.35, 0.5)  # of gravity: below it is at least this share of a flight
+_LINEAR_NEAR = (0.15, 0.8)  # the same, if gravity was subtracted
 _SHORTEST = 0.06  # s: a flight of 4 mm
 _LONGEST = 0.12  # s: a contact; longer ones are hands, legs, or a rest
 _PULSE = 1.9  # of gravity: the least top of a pulse; a sensor may end at 2
@@ -180,9 +180,7 @@ def _what_is_seen(record: Record, gravity: float) -> str:
 def _flights(record: Record, gravity: float, *, whole: bool = True) -> list[Flight]:
     """Return the free flights; if `whole`, without those with the first or the last sample."""
     times, felt = record.times, record.felt
-    within, most = (
-        (_LINEAR_NEAR_ZERO, _LINEAR_NEAR_SHARE) if record.linear else (_NEAR_ZERO, _NEAR_SHARE)
-    )
+    within, most = _LINEAR_NEAR if record.linear else _NEAR
     return [
         Flight(int(a), int(b))
         for a, b in zip(*runs(felt < _FLYING * gravity), strict=True)

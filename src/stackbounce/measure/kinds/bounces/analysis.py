@@ -12,7 +12,7 @@ from stackbounce.measure.kinds.bounces.knocks import Knocks, missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import fit_line, laws_of
 from stackbounce.measure.kinds.bounces.result import Bounces
 from stackbounce.measure.kinds.bounces.scatter import meaning_of, scatter_of
-from stackbounce.measure.quantities import Number, measured, nominal
+from stackbounce.measure.quantities import Number, known_to, measured, nominal
 from stackbounce.measure.samples import columns
 from stackbounce.measure.setup import Setup
 from stackbounce.measure.statistics.regression import widening
@@ -322,15 +322,13 @@ def _with_scatter(
     The mean and the laws allow for both causes where it is unknown. Errors that are estimated from
     the scatter include an excess scatter already.
     """
-    from uncertainties import ufloat
-
     mean, laws, scatter = laws_of(found.speeds, found.kept, **({} if known else {"most": 0.0}))
     if not laws:
         return found, mean, laws, scatter
     meant = scatter_of(found.speeds, found.kept)
     notes.extend(meaning_of(scatter, meant))
     if scatter and meant.cause != "floor or spin":
-        found = found_at([ufloat(time.n, meant.factor * time.s) for time in found.moments])
+        found = found_at([known_to(time.n, meant.factor * time.s) for time in found.moments])
         if meant.cause == "timing":
             mean, laws, scatter = laws_of(found.speeds, found.kept, most=0.0)
     return found, mean, laws, scatter
@@ -338,8 +336,6 @@ def _with_scatter(
 
 def _energy_kept(kept: Sequence[Any]) -> Any:
     """Return the mean of e²; its error includes the standard deviation from bounce to bounce."""
-    from uncertainties import ufloat
-
     energies = [restitution**2 for restitution in kept]
     spread = float(np.std([nominal(energy) for energy in energies], ddof=1)) if kept[1:] else 0.0
-    return sum(energies) / len(energies) + (ufloat(0.0, spread) if spread > 0.0 else 0.0)
+    return sum(energies) / len(energies) + known_to(0.0, spread)

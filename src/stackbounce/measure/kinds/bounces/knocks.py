@@ -95,9 +95,8 @@ def missed_between(steps: Sequence[float] | NDArray[Any]) -> list[int]:
     for k in range(1, len(lengths)):
         ratio = lengths[k] / flight
         two = r * (1.0 + r)
+        flight = lengths[k]
         if ratio > 1.1 * r and abs(math.log(ratio / two)) < min(0.12, abs(math.log(ratio / r))):
             missed[k] = 1
             flight = lengths[k] * r / (1.0 + r)
-        else:
-            flight = lengths[k]
     return missed

@@ -12,7 +12,7 @@ from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.measure.drag import Drag, speed_after_fall
 from stackbounce.measure.finding import Finding, rigid_contact
 from stackbounce.measure.messages import Message, OptionHint
-from stackbounce.measure.quantities import Number, Row, deviation, measured, nominal
+from stackbounce.measure.quantities import Number, Row, deviation, known_to, measured, nominal
 from stackbounce.measure.setup import Place, lowest_point, places
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
@@ -147,13 +147,17 @@ def heights(
     >>> print(f"{heights(1.0, 0.70, height_error=0.005, drag=air).mean:.1uS}")
     0.942(4)
     """
+    from uncertainties import ufloat
+
     points = places(measured_to)
     error = math.nan
     if height_error is not None:
         error = deviation("height", positive("height_error", height_error, "metres"))
 
     def counted_from_bottom(name: str, height: Any, point: Place) -> Number:
-        return lowest_point(name, _with_error(name, height, error), point, diameter)
+        known = measured(name, height, "metres")
+        known = known if known.std_dev > 0.0 else ufloat(known.nominal_value, error)
+        return lowest_point(name, known, point, diameter)
 
     start = counted_from_bottom("drop_height", drop_height, points[0])
     counted = [
@@ -181,13 +185,6 @@ def _listed(values: Any) -> list[Any]:
     return listed
 
 
-def _with_error(name: str, value: Any, error: float) -> Number:
-    from uncertainties import ufloat
-
-    found = measured(name, value, "metres")
-    return found if found.std_dev > 0.0 else ufloat(found.nominal_value, error)
-
-
 def _kept(first: Any, after: Any, drag: Drag | None) -> Any:
     """Return the restitution of a bounce between two heights."""
     if drag is None:
@@ -197,8 +194,6 @@ def _kept(first: Any, after: Any, drag: Drag | None) -> Any:
 
 def _mean(start: Any, counted: list[Any], repeated: bool, drag: Drag | None) -> Any:
     """Return the restitution of all bounces together."""
-    from uncertainties import ufloat
-
     if not repeated:
         kept = [_kept(first, after, drag) for first, after in pairwise([start, *counted])]
         return math.prod(kept) ** (1.0 / len(kept))
@@ -207,20 +202,15 @@ def _mean(start: Any, counted: list[Any], repeated: bool, drag: Drag | None) -> 
         # The scatter of the heights includes their reading errors.
         values = np.array([height.nominal_value for height in counted])
         error = float(values.std(ddof=1)) / math.sqrt(len(values)) * widening(len(values) - 1)
-        mean = ufloat(values.mean(), error) if error else mean
+        mean = known_to(values.mean(), error) if error else mean
     return _kept(start, mean, drag)
 
 
 def _notes(before: list[Any], counted: list[Any]) -> list[str]:
     notes: list[str] = []
     if any(math.isnan(height.std_dev) for height in [before[0], *counted]):
-        notes.append(
-            Message(
-                "A height has no error, so that the restitutions' are unknown: give ",
-                OptionHint({"height_error": None}),
-                ".",
-            )
-        )
+        unknown = "A height has no error, so that the restitutions' are unknown: give "
+        notes.append(Message(unknown, OptionHint({"height_error": None}), "."))
     for k, (first, after) in enumerate(zip(before, counted, strict=True)):
         if after.nominal_value > first.nominal_value:
             notes.append(

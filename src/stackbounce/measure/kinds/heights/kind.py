@@ -51,16 +51,13 @@ def _check_fall(heights: list[float]) -> None:
     if len(heights) > _MANY or [k for k in rises if k > 1]:
         at = max(rises, default=0)
         rise = f", {heights[at]:.4g} m after {heights[at - 1]:.4g} m in row {at + 1}" * bool(rises)
-        raise InvalidValue(
-            Message(
-                "a table of heights must hold those of one ball's bounces, each below the one "
-                f"before and up to {_MANY} of them, got {len(heights)} heights{rise}: positions "
-                "over time are a track, ",
-                OptionHint({"holds": "track"}),
-                ", and drops that are repeated need ",
-                OptionHint({"repeated": None}),
-            )
+        wrong = (
+            "a table of heights must hold those of one ball's bounces, each below the one "
+            f"before and up to {_MANY} of them, got {len(heights)} heights{rise}: positions "
+            "over time are a track, "
         )
+        track, repeated = OptionHint({"holds": "track"}), OptionHint({"repeated": None})
+        raise InvalidValue(Message(wrong, track, ", and drops that are repeated need ", repeated))
 
 
 def _unrecognised(data: Any) -> Message:

@@ -340,9 +340,8 @@ def _averaged(shifts: Array, variances: Array) -> Pair:
     for _ in range(10):
         share, mean = _shares(shifts, variances * scale)
         squares = (shifts - mean[:, None]) ** 2 / variances
-        scale = (_PRIOR_FREEDOM + squares.sum(axis=0)) / (
-            _PRIOR_FREEDOM + (1.0 - share).sum(axis=0)
-        )
+        free = (1.0 - share).sum(axis=0)
+        scale = (_PRIOR_FREEDOM + squares.sum(axis=0)) / (_PRIOR_FREEDOM + free)
     share, mean = _shares(shifts, variances * scale)
     squares = (shifts - mean[:, None]) ** 2 / (variances * scale)
     own = (share * squares).sum(axis=1) / np.maximum((share * (1.0 - share)).sum(axis=1), 1e-3)

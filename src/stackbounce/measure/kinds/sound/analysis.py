@@ -12,7 +12,7 @@ from stackbounce.measure.kinds.sound.loudness import Rises, find_rises
 from stackbounce.measure.kinds.sound.onset import onsets
 from stackbounce.measure.kinds.sound.plausibility import reason_against, tails
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
-from stackbounce.measure.messages import Message, OptionHint
+from stackbounce.measure.messages import PART, Message, OptionHint
 from stackbounce.measure.quantities import Array, Pair, Samples
 from stackbounce.measure.samples import columns, resolution, runs
 from stackbounce.measure.statistics.ar_noise import whitened
@@ -30,11 +30,7 @@ _LOUDNESS_SECONDS = 10e-3  # s of a knock that tell how loud it is
 _INTERVAL_SIGMA = 0.1  # of the interval between amplitudes: the error of a time within it
 _AROUND = 0.1  # s before and after a series that is proposed as a part
 _CLIPPED = 4  # samples in a row at the largest value
-_ADVICE = Message(
-    ". Record one ball without other sounds, or choose its bounces by ",
-    OptionHint({"start": None, "stop": None}),
-    ".",
-)
+_ADVICE = ". Record one ball without other sounds, or choose its bounces by "
 
 
 def knocks(
@@ -108,7 +104,7 @@ def knocks(
     against = reason_against(chain, rises, echoes, origin, longest_flight)
     if against:
         chain, dropped = _all_sounds(rises)
-        notes.append(Message(f"This is no bouncing ball: {against}", _ADVICE))
+        notes.append(Message(f"This is no bouncing ball: {against}{_ADVICE}", PART, "."))
     else:
         if delay:
             notes.append(f"Each knock has an echo {1e3 * delay:.1f} ms later, which is left out.")

@@ -104,9 +104,8 @@ def _knock(
     wave = _part(values, at, at + max(2 * half, round(_COLOR_SECONDS * rate)), thin)
     color = np.correlate(wave, wave, "full")[len(wave) - 1 :][: 2 * half]
     around = _part(values, at - half, at + half, thin)
-    return _Knock(
-        at - half, around, noise, max(loud, _LEAST_POWER * noise), color / max(color[0], 1e-30)
-    )
+    color = color / max(color[0], 1e-30)
+    return _Knock(at - half, around, noise, max(loud, _LEAST_POWER * noise), color)
 
 
 def _rounding(noise: float, variance: float) -> float:

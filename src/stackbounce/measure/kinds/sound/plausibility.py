@@ -136,9 +136,8 @@ def _one_sound(times: Array, amplitudes: Array, ratios: Array) -> str:
     if not (faint or slight):
         return ""
     what = "is fainter than a tenth of it" if faint else "hardly rises above what precedes it"
-    return (
-        f"one sound with echoes, at {times[loudest if faint else clearest]:.4g} s; the rest {what}"
-    )
+    first = times[loudest if faint else clearest]
+    return f"one sound with echoes, at {first:.4g} s; the rest {what}"
 
 
 def _sigmas_above_chance(chain: Chain, rises: Rises) -> float:

@@ -17,7 +17,7 @@ from stackbounce.measure.kinds.track.parabolas import Parabolas
 from stackbounce.measure.kinds.track.paths import Columns, Upward, flights_of, positions_of, upward
 from stackbounce.measure.kinds.track.result import Track, Tracks, notes_of, stays_long
 from stackbounce.measure.kinds.track.time_base import SI, TrackUnits, check_time_base, units_of
-from stackbounce.measure.messages import Message, OptionHint
+from stackbounce.measure.messages import PART, Message, OptionHint
 from stackbounce.measure.quantities import Array, known_to, nominal
 from stackbounce.measure.setup import Setup, above_bottom, places
 from stackbounce.measure.statistics.regression import widening
@@ -123,8 +123,6 @@ def track(
     >>> print(f"{track((times, seen)).balls[0].restitutions[0]:.1uS}")
     0.751(1)
     """
-    from uncertainties import ufloat
-
     gravity = checked(positive, "gravity", gravity, "m/s^2")
     found = positions_of(data)
     notes: list[str] = []
@@ -152,7 +150,7 @@ def track(
     balls = found_at(up.tilt)
     if turn is not None:
         moved = zip(balls, found_at(turn.other), balls, strict=True)
-        off = ufloat(0.0, 1.0)
+        off = known_to(0.0, 1.0)
         balls = [with_difference(*row, off=off) for row in moved]
         notes.append(f"{turn.words}.")
     if drag is not None:
@@ -206,8 +204,7 @@ def _bouncing(found: Columns, up: Upward, gravity: float, units: TrackUnits) -> 
     if flown:
         return flown
     reason = reasons[0] if reasons else _seen(found, up, compared)
-    part = OptionHint({"start": None, "stop": None})
-    many = (f" (means of {found.many} of its points were taken: ", part, " choose the bounces)")
+    many = (f" (means of {found.many} of its points were taken: ", PART, " choose the bounces)")
     raise InvalidValue(Message(_WANTED, reason, *many[: 3 * (found.many > 1)]))
 
 
@@ -250,8 +247,6 @@ def _track(
     ball: _Flown, floor: float | None, units: TrackUnits, *, alone: bool, drag: Drag | None = None
 ) -> Track:
     """Return a ball's bounces from its parabolas; a drag is taken to be exact."""
-    from uncertainties import ufloat
-
     name, _, fit, bounces = ball
     if drag is not None:
         fit = motion.straightened(fit, drag)
@@ -262,16 +257,16 @@ def _track(
     gravity = numbers[0][0]
     if shape.widening > 1.0:
         wider = widening(max(fit.freedom, 1)) * shape.widening
-        gravity = ufloat(fit.values[0], wider * math.sqrt(fit.covariance[0, 0]))
+        gravity = known_to(fit.values[0], wider * math.sqrt(fit.covariance[0, 0]))
     size, sway = 0.0, 0.0
     if alone and floor is None:
         gaps = fit.times[fit.firsts[1:]] - fit.times[fit.lasts[:-1] - 1]
         size, sway = steadiness.sway_of(moments, levels, impacts, float(gaps[bounces].max()))
     if sway > 0.0:
-        off = [ufloat(0.0, sway) for _ in bounces]  # the camera's speed at each
+        off = [known_to(0.0, sway) for _ in bounces]  # the camera's speed at each
         impacts = tuple(speed - sways for speed, sways in zip(impacts, off, strict=True))
         rebounds = tuple(speed + sways for speed, sways in zip(rebounds, off, strict=True))
-        gravity += ufloat(0.0, _ON_THE_WHOLE * sway**2 / size)
+        gravity += known_to(0.0, _ON_THE_WHOLE * sway**2 / size)
     # the scale after a bounce over that before, and the scale of heights
     ratio = known_to(1.0, math.hypot(shape.scatter, _RESTITUTION_OFF * shape.bent))
     place = known_to(1.0, math.hypot(_HEIGHT_BY_SCATTER * shape.scatter, _HEIGHT_OFF * shape.bent))

@@ -286,9 +286,8 @@ class Parabolas:
         each = speeds[:, 1:] - speeds[:, :-1] + falls * (since - until)
         slopes, own = fits.slope[:, :, 1], fits.inverse[:, :, 1, 1]
         by_fall = since - until + slopes[:, :-1] - slopes[:, 1:]
-        spread = fits.variance[:, None] * (
-            own[:, :-1] + own[:, 1:] + by_fall**2 / fits.strength[:, None]
-        )
+        unsure = own[:, :-1] + own[:, 1:] + by_fall**2 / fits.strength[:, None]
+        spread = fits.variance[:, None] * unsure
         jump = weights @ each
         error = np.sqrt(weights @ (spread + (each - jump) ** 2))
         return jump, error, weights @ (speeds[:, :-1] - falls * since)

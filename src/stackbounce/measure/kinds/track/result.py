@@ -103,9 +103,8 @@ class Tracks(Finding):
     def rows(self) -> list[Row]:
         """Return the table, the most important first."""
         length, time, speed = *self.units, self.units.speed
-        rows = []
-        for ball, ratio in zip(self.balls, self.rebound_ratios, strict=False):
-            rows.append(Row(f"{ball.name}: rebound ratio", ratio))
+        stacked = zip(self.balls, self.rebound_ratios, strict=False)
+        rows = [Row(f"{ball.name}: rebound ratio", ratio) for ball, ratio in stacked]
         for ball in self.balls:
             of = f"{ball.name}: " if len(self.balls) > 1 else ""
             rows.append(Row(f"{of}drop height", ball.drop_height, length))

@@ -25,7 +25,7 @@ from stackbounce.measure.kinds.waveform.record import Record, read_record, undro
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.ringing import ringing_of
 from stackbounce.measure.kinds.waveform.shapes import UNTOLD, Ends, ends_of
-from stackbounce.measure.messages import Message, OptionHint
+from stackbounce.measure.messages import PART, Message, OptionHint
 from stackbounce.measure.quantities import Array, Mask, known_to, measured_if_given, nominal
 from stackbounce.measure.samples import runs
 from stackbounce.model.laws import ContactLaw
@@ -129,7 +129,7 @@ def waveform(
             f"{len(seen.stretches)} stretches above the noise: an oscillation, or a record of "
             "which the bounces are a part? "
         )
-        raise InvalidValue(Message(got, OptionHint({"start": None, "stop": None}), " choose it"))
+        raise InvalidValue(Message(got, PART, " choose it"))
     unlike = len(seen.stretches) - len(_alike(seen))
     seen, contacts = _contacts(seen, ends)
     if _are_square(contacts):
@@ -299,13 +299,11 @@ def _steep(contacts: tuple[Contact, ...]) -> list[str]:
     power = contacts[0].exponents[0] if contacts else None
     if power is None or power.nominal_value > min(_STEEP, 1.0 - _CLEARLY_STEEP * power.std_dev):
         return []
-    note = Message(
+    steep = (
         "the force begins more steeply than that of any spring, as if with a jump: the touch found "
-        "may be too early; if the contact is damped, tell its law, ",
-        OptionHint({"law": "dashpot"}),
-        " or viscoelastic",
+        "may be too early; if the contact is damped, tell its law, "
     )
-    return [note]
+    return [Message(steep, OptionHint({"law": "dashpot"}), " or viscoelastic")]
 
 
 def _droops(seen: Seen, step: float) -> list[str]:
@@ -327,10 +325,8 @@ def _droops(seen: Seen, step: float) -> list[str]:
     if low > -max(_CLEAR_DROP * error, 0.005 * top):
         return []
     area = float(np.sum(seen.signal[one.first : one.last + 1])) * step
-    note = Message(
+    droop = (
         f"after the contact the signal lies {-low / top:.1%} of its peak too low, as by the droop "
-        "of a piezo sensor: give ",
-        OptionHint({"time_constant": None}),
-        f" (about {area / -low:.2g} s)",
+        "of a piezo sensor: give "
     )
-    return [note]
+    return [Message(droop, OptionHint({"time_constant": None}), f" (about {area / -low:.2g} s)")]

@@ -89,10 +89,8 @@ def gap_from_delay(
     >>> print(f"{gap * 1e3:.1uS} mm")
     1.3(9) mm
     """
-    numbers = {
-        "t": measured("delay", delay, "seconds"),
-        "v": measured("impact_speed", impact_speed, "m/s"),
-    }
+    numbers = {"t": measured("delay", delay, "seconds")}
+    numbers["v"] = measured("impact_speed", impact_speed, "m/s")
     if (contact is None) == (contact_time is None):
         got = "none" if contact is None else "both"
         raise InvalidValue(f"one of contact_time and contact must be given, got {got}")

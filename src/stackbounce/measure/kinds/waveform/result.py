@@ -177,10 +177,8 @@ class Waveform(Finding):
         begin = first.start.nominal_value
         lasts = 0.0 if first.end is None else first.end.nominal_value - begin
         end = begin + max(2.0 * lasts, lasting)
-        later = [
-            nominal(contact.start) for contact in self.contacts[1:] if contact.start is not None
-        ]
-        beyond = [start for start in later if start > end]
+        later = [contact.start for contact in self.contacts[1:] if contact.start is not None]
+        beyond = [start for start in map(nominal, later) if start > end]
         return record.sel(time=slice(None, 0.5 * (end + min(beyond)))) if beyond else record
 
     def curves(self, data: Dataset) -> list[Curve]:

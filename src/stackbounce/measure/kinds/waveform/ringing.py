@@ -114,6 +114,5 @@ def _free(record: Record) -> tuple[slice, float]:
     after = bare[first : first + int(_LASTS * length)]
     later = np.flatnonzero(after > _NEXT * bare.max())
     stop = first + (int(later[0]) if len(later) else len(after))
-    return slice(
-        first, stop, max(1, (stop - first) // _MOST_SAMPLES)
-    ), length * record.step / _LEAST_IN_CONTACT
+    thin = max(1, (stop - first) // _MOST_SAMPLES)
+    return slice(first, stop, thin), length * record.step / _LEAST_IN_CONTACT
