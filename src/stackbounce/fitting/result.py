@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, nearest, positive, shown, unmasked
+from stackbounce.errors import InvalidValue, nearest, one_of, positive, shown, unmasked
 from stackbounce.fitting import notes, posterior
 from stackbounce.fitting.covariance import estimate_covariance, find_directions
 from stackbounce.fitting.least_squares import Minimum
@@ -63,9 +63,7 @@ class Fit(Shown):
         return self.values[self._known(name)]
 
     def _known(self, name: str) -> str:
-        if name not in self.names:
-            raise InvalidValue(f"{shown(name)} was not varied; {nearest(name, self.names)}")
-        return name
+        return one_of(name, self.names, f"{shown(name)} was not varied")
 
     @property
     def names(self) -> list[str]:
