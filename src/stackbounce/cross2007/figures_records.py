@@ -81,8 +81,7 @@ def draw_figure_7(bench: Bench) -> style.Picture:
     forces = ("load", [force] * len(points), {"units": "N"})
     curves = {"force": forces, "compression": ("load", list(points.values()), {"units": "m"})}
     bench.curves.append(xr.Dataset(curves, {"load": list(points)}))
-    stiffness = force / bench("static.tennis")
-    return style.describe("7", figure, stiffness=1e-4 * stiffness)
+    return style.describe("7", figure, stiffness=1e-4 * (force / bench("static.tennis")))
 
 
 def draw_figure_8(bench: Bench) -> style.Picture:

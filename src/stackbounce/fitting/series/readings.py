@@ -182,17 +182,14 @@ def _usual(columns: Sequence[Column], body: Sequence[Row]) -> str:
     return next(unit for least, unit in _SIZES if largest >= least)
 
 
-_Found = tuple[list[dict[str, Any]], str]  # readings, and what was read
-
-
 def _by_drop(
     columns: Sequence[Column],
     numbers: dict[int, Numbers],
     lines: Sequence[int],
     groups: Sequence[str],
     notes: list[str],
-) -> _Found:
-    """Return the readings of a table with a drop in each row."""
+) -> tuple[list[dict[str, Any]], str]:
+    """Return the readings of a table with a drop in each row, and what was read."""
     starts = [column for column in columns if column.role in STARTS]
     if not starts:
         raise InvalidValue(f"no column is a drop height or an impact speed: {_listed(columns)}")
