@@ -178,10 +178,9 @@ class FitProblem:
         objective = replace(self.objective, rtol=accuracy)  # with its own count of unsolved runs
         count = None if starts is None else whole("starts", starts, 1, _MOST_STARTS)
         first, seed = _first_trial(objective), seed_of(rng)
-        expected = expected_trials(objective, count)
         course = objective.course
         try:
-            with course.reported(progress, expected):
+            with course.reported(progress, expected_trials(objective, count)):
                 minima = find_minima(objective, first[None], count, seed)
         except KeyboardInterrupt as stopped:
             if course.best is None:
