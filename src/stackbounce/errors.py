@@ -9,7 +9,7 @@ import contextlib
 import functools
 import itertools
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Set
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Set
 from numbers import Integral, Real
 from typing import Any, TypeVar
 
@@ -296,6 +296,21 @@ def _closest(name: object, names: Iterable[str]) -> str:
     folded = {name.casefold(): name for name in names}
     word = name[:60] if isinstance(name, str) else shown(name)
     return "".join(folded[one] for one in difflib.get_close_matches(word.casefold(), folded, n=1))
+
+
+def one_of(name: _Given, known: Collection[str], wrong: str) -> _Given:
+    """Return a name if it is a known one; raise InvalidValue with the nearest ones otherwise.
+
+    Examples
+    --------
+    >>> one_of("mas", ["mass", "gravity"], "'mas' is no number")
+    Traceback (most recent call last):
+        ...
+    stackbounce.errors.InvalidValue: 'mas' is no number; did you mean mass? Known: mass, gravity
+    """
+    if name not in known:
+        raise InvalidValue(f"{wrong}; {nearest(name, known)}")
+    return name
 
 
 def no_attribute(owner: Any, name: str) -> AttributeError:

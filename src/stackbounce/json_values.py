@@ -41,9 +41,7 @@ def plain(value: Any) -> Any:
     import numpy as np
 
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        return plain(
-            {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
-        )
+        return plain(dataclasses.asdict(value))
     if isinstance(value, dict):
         return {str(key): plain(one) for key, one in value.items()}
     if isinstance(value, np.ndarray) and value.dtype.names:

@@ -62,7 +62,7 @@ def run(
 def _write(path: str, framed_by: list[str], overwrite: bool, as_json: bool) -> None:
     """Write the explorer as one file or as a folder, and tell its size and who may frame it."""
     from stackbounce.explorer.made import folder_files, one_file
-    from stackbounce.files import check_own, check_place, prepare_folder, write_file, write_folder
+    from stackbounce.files import check_place, prepare_folder, write_file, write_folder
 
     if not path:  # Path("") is the current folder
         raise InvalidValue("--export must name a file that ends in .html, or a folder, got ''")
@@ -70,7 +70,6 @@ def _write(path: str, framed_by: list[str], overwrite: bool, as_json: bool) -> N
     if path.lower().endswith(".html"):
         kind, files = "file", {out.name: one_file().encode()}
         check_place(out)
-        check_own(out, overwrite)
         write_file(out, files[out.name], overwrite)
     else:
         kind, files = "folder", folder_files()

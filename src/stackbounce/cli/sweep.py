@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from stackbounce.cli import output
 from stackbounce.cli.options import DROP
-from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.errors import InvalidValue, one_of, shown
 from stackbounce.extras import need
 from stackbounce.files import check_place
 
@@ -78,8 +78,7 @@ def _check_shown(drop: "Drop", given: Mapping[str, Any]) -> None:
     if len(over) not in (1, 2):
         raise InvalidValue(f"--plot needs one or two parameters that vary, got {len(over)}")
     name, dot, which = show.partition(".")
-    if name not in SHOWN:
-        raise InvalidValue(f"--show must name a result, got {shown(name)}; {nearest(name, SHOWN)}")
+    one_of(name, SHOWN, f"--show must name a result, got {shown(name)}")
     most = len(drop.balls) - 1
     if dot and name == "energy_retained":
         raise InvalidValue(f"--show {name} is of the whole stack, got {shown(show)}")

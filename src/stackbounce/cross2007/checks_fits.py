@@ -1,7 +1,6 @@
 """The audit's checks of sections V and VI: the fits with loss, and the conclusion."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Compute
@@ -27,7 +26,7 @@ _RATIOS: dict[str, tuple[Fit, int]] = {
 
 def _nearer(drop: Drop) -> Drop:
     """The drop with its balls closer together."""
-    return replace(drop, gaps=(_SHORTER * drop.gaps[0],))
+    return drop.replace(gaps=(_SHORTER * drop.gaps[0],))
 
 
 def _rebound_ratio(fit: Fit, ball: int) -> Compute:

@@ -4,7 +4,6 @@ Of the records, the paper measured durations, delays and counts of peaks. Here t
 them for the same drops. Stiffnesses that the paper does not give are guesses.
 """
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -112,12 +111,12 @@ def _split_twins(b: Bench, ratio: float) -> Result:
 
 def _delayed(b: Bench, drop: Drop) -> Drop:
     """The drop with the gap for the measured delay of 2 ms."""
-    return replace(drop, gaps=(gap_for_delay(b, drop, b("superballs.delay")),))
+    return drop.replace(gaps=(gap_for_delay(b, drop, b("superballs.delay")),))
 
 
 def _nearer(drop: Drop) -> Drop:
     """The drop with the smallest gap that rounds to the printed one."""
-    return replace(drop, gaps=(drop.gaps[0] - 0.05e-3,))
+    return drop.replace(gaps=(drop.gaps[0] - 0.05e-3,))
 
 
 def _subpeaks(result: Result) -> int:

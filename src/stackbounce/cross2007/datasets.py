@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from stackbounce.cross2007.bench import PAPER, Bench
 from stackbounce.cross2007.drops import Two, fallen_speed
-from stackbounce.errors import InvalidValue, nearest
+from stackbounce.errors import one_of
 from stackbounce.model import Ball, Drop, Hysteretic, Spring
 from stackbounce.run.calibration import calibrate
 
@@ -85,8 +85,7 @@ def load_dataset(name: str) -> DataSet:
     ['contacts.0.stiffness', 'contacts.1.stiffness', 'gaps.0']
     """
     short = name.removeprefix(PREFIX)
-    if short not in _MADE:
-        raise InvalidValue(f"{name[:60]} is no data set; {nearest(PREFIX + short, NAMES)}")
+    one_of(PREFIX + short, NAMES, f"{name[:60]} is no data set")
     return _MADE[short]()
 
 

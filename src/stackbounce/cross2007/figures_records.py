@@ -81,14 +81,12 @@ def draw_figure_7(bench: Bench) -> style.Picture:
     forces = ("load", [force] * len(points), {"units": "N"})
     curves = {"force": forces, "compression": ("load", list(points.values()), {"units": "m"})}
     bench.curves.append(xr.Dataset(curves, {"load": list(points)}))
-    stiffness = force / bench("static.tennis")
-    return style.describe("7", figure, stiffness=1e-4 * stiffness)
+    return style.describe("7", figure, stiffness=1e-4 * (force / bench("static.tennis")))
 
 
 def draw_figure_8(bench: Bench) -> style.Picture:
     """Draw the forces of tennis ball and basketball dropped from 30 cm."""
-    figure, panels = style.make_axes(4.2, 2)
-    result, late = _draw_record(bench, panels, stacks.spring_record)
+    figure, panels, result, late = _draw_record(bench, stacks.spring_record)
     style.note(panels[0], "solid: touching\ndashed: 2 mm apart")
     return style.describe(
         "8",
@@ -101,8 +99,7 @@ def draw_figure_8(bench: Bench) -> style.Picture:
 
 def draw_figure_8_hollow(bench: Bench) -> style.Picture:
     """Draw the forces of Fig. 8 with a hollow ball at the floor, and those on springs in grey."""
-    figure, panels = style.make_axes(4.2, 2)
-    result, late = _draw_record(bench, panels, stacks.hollow_record)
+    figure, panels, result, late = _draw_record(bench, stacks.hollow_record)
     on_springs, springs = sample_forces(bench, stacks.spring_record(bench), _TIMES)
     for ax, curve in zip(panels, on_springs, strict=True):
         ax.plot(1e3 * _TIMES, curve, color=style.GREY, lw=0.8)
@@ -130,18 +127,18 @@ def draw_figure_8_hollow(bench: Bench) -> style.Picture:
 
 
 def _draw_record(
-    bench: Bench, panels: list[Axes], record: Callable[[Bench, float], Drop]
-) -> tuple[Result, Result]:
+    bench: Bench, record: Callable[[Bench, float], Drop]
+) -> tuple[Figure, list[Axes], Result, Result]:
     """Draw the drop of Fig. 8 with the balls touching and apart, and what the text reports of it.
 
     That is the duration, and the time without a force between the balls.
     """
+    figure, panels = style.make_axes(4.2, 2)
     touching = draw_two_panels(bench, panels, record(bench, 0.0), _TIMES)
     apart = draw_two_panels(bench, panels, record(bench, bench("stack.gap")), _TIMES, dashed=True)
-    duration, quiet = 1e3 * bench("stack.duration"), 1e3 * bench("stack.delay")
-    style.bracket(panels[0], duration, f"measured: {duration:.0f} ms on the floor")
-    style.bracket(panels[1], quiet, f"measured: no force for {quiet:.0f} ms")
-    return touching, apart
+    _mark_time(bench, panels[0], "stack.duration", "{:.0f} ms on the floor")
+    _mark_time(bench, panels[1], "stack.delay", "no force for {:.0f} ms")
+    return figure, panels, touching, apart
 
 
 def draw_figure_9(bench: Bench) -> style.Picture:
@@ -163,7 +160,7 @@ def draw_figure_10a(bench: Bench) -> style.Picture:
     """Draw the forces of B2 on B1."""
     drop = stacks.small_fit(bench, stacks.heavier_b1(bench))
     figure, panels, result = _draw_pair(bench, drop, 0.008)
-    _mark_duration(bench, panels[0], "B2_on_B1.duration")
+    _mark_time(bench, panels[0], "B2_on_B1.duration", "impact lasts {:.1f} ms")
     end = 1e3 * max(result.last_release)
     return style.describe("10a", figure, touch=1e3 * result.first_touch[1], end=end)
 
@@ -172,7 +169,7 @@ def draw_figure_10b(bench: Bench) -> style.Picture:
     """Draw the forces of B1 on B2."""
     drop = stacks.reversed_pair(bench, bench("superballs.gap"))
     figure, panels, result = _draw_pair(bench, drop, 0.014)
-    _mark_duration(bench, panels[0], "B1_on_B2.duration")
+    _mark_time(bench, panels[0], "B1_on_B2.duration", "impact lasts {:.1f} ms")
     return style.describe(
         "10b",
         figure,
@@ -222,8 +219,7 @@ def draw_figure_12(bench: Bench) -> style.Picture:
     late = draw_two_panels(bench, panels[:2], stacks.late_twins(bench), times)
     early = draw_two_panels(bench, panels[:2], stacks.early_twins(bench), times, dashed=True)
     panels[1].set(xlabel="")
-    duration = 1e3 * bench("superballs.twin_duration")
-    style.bracket(panels[0], duration, f"measured: impact lasts {duration:.0f} ms")
+    _mark_time(bench, panels[0], "superballs.twin_duration", "impact lasts {:.0f} ms")
     style.note(panels[1], "dashed: touching\nafter 1 ms")
     _contact(panels[2], late, times)
     parted = bench.simulate(stacks.parted_twins(bench))
@@ -260,14 +256,14 @@ def _draw_pair(
     """Draw the forces of a drop in two panels, up to `end` s, with the measured delay."""
     figure, panels = style.make_axes(4.2, 2)
     result = draw_two_panels(bench, panels, drop, np.linspace(0.0, end, points))
-    measured = 1e3 * bench(delay)
-    style.bracket(panels[1], measured, f"measured: {measured:.0f} ms delay")
+    _mark_time(bench, panels[1], delay, "{:.0f} ms delay")
     return figure, panels, result
 
 
-def _mark_duration(bench: Bench, ax: Axes, key: str) -> None:
-    duration = 1e3 * bench(key)
-    style.bracket(ax, duration, f"measured: impact lasts {duration:.1f} ms")
+def _mark_time(bench: Bench, ax: Axes, key: str, words: str) -> None:
+    """Draw a bracket as long as a measured time, with words that have its place in ms."""
+    measured = 1e3 * bench(key)
+    style.bracket(ax, measured, f"measured: {words.format(measured)}")
 
 
 def _contact(ax: Axes, result: Result, times: Array) -> None:

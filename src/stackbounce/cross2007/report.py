@@ -22,7 +22,7 @@ from stackbounce.cross2007.checks import AGREES, DIFFERS, WITHIN_ERROR, Row, las
 from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.cross2007.style import Picture, data_of, render, use_style
 from stackbounce.cross2007.tables import Table, make_table_one, make_table_two
-from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.errors import one_of, shown
 from stackbounce.extras import MEASURING, need
 from stackbounce.files import prepare_folder, write_folder
 from stackbounce.library_types import DataFrame
@@ -188,8 +188,7 @@ def figure(name: str | int, data: Data = PAPER) -> Picture:
     """
     need("a figure of the paper", *MEASURING, "matplotlib")
     short = _SIGNS.sub("", str(name)).lower()
-    if short not in FIGURES:
-        raise InvalidValue(f"the paper has no figure {shown(name)}; {nearest(short, FIGURES)}")
+    one_of(short, FIGURES, f"the paper has no figure {shown(name)}")
     bench = Bench(data)
     with use_style():
         found = FIGURES[short](bench)
@@ -225,8 +224,7 @@ def table(name: str | int, data: Data = PAPER) -> Table:
     """
     need("a table of the paper", *MEASURING)
     short = _SIGNS.sub("", str(name)).upper()
-    if short not in _TABLES:
-        raise InvalidValue(f"the paper has no table {shown(name)}; {nearest(short, _TABLES)}")
+    one_of(short, _TABLES, f"the paper has no table {shown(name)}")
     return _TABLES[short](Bench(data))
 
 
@@ -259,8 +257,7 @@ def write(
         found before anything is computed.
     """
     need("stackbounce paper", *MEASURING, "jinja2", "matplotlib")
-    figures = [f"figures/figure-{name}.svg" for name in FIGURES]
-    prepare_folder(out, [*_NAMES, *figures])
+    prepare_folder(out, [*_NAMES, *(f"figures/figure-{name}.svg" for name in FIGURES)])
     done = audit(PAPER, progress)
     files: dict[str, bytes] = {}
     drawn: list[tuple[Picture, str]] = []

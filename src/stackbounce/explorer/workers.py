@@ -32,9 +32,6 @@ class Busy(StackbounceError):
 class TooMuch(StackbounceError):
     """A job exceeded its limit of time or memory, or its process ended."""
 
-    def __init__(self, what: str) -> None:
-        super().__init__(f"{what}: ask for fewer balls, points or numbers at once")
-
 
 def _prepare(most_bytes: int) -> None:
     """Prepare a process: it ends with the server, has limited memory, and has imported all."""
@@ -156,10 +153,8 @@ class Workers:
             return await asyncio.wrap_future(self._pool.schedule(job, arguments, timeout=seconds))
         except TimeoutError:
             what = f"this takes longer than the {seconds:g} s that one request may"
-            raise TooMuch(what) from None
         except MemoryError:
             what = "this needs more memory than the process of one request may have"
-            raise TooMuch(what) from None
         except (ProcessExpired, BrokenProcessPool):
             what = "the process that computed this ended, perhaps for want of memory"
-            raise TooMuch(what) from None
+        raise TooMuch(f"{what}: ask for fewer balls, points or numbers at once")

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
+from stackbounce.errors import InvalidType, InvalidValue, one_of, shown
 from stackbounce.fitting.problem import FitProblem, TooFewData
 from stackbounce.fitting.result import Fit
 from stackbounce.library_types import DataArray, DataFrame
@@ -78,9 +78,7 @@ class Comparison(Shown):
 
     def __getitem__(self, name: str) -> Fit:
         """The fit of one model."""
-        if name not in self.fits:
-            raise InvalidValue(f"{shown(name)} is no model here; {nearest(name, self.fits)}")
-        return self.fits[name]
+        return self.fits[one_of(name, self.fits, f"{shown(name)} is no model here")]
 
     @property
     def criterion(self) -> str:

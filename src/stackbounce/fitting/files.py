@@ -6,7 +6,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
-from stackbounce.errors import InvalidValue, ScenarioError, a_or_an, nearest, placed, shown
+from stackbounce.errors import InvalidValue, ScenarioError, a_or_an, one_of, placed, shown
 from stackbounce.fitting.parameters import Range
 from stackbounce.fitting.problem import FitProblem
 from stackbounce.library_types import DataArray
@@ -186,9 +186,8 @@ def check_name(path: str, name: object, drops: Mapping[str, Drop]) -> None:
 
 def _check_keys(table: Mapping[str, Any], known: Sequence[str], path: str) -> None:
     for key in table:
-        if key not in known:
-            word = key if key.isidentifier() else shown(key)
-            raise InvalidValue(f"{path}{word[:60]} is not a known key; {nearest(key, known)}")
+        word = key if key.isidentifier() else shown(key)
+        one_of(key, known, f"{path}{word[:60]} is not a known key")
 
 
 def _measured(given: object, path: str, folder: Path) -> dict[str, Any]:

@@ -127,9 +127,9 @@ class Objective:
         return np.asarray(self.spans[:, 1] - self.spans[:, 0])
 
     @property
-    def priors(self) -> list[Parameter]:
-        """The parameters with a prior."""
-        return [parameter for parameter in self.parameters if parameter.prior is not None]
+    def priors(self) -> list[tuple[Parameter, float, float]]:
+        """The parameters with a prior, each with its mean and standard deviation."""
+        return [(parameter, *parameter.prior) for parameter in self.parameters if parameter.prior]
 
     @property
     def records(self) -> list[str]:
@@ -271,8 +271,7 @@ class Objective:
                 error = np.array([datum.error for datum in measured.data])
                 parts.append((self.predict(key, x) - value) / error)
         values = self.values(x)
-        for parameter in self.priors:
-            mean, known_to = parameter.prior or (0.0, 1.0)
+        for parameter, mean, known_to in self.priors:
             parts.append(((values[parameter.name] - mean) / known_to)[:, None])
         parts += [np.stack([self._of_records(key, trial) for trial in x]) for key in self.records]
         whole = np.concatenate(parts, axis=1)

@@ -92,9 +92,7 @@ class Parameter:
     @property
     def span(self) -> tuple[float, float]:
         """The bounds in the search coordinate."""
-        if self.logarithmic:
-            return math.log(self.low), math.log(self.high)
-        return self.low, self.high
+        return self.coordinate(self.low), self.coordinate(self.high)
 
     def value(self, x: Array) -> Array:
         """Return the number at a search coordinate, kept within the bounds."""

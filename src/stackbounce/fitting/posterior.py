@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, nearest, shown, whole
+from stackbounce.errors import one_of, shown, whole
 from stackbounce.extras import need
 from stackbounce.fitting.objective import Objective
 from stackbounce.library_types import Dataset, UFloat
@@ -107,8 +107,7 @@ class Posterior(Shown):
         InvalidValue
             If it was not varied.
         """
-        if name not in self.names:
-            raise InvalidValue(f"{shown(name)} was not varied; {nearest(name, self.names)}")
+        one_of(name, self.names, f"{shown(name)} was not varied")
         return np.asarray(self.chain[:, :, self.names.index(name)].ravel())
 
     def to_dataset(self) -> Dataset:

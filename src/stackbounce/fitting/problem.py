@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidType, InvalidValue, between, counted, nearest, shown, whole
+from stackbounce.errors import InvalidType, InvalidValue, between, counted, one_of, shown, whole
 from stackbounce.fitting.least_squares import Minimum, expected_trials, find_minima
 from stackbounce.fitting.measurements import Measured, read_measured
 from stackbounce.fitting.objective import Objective, touch_name
@@ -140,8 +140,7 @@ class FitProblem:
         if not isinstance(data, Mapping):
             raise InvalidType(f"data must map each drop's name to its data, got {shown(data)}")
         for key in data:
-            if key not in self.drops:
-                raise InvalidValue(f"data of {shown(key)}: no drop; {nearest(key, self.drops)}")
+            one_of(key, self.drops, f"data of {shown(key)}: no drop")
         paths = {key: f"{key}." if key else "" for key in data}
         return {key: read_measured(self.drops[key], data[key], paths[key]) for key in data}
 
@@ -179,10 +178,9 @@ class FitProblem:
         objective = replace(self.objective, rtol=accuracy)  # with its own count of unsolved runs
         count = None if starts is None else whole("starts", starts, 1, _MOST_STARTS)
         first, seed = _first_trial(objective), seed_of(rng)
-        expected = expected_trials(objective, count)
         course = objective.course
         try:
-            with course.reported(progress, expected):
+            with course.reported(progress, expected_trials(objective, count)):
                 minima = find_minima(objective, first[None], count, seed)
         except KeyboardInterrupt as stopped:
             if course.best is None:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.errors import InvalidValue, one_of, shown
 from stackbounce.measure.quantities import LARGEST, deviation, quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.run.quantities import QUANTITIES
@@ -41,10 +41,7 @@ def find_quantity(drop: Drop, name: str, path: str) -> tuple[str, int]:
     ('rebound_ratios', 0)
     """
     base, dot, index = name.partition(".")
-    if base not in QUANTITIES:
-        raise InvalidValue(
-            f"{path[:60]} is not a measured quantity; {nearest(base, [*QUANTITIES, 'force.0'])}"
-        )
+    one_of(base, [*QUANTITIES, "force.0"], f"{path[:60]} is not a measured quantity")
     part = QUANTITIES[base].part
     if not part and dot:
         raise InvalidValue(f"{path}: {base} is of the whole stack and takes no number")

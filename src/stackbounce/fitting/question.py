@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.errors import InvalidValue, nearest, one_of, shown
 from stackbounce.fitting.files import Parts, convert_measured
 from stackbounce.fitting.parameters import list_paths
 from stackbounce.fitting.problem import FitProblem
@@ -104,10 +104,8 @@ def _own_name(parts: Parts, name: str) -> tuple[str, str]:
     if "" in parts.drops:
         return "", name
     key, _, own = name.partition(".")
-    if key not in parts.drops:
-        right = f"DROP.NAME, such as {next(iter(parts.drops))}.rebound_ratios.1"
-        raise InvalidValue(f"--measured must be {right}, got {name}; {nearest(key, parts.drops)}")
-    return key, own
+    right = f"DROP.NAME, such as {next(iter(parts.drops))}.rebound_ratios.1"
+    return one_of(key, parts.drops, f"--measured must be {right}, got {name}"), own
 
 
 def has_times(data: Mapping[str, Any]) -> bool:

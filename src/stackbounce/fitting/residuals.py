@@ -92,8 +92,7 @@ def list_residuals(objective: Objective, x: Array) -> list[Residual]:
             row = (datum.value, datum.error, float(value), float(pull), datum.unit)
             found.append(Residual(key, datum.name, *row))
     values = objective.values(x[None])
-    for parameter in objective.priors:
-        mean, error = parameter.prior or (0.0, 1.0)
+    for parameter, mean, error in objective.priors:
         fitted = float(values[parameter.name][0])
         row = (mean, error, fitted, (fitted - mean) / error, parameter.unit)
         found.append(Residual("", f"{parameter.name} (known)", *row))

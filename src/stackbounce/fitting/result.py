@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, nearest, positive, shown, unmasked
+from stackbounce.errors import InvalidValue, one_of, positive, shown, unmasked
 from stackbounce.fitting import notes, posterior
 from stackbounce.fitting.covariance import estimate_covariance, find_directions
 from stackbounce.fitting.least_squares import Minimum
@@ -63,9 +63,7 @@ class Fit(Shown):
         return self.values[self._known(name)]
 
     def _known(self, name: str) -> str:
-        if name not in self.names:
-            raise InvalidValue(f"{shown(name)} was not varied; {nearest(name, self.names)}")
-        return name
+        return one_of(name, self.names, f"{shown(name)} was not varied")
 
     @property
     def names(self) -> list[str]:
@@ -405,10 +403,7 @@ class Fit(Shown):
         """Return the name of a drop, None for the only one; raise if there is none of that name."""
         known = self.objective.drops
         key = next(iter(known)) if drop is None and len(known) == 1 else drop
-        if key is None or key not in known:
-            right = nearest(key or "", known)
-            raise InvalidValue(f"drop must name one of the drops, got {shown(drop)}; {right}")
-        return key
+        return one_of(key or "", known, f"drop must name one of the drops, got {shown(drop)}")
 
     def _numbers(self, key: str) -> dict[str, UFloat]:
         """Return the varied and tied numbers of a drop by path, correlated as in `covariance`."""

@@ -80,7 +80,9 @@ def _split(content: str) -> list[Row]:
     rows: list[Row] = []
     lines = content.split("\n")
     filled = [line for line in lines if line.strip(" \t;,")]
-    delimiter = next((mark for mark in "\t;," if 2 * _with(mark, filled) >= len(filled) > 0), "\t")
+    lines_with = {mark: sum(mark in line for line in filled) for mark in "\t;,"}
+    usual = (mark for mark, count in lines_with.items() if 2 * count >= len(filled) > 0)
+    delimiter = next(usual, "\t")
     for number, text in enumerate(lines, 1):
         if len(text) > LINE:
             raise FileError(f"row {number} has more than {LINE} characters")
@@ -90,8 +92,3 @@ def _split(content: str) -> list[Row]:
             raise FileError(f"it has more than {COLUMNS} columns or {_MOST} drops")
         rows.append((number, split(text, delimiter)))
     return rows
-
-
-def _with(mark: str, lines: list[str]) -> int:
-    """Return how many lines have a mark between cells."""
-    return sum(mark in line for line in lines)

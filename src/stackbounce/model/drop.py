@@ -10,6 +10,7 @@ from stackbounce.errors import (
     InvalidType,
     InvalidValue,
     finite,
+    instance,
     listed,
     no_attribute,
     non_negative,
@@ -101,7 +102,10 @@ class Drop(Shown):
         contacts = listed("contacts", self.contacts, _MOST_ITEMS)
         given: object = self.gaps
         gaps = (0.0,) * (len(balls) - 1) if given is None else listed("gaps", given, _MOST_ITEMS)
-        _check_balls(balls)
+        if not balls:
+            raise InvalidValue("balls must hold at least one ball, got none")
+        for i, ball in enumerate(balls):
+            instance(f"balls.{i}", ball, Ball)
         _check_contacts(contacts, len(balls))
         if len(gaps) != len(balls) - 1:
             raise InvalidValue(
@@ -359,14 +363,6 @@ class Drop(Shown):
         import stackbounce  # by its public name: the model knows nothing of the explorer
 
         return stackbounce.explore(self, height=height)
-
-
-def _check_balls(balls: tuple[object, ...]) -> None:
-    if not balls:
-        raise InvalidValue("balls must hold at least one ball, got none")
-    for i, ball in enumerate(balls):
-        if not isinstance(ball, Ball):
-            raise InvalidType(f"balls.{i} must be a Ball, got {shown(ball)}")
 
 
 def _check_contacts(contacts: tuple[Any, ...], count: int) -> None:

@@ -116,15 +116,13 @@ def _value(kind: type, key: str, value: object, path: str, exponent: float = 1.0
         _raised("", between, f"{path}.exponent", exponent, 1.0, STEEPEST)
         power = "" if exponent == 1.0 else f"**{exponent!r}"
         unit = Unit(unit.symbol.replace("**exponent", power))
+    place = _join(path, key)
     if isinstance(value, list | tuple):
         return [
-            _quantity(member, unit, f"{_join(path, key)}.{i}") for i, member in enumerate(value)
+            _raised("", quantity, member, unit.symbol, f"{place}.{i}")
+            for i, member in enumerate(value)
         ]
-    return _quantity(value, unit, _join(path, key))
-
-
-def _quantity(value: object, unit: Unit, path: str) -> float:
-    return _raised("", quantity, value, unit.symbol, path)
+    return _raised("", quantity, value, unit.symbol, place)
 
 
 def _raised(path: str, make: Callable[..., _T], *arguments: object, **values: Any) -> _T:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.errors import InvalidValue, one_of, shown
 from stackbounce.library_types import DataArray, Dataset, UFloat
 from stackbounce.model import Drop
 from stackbounce.prediction.draws import Slopes, budget, carry, fit_slopes, linear_shares
@@ -159,10 +159,7 @@ class Prediction(Shown):
 
     def __getitem__(self, name: str) -> UFloat:
         """Return a value with its error, such as ``rebound_speeds.1``, in SI units."""
-        values = self._all
-        if name not in values:
-            raise InvalidValue(f"{shown(name)} is not predicted; {nearest(name, values)}")
-        return values[name]
+        return self._all[one_of(name, self._all, f"{shown(name)} is not predicted")]
 
     rebound_speeds = _parts(
         "rebound_speeds", "(N,) velocity of each ball after the impact, m/s, up-positive."
@@ -436,8 +433,7 @@ class Prediction(Shown):
         InvalidValue
             If there is no such variable, or a time is not one of the run.
         """
-        if name not in _CURVES:
-            raise InvalidValue(f"{shown(name)} is not a curve; {nearest(name, _CURVES)}")
+        one_of(name, _CURVES, f"{shown(name)} is not a curve")
         within = np.minimum(times, self.options.until)
         curves = np.array([result.sampled(within)[name] for result in self._results])
         if self.reason:

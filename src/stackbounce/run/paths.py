@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.engine.records import Drops
-from stackbounce.errors import InvalidType, InvalidValue, nearest, placed, shown
+from stackbounce.errors import InvalidType, InvalidValue, one_of, placed, shown
 from stackbounce.model import STANDARD_GRAVITY, Ball, ContactLaw, Drop
 from stackbounce.model.laws import contact_numbers
 from stackbounce.units import units_of
@@ -130,9 +130,7 @@ def number_at(drop: Drop, path: object) -> Number:
     if not isinstance(path, str):
         raise InvalidType(f"a path must be a string, got {shown(path)}")
     known = numbers_of(drop)
-    if path not in known:
-        raise InvalidValue(f"{path[:60]} is not a parameter of this drop; {nearest(path, known)}")
-    return known[path]
+    return known[one_of(path, known, f"{path[:60]} is not a parameter of this drop")]
 
 
 def value_in(drop: Drop, number: Number) -> float:

@@ -530,7 +530,11 @@ class Result(Shown):
             table = np.empty((balls, len(wanted)))
             table[:, order] = np.reshape(getattr(samples, name), (-1, balls)).T
             tables[name] = table
-        return tables | {"energy": self._energy(tables)}
+        mass = np.array([ball.mass for ball in self.drop.balls])[:, None]
+        kinetic = 0.5 * mass * tables["velocity"] ** 2
+        potential = mass * self.drop.gravity * tables["position"]
+        tables["energy"] = np.sum(kinetic + potential + tables["stored"], axis=0)
+        return tables
 
     @functools.cached_property
     def _rows(self) -> Array:
@@ -552,12 +556,6 @@ class Result(Shown):
             end = f" to the {last:g} s that the run reached" if stopped else ""
             raise InvalidValue(f"times must be seconds from 0{end}, got {bad[0]:g}")
         return wanted
-
-    def _energy(self, tables: dict[str, Array]) -> Array:
-        mass = np.array([ball.mass for ball in self.drop.balls])[:, None]
-        kinetic = 0.5 * mass * tables["velocity"] ** 2
-        potential = mass * self.drop.gravity * tables["position"]
-        return np.asarray(np.sum(kinetic + potential + tables["stored"], axis=0))
 
     def _flights(self) -> Iterator[tuple[int, float, float, float]]:
         """Yield the flights of all balls: ball, start, velocity then, end.

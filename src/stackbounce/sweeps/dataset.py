@@ -2,12 +2,13 @@
 
 import json
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, shown, unmasked
+from stackbounce.library_types import DataArray, Dataset
 from stackbounce.model import Drop
 from stackbounce.run.batch import solve
 from stackbounce.run.options import Options, run_options
@@ -15,9 +16,6 @@ from stackbounce.run.paths import Number, check, identifier, number_at
 from stackbounce.run.result import Status
 from stackbounce.units import count_written, factor, in_unit, quantity
 from stackbounce.version import __version__
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _MOST = 10**9
 _RIGHT = "START:STOP:COUNT, with :log for logarithmic spacing, or VALUE,VALUE,…"
@@ -32,12 +30,25 @@ _OUTPUTS = {  # name in `Outcomes`: (dimension of its own, type, unit, meaning)
 
 
 def grid(drop: Drop, texts: Sequence[str]) -> dict[str, NDArray[np.float64]]:
-    """Return the values of each parameter that the texts describe, by its path.
+    """Return the values in SI units of each parameter that the texts describe, by its path.
+
+    Parameters
+    ----------
+    drop : Drop
+        The drop that has the parameters.
+    texts : sequence of str
+        ``PATH=START:STOP:COUNT`` for equal steps, the same with ``:log`` for equal ratios, or
+        ``PATH=VALUE,VALUE,…``; values with or without units.
+
+    Returns
+    -------
+    dict
+        (n,) values of each.
 
     Raises
     ------
     InvalidValue
-        If a text cannot be read, or two name the same number.
+        If a text cannot be read, the drop has no such number, or two name the same one.
 
     Examples
     --------
@@ -45,52 +56,22 @@ def grid(drop: Drop, texts: Sequence[str]) -> dict[str, NDArray[np.float64]]:
     >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
     >>> grid(drop, ["balls.0.mass=1kg:3kg:3", "height=5cm,50cm"])
     {'balls.0.mass': array([1., 2., 3.]), 'height': array([0.05, 0.5 ])}
+    >>> grid(drop, ["contacts.0.stiffness=1kN/m:100kN/m:3:log"])
+    {'contacts.0.stiffness': array([  1000.,  10000., 100000.])}
+    >>> grid(drop, ["balls.0.mass=1g:3g:3:lin"])
+    {'balls.0.mass': array([0.001, 0.002, 0.003])}
     """
     found: dict[str, NDArray[np.float64]] = {}
     for text in texts:
-        path, values = axis(drop, text)
-        if path in found:
-            raise InvalidValue(f"--over must name each number once, got {path} twice")
-        found[path] = values
+        path, equals, written = text.partition("=")
+        if not equals or not written:
+            raise InvalidValue(f"--over must be PATH={_RIGHT}, got {shown(text)}")
+        number = number_at(drop, path.strip())
+        values = _spaced(number, written.strip())
+        if number.path in found:
+            raise InvalidValue(f"--over must name each number once, got {number.path} twice")
+        found[number.path] = values
     return found
-
-
-def axis(drop: Drop, text: str) -> tuple[str, NDArray[np.float64]]:
-    """Return the path of the parameter that a text describes, and its values in SI units.
-
-    Parameters
-    ----------
-    drop : Drop
-        The drop that has the parameter.
-    text : str
-        ``PATH=START:STOP:COUNT`` for equal steps, the same with ``:log`` for equal ratios, or
-        ``PATH=VALUE,VALUE,…``; values with or without units.
-
-    Returns
-    -------
-    path : str
-    values : ndarray
-        (n,)
-
-    Raises
-    ------
-    InvalidValue
-        If the text cannot be read or the drop has no such number.
-
-    Examples
-    --------
-    >>> import stackbounce as sb
-    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
-    >>> axis(drop, "contacts.0.stiffness=1kN/m:100kN/m:3:log")
-    ('contacts.0.stiffness', array([  1000.,  10000., 100000.]))
-    >>> axis(drop, "balls.0.mass=1g:3g:3:lin"), axis(drop, "balls.0.mass=1g,20g")
-    (('balls.0.mass', array([0.001, 0.002, 0.003])), ('balls.0.mass', array([0.001, 0.02 ])))
-    """
-    path, equals, written = text.partition("=")
-    if not equals or not written:
-        raise InvalidValue(f"--over must be PATH={_RIGHT}, got {shown(text)}")
-    number = number_at(drop, path.strip())
-    return number.path, _spaced(number, written.strip())
 
 
 def _spaced(number: Number, written: str) -> NDArray[np.float64]:
@@ -122,7 +103,7 @@ def sweep(
     until: float | None = None,
     rtol: float = 1e-12,
     event_limit: int = 1_000_000,
-) -> "xr.Dataset":
+) -> Dataset:
     """Run a drop for all combinations of other parameter values; return the results.
 
     Parameters
@@ -193,7 +174,7 @@ def sweep(
     return _dataset(drop, numbers, arrays, options)
 
 
-def read_values(drop: Drop, values: Mapping[str, Any]) -> tuple[list[Number], list["xr.DataArray"]]:
+def read_values(drop: Drop, values: Mapping[str, Any]) -> tuple[list[Number], list[DataArray]]:
     """Return the numbers that vary, and their values with named dimensions in SI units."""
     if not isinstance(values, Mapping):
         raise InvalidType(f"values must be a mapping of paths to values, got {shown(values)}")
@@ -213,7 +194,7 @@ def check_together(numbers: Sequence[Number]) -> None:
                 raise InvalidValue(f"{number.path} and {other}: only one of the two can vary")
 
 
-def _check_pairs(numbers: Sequence[Number], arrays: Sequence["xr.DataArray"]) -> None:
+def _check_pairs(numbers: Sequence[Number], arrays: Sequence[DataArray]) -> None:
     """Raise if parameters share a dimension and have not as many values along it."""
     known: dict[Any, tuple[str, int]] = {}
     for number, array in zip(numbers, arrays, strict=True):
@@ -226,7 +207,7 @@ def _check_pairs(numbers: Sequence[Number], arrays: Sequence["xr.DataArray"]) ->
                 )
 
 
-def _named(number: Number, value: Any) -> "xr.DataArray":
+def _named(number: Number, value: Any) -> DataArray:
     """Return the values of a parameter as a DataArray of floats in SI units."""
     import xarray as xr
 
@@ -265,8 +246,8 @@ def _named(number: Number, value: Any) -> "xr.DataArray":
 
 
 def _dataset(
-    drop: Drop, numbers: Sequence[Number], arrays: Sequence["xr.DataArray"], options: Options
-) -> "xr.Dataset":
+    drop: Drop, numbers: Sequence[Number], arrays: Sequence[DataArray], options: Options
+) -> Dataset:
     import xarray as xr
 
     dims = tuple(dict.fromkeys(dim for array in arrays for dim in array.dims))

@@ -11,7 +11,7 @@ import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,14 +19,12 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.extras import need
 from stackbounce.files import write_files
+from stackbounce.library_types import DataArray, Dataset
 from stackbounce.run.batch import Block, blocks
 from stackbounce.run.paths import identifier
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 _UNFINISHED = re.compile(r"\.[0-9a-f]{32}\.partial$")  # a chunk that zarr was writing
-Writer: TypeAlias = Callable[[Block, "xr.Dataset"], None]
+Writer: TypeAlias = Callable[[Block, Dataset], None]
 
 
 class Form:
@@ -44,7 +42,7 @@ class Form:
 
     def __init__(
         self,
-        sample: "xr.Dataset",
+        sample: Dataset,
         axes: Mapping[str, tuple[str, NDArray[np.float64]]],
         sides: Sequence[int],
     ) -> None:
@@ -64,11 +62,11 @@ class Form:
         """The attributes in a file; `coordinates` names those that have not their dimension's name,
         as xarray does."""
 
-    def shape(self, one: "xr.DataArray") -> tuple[int, ...]:
+    def shape(self, one: DataArray) -> tuple[int, ...]:
         """Return the shape of a variable in the whole file."""
         return tuple(self.coordinates.sizes[dim] for dim in one.dims)
 
-    def is_of(self, found: "xr.Dataset") -> bool:
+    def is_of(self, found: Dataset) -> bool:
         """Return whether a file is of this sweep: with its attributes, coordinates and results."""
         return (
             found.attrs == self.sample.attrs
@@ -122,14 +120,14 @@ def writer(path: Path) -> Iterator[Writer]:
         group: Any = zarr.open_group(path, mode="r+")
         arrays = dict(group.arrays())
 
-        def write(block: Block, data: "xr.Dataset") -> None:
+        def write(block: Block, data: Dataset) -> None:
             for name, variable in data.data_vars.items():
                 arrays[name][block] = variable.values
 
         yield write
 
 
-def opened(path: str | Path) -> "xr.Dataset":
+def opened(path: str | Path) -> Dataset:
     """Open what `write` has written; numbers are read when they are needed."""
     import xarray as xr
 

@@ -27,6 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import FileError, InvalidValue, shown
+from stackbounce.library_types import Dataset
 from stackbounce.model import Drop
 from stackbounce.run.batch import Block, sides, size
 from stackbounce.sweeps import files
@@ -34,7 +35,6 @@ from stackbounce.sweeps.dataset import check_along, read_values, sweep
 from stackbounce.sweeps.files import Form
 
 if TYPE_CHECKING:
-    import xarray as xr
     from distributed import Client
 
 _WRITER = b"# process "
@@ -45,7 +45,7 @@ BLOCK = 2**16
 _TOGETHER = 4  # blocks submitted to a cluster at a time, for each of its threads
 _DIMENSION = re.compile(r"\w[\w.-]*")  # a name that all kinds of file can have
 _Axes: TypeAlias = Mapping[str, tuple[str, NDArray[np.float64]]]  # dimension and values, by path
-_Done: TypeAlias = Iterator[tuple[Block, "xr.Dataset"]]
+_Done: TypeAlias = Iterator[tuple[Block, Dataset]]
 
 
 @contextlib.contextmanager

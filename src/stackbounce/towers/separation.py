@@ -1,6 +1,5 @@
 """The separation limit: the gap above which the collisions of a stack are separate."""
 
-import dataclasses
 import math
 from typing import Any
 
@@ -29,7 +28,7 @@ def replace_gaps(drop: Drop, only: int | None, gap: float) -> Drop:
     ((0.1, 0.5), (0.5, 0.5))
     """
     gaps = [gap if only in (None, i) else own for i, own in enumerate(drop.gaps)]
-    return dataclasses.replace(drop, gaps=gaps)
+    return drop.replace(gaps=gaps)
 
 
 def separation_limit(drop: Drop, only: int | None = None, *, rtol: float = 1e-12) -> float:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, StackbounceError, a_or_an, nearest, shown
+from stackbounce.errors import InvalidValue, StackbounceError, a_or_an, one_of, shown
 from stackbounce.explorer.answers.predictions import run_drop
 from stackbounce.fitting import Fit, Record, fit
 from stackbounce.fitting.files import convert_measured
@@ -200,9 +200,7 @@ def _find_channel(drop: Drop, what: str, which: str, record: Measurement) -> Dat
     if not own:
         holds = a_or_an(record.evidence["holds"])
         raise InvalidValue(f"{what}: {record.source} holds no force over time, but {holds}")
-    if which not in own:
-        raise InvalidValue(f"{what} must be a channel, got {shown(which)}; {nearest(which, own)}")
-    return own[which]
+    return own[one_of(which, own, f"{what} must be a channel, got {shown(which)}")]
 
 
 def _describe_value(done: Fit, path: str) -> dict[str, Any]:

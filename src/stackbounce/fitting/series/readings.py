@@ -17,7 +17,7 @@ from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.measure.reading.roles import is_unit
 from stackbounce.measure.reading.text import MISSING
 from stackbounce.run.quantities import Array
-from stackbounce.units import handy, quantity
+from stackbounce.units import handy_text, quantity
 
 STARTS = ("drop_height", "impact_speed")  # roles of what was before a bounce
 MEASURED = ("rebound_height", "rebound_speed", "restitution")  # of what was measured after it
@@ -182,17 +182,14 @@ def _usual(columns: Sequence[Column], body: Sequence[Row]) -> str:
     return next(unit for least, unit in _SIZES if largest >= least)
 
 
-_Found = tuple[list[dict[str, Any]], str]  # readings, and what was read
-
-
 def _by_drop(
     columns: Sequence[Column],
     numbers: dict[int, Numbers],
     lines: Sequence[int],
     groups: Sequence[str],
     notes: list[str],
-) -> _Found:
-    """Return the readings of a table with a drop in each row."""
+) -> tuple[list[dict[str, Any]], str]:
+    """Return the readings of a table with a drop in each row, and what was read."""
     starts = [column for column in columns if column.role in STARTS]
     if not starts:
         raise InvalidValue(f"no column is a drop height or an impact speed: {_listed(columns)}")
@@ -258,23 +255,11 @@ def _check(readings: DataFrame, measured: str) -> None:
                 )
             most = 1.0 if measured == "restitution" else before
             if value > most:
-                unit = UNITS[measured]
+                got, right = (handy_text(one, UNITS[measured], 3) for one in (value, most))
                 raise InvalidValue(
-                    f"row {line}: the {measured.replace('_', ' ')} is {with_unit(value, unit)} "
-                    f"after {with_unit(most, unit)}: one ball does not gain speed in a bounce; the "
+                    f"row {line}: the {measured.replace('_', ' ')} is {got} after "
+                    f"{right}: one ball does not gain speed in a bounce; the "
                     "columns may be exchanged, or it is the upper ball of a stack"
                 )
             in_turn = measured == "rebound_height" and drop.number.max() > 1
             before = value if in_turn else before
-
-
-def with_unit(value: float, unit: str) -> str:
-    """Return a number in a handy unit, with three digits.
-
-    Examples
-    --------
-    >>> with_unit(0.0053, "m")
-    '5.3 mm'
-    """
-    name, factor = handy(value, unit)
-    return f"{factor * value:.3g} {name}".strip()

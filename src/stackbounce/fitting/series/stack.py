@@ -10,12 +10,13 @@ import numpy as np
 from stackbounce.errors import FileError, InvalidValue, counted, placed
 from stackbounce.fitting.rows import Row, rows_of
 from stackbounce.fitting.series.columns import UNITS, Column, columns_of
-from stackbounce.fitting.series.readings import Numbers, headed, numbers_in, with_unit
+from stackbounce.fitting.series.readings import Numbers, headed, numbers_in
 from stackbounce.fitting.series.table import told_errors
 from stackbounce.fitting.tables import drop_of
 from stackbounce.model import Drop
 from stackbounce.model.catalogue import catalogue_ball, stacked
 from stackbounce.run.quantities import Array
+from stackbounce.units import handy_text
 
 _FALLS = {"drop_height": "height", "height": "height", "impact_speed": "impact_speed"}
 _SAME = 6  # digits in which the numbers of repeated drops are equal
@@ -139,6 +140,6 @@ def _errors(
     if freedom and (scatter := math.sqrt(float(np.sum(np.square(apart))) / freedom)) > estimate:
         why = f"the scatter of repeated drops, with {counted(freedom, 'degree of freedom')}"
         estimate = scatter
-    error = with_unit(estimate, unit)
+    error = handy_text(estimate, unit, 3)
     notes.append(f"The error of {column.text!r} is {why}, {error}, unless another is given.")
     return np.where(np.isnan(errors), estimate, errors)

@@ -10,11 +10,11 @@ import numpy as np
 from stackbounce.errors import InvalidValue, counted, nearest, placed, positive, shown
 from stackbounce.fitting.rows import File, rows_of
 from stackbounce.fitting.series.columns import UNITS, role_of
-from stackbounce.fitting.series.readings import MEASURED, STARTS, readings_of, with_unit
+from stackbounce.fitting.series.readings import MEASURED, STARTS, readings_of
 from stackbounce.library_types import DataFrame, Dataset
 from stackbounce.measure.reading.dataset import dataset_of
 from stackbounce.run.quantities import Array
-from stackbounce.units import quantity, unit_written
+from stackbounce.units import handy_text, quantity, unit_written
 
 _SAME = 6  # digits in which the heights of repeated drops are equal
 _FAR = 6.0  # robust standard deviations: a reading that differs so much is named
@@ -159,7 +159,7 @@ def _dataset(
         notes.append(
             "No error is told and no reading repeated: the error of a "
             f"{measured.replace('_', ' ')} is half of the step in which it was written, "
-            f"{with_unit(half, unit)}, unless another is given."
+            f"{handy_text(half, unit, 3)}, unless another is given."
         )
     return dataset_of(data, {})
 
@@ -189,7 +189,7 @@ def _said_of_scatter(readings: DataFrame, values: Array, scatter: float, measure
     of = f" of {readings.group.iloc[0]}" if readings.group.iloc[0] else ""
     said = (
         f"The error of one {what}{of} is the scatter of repeated readings, "
-        f"{with_unit(scatter, unit)}, with {counted(freedom, 'degree of freedom')}."
+        f"{handy_text(scatter, unit, 3)}, with {counted(freedom, 'degree of freedom')}."
     )
     several = values[np.isfinite(values).sum(axis=1) > 2]
     if not len(several):

@@ -170,8 +170,10 @@ def stacked(names: Sequence[str]) -> Stack:
         raise InvalidValue("balls must hold at least one name, got none")
     entries = [catalogue_ball(name) for name in names]
     lowest = _pair(*entries[:2]) if len(entries) > 1 else None
-    contacts = [_floor(entries[0], lowest)]
-    contacts += [_between(a, b) for a, b in itertools.pairwise(entries)]
+    floor = entries[0].contact, dict(entries[0].sources)["stiffness"]
+    if lowest is not None:
+        floor = Spring(lowest.floor_stiffness), lowest.source
+    contacts = [floor, *(_between(a, b) for a, b in itertools.pairwise(entries))]
     laws, sources = zip(*contacts, strict=True)
     many = len(entries) - 1
     gaps, told = [0.0] * many, ["no gap given"] * many
@@ -183,12 +185,6 @@ def stacked(names: Sequence[str]) -> Stack:
 def _pair(lower: CatalogueBall, upper: CatalogueBall) -> Pair | None:
     names = (lower.ball.name, upper.ball.name)
     return next((pair for pair in PAIRS if (pair.lower, pair.upper) == names), None)
-
-
-def _floor(ball: CatalogueBall, pair: Pair | None) -> tuple[ContactLaw, str]:
-    if pair is not None:
-        return Spring(pair.floor_stiffness), pair.source
-    return ball.contact, dict(ball.sources)["stiffness"]
 
 
 def _between(lower: CatalogueBall, upper: CatalogueBall) -> tuple[ContactLaw, str]:

@@ -85,13 +85,10 @@ class HuntCrossley(ContactLaw):
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return e, which follows from ``d = χ v``."""
-        return restitution(self._loss_at(speed))
-
-    def _loss_at(self, speed: float) -> float:
         d = self.dissipation * speed
         if d > LARGEST:
             raise OverflowError
-        return d
+        return restitution(d)
 
     @classmethod
     def calibrated(cls, given: Given) -> Self:

@@ -1,7 +1,7 @@
 """Two contacts in series as one law, exactly or nearly."""
 
 import math
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.model.laws.law import ContactLaw
@@ -55,7 +55,12 @@ def series(law_a: _Law, law_b: _Law) -> _Law:
     _check_classes(law_a, law_b)
     ours, theirs = law_a.series_constants(), law_b.series_constants()
     for name, our in ours.items():
-        _check_same(type(law_a), name, our, theirs[name])
+        if not math.isclose(our, theirs[name], rel_tol=_AGREE):
+            raise InvalidValue(
+                f"law_a and law_b must have the same {name}, got {shown(our)} and "
+                f"{shown(theirs[name])}: in series they are no {type(law_a).__name__}, as their "
+                "shares of the compression change"
+            )
     p = law_a.exponent
     ratio = (law_a.stiffness / law_b.stiffness) ** (1.0 / p)  # c2/c1
     share_a, share_b = 1.0 / (1.0 + ratio), ratio / (1.0 + ratio)
@@ -117,13 +122,4 @@ def _check_classes(law_a: object, law_b: object) -> None:
         raise InvalidValue(
             f"law_a and law_b must be of one class, got {got}: if both are powers with one "
             "exponent, write them as PowerLaw; otherwise they are none of the laws in series"
-        )
-
-
-def _check_same(kind: type, name: str, one: Any, other: Any) -> None:
-    same = one == other if isinstance(one, str) else math.isclose(one, other, rel_tol=_AGREE)
-    if not same:
-        raise InvalidValue(
-            f"law_a and law_b must have the same {name}, got {shown(one)} and {shown(other)}: "
-            f"in series they are no {kind.__name__}, as their shares of the compression change"
         )
