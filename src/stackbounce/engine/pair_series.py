@@ -24,7 +24,7 @@ from stackbounce.engine import pair_step as lane
 from stackbounce.engine.codes import ASK
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.pair_events import GAIN, RELEASE, TOUCH, accept, apply_event, fly
-from stackbounce.engine.pair_step import BOTH, LANES
+from stackbounce.engine.pair_step import BOTH, LANES, take_steps
 
 ORDER = 25  # of the series
 _REACH = 3.0  # the longest step, times the largest rate: the last term is then below 1e-12
@@ -39,18 +39,18 @@ C_TERMS = lane.SLOTS
 S_TERMS = C_TERMS + (ORDER + 1) * BOTH
 TERMS = S_TERMS + (ORDER + 1) * BOTH
 # Slots for each contact: a term of its free closing rate; the rate at which its surface follows;
-# the weights of c and c' in what it waits for, which is positive; the bound, the time until which
-# it is safe.
+# the weights of c and c' in what it waits for, which is positive; the bound, and the time until
+# which it is safe. The same for both contacts: the longest step, its inverse, and the part of it
+# that is made.
 _EACH = TERMS + ORDER * LANES
-V, CREEP, SIDE, DAMP, BOUND, SAFE = (_EACH + k * BOTH for k in range(6))
-# Slots for each lane: the longest step, and its inverse; the part of it that is made; 1 if an event
-# ends it, and 1 if that is the floor's; the times until which one contact is safe, and both are;
-# what the contact waits for, its slope, half its second derivative, and how sure the root is.
-_LANE = _EACH + 6 * BOTH
-LENGTH, OVER_LENGTH, PART, LANDS, FLOOR, ONE, TWO = (_LANE + k * LANES for k in range(7))
-VALUE, SLOPE, BEND, SURE = (_LANE + k * LANES for k in range(7, 11))
+V, CREEP, SIDE, DAMP, BOUND, SAFE, LENGTH, OVER_LENGTH, PART = (_EACH + k * BOTH for k in range(9))
+# Slots for each lane: 1 if an event ends the step, and 1 if that is the floor's; the times until
+# which one contact is safe, and both are; what the contact waits for, its slope, half its second
+# derivative, and how sure the root is.
+_LANE = _EACH + 9 * BOTH
+LANDS, FLOOR, ONE, TWO, VALUE, SLOPE, BEND, SURE = (_LANE + k * LANES for k in range(8))
 # The order: in a slot, so that a compiler does not unroll the loops. The most steps of a drop.
-COUNTED = _LANE + 11 * LANES
+COUNTED = _LANE + 8 * LANES
 LIMIT = COUNTED + 1
 SLOTS = LIMIT + 1
 _MASK = 31  # no change: it shows a compiler the range of a term's number
@@ -68,7 +68,7 @@ def step_by_series(x: Floats) -> None:
         _improve_root(x, order)
     _choose_steps(x)
     _move(x, order)
-    _take(x)
+    take_steps(x)
 
 
 @kernel
@@ -98,26 +98,23 @@ def _choose_lengths(x: Floats) -> None:
     """
     for i in range(BOTH):
         pressing, surface = x[lane.PRESSING + i], x[lane.S + i]
-        side = 1.0 if pressing > 0.0 else -1.0
-        x[SIDE + i] = side
-        x[DAMP + i] = side * x[lane.D + i] if pressing + x[lane.LEVEL + i] > 0.0 else 0.0
         x[CREEP + i] = x[lane.NU + i] + x[lane.MU_NOW + i] if pressing + surface > 0.0 else 0.0
     for i in range(LANES):
         k, one = LANES + i, x[lane.OVER_1 + i]
         k0, k1 = x[lane.PRESSING + i] * one, x[lane.PRESSING + k] * (one + x[lane.OVER_2 + i])
         both = x[lane.PRESSING + i] * x[lane.PRESSING + k] * (one * one)
         springs = 0.5 * (k0 + k1 + math.sqrt((k0 - k1) * (k0 - k1) + 4.0 * both))
-        dashpots = k0 * x[lane.D + i] + k1 * x[lane.D + k]
-        creep = max(x[CREEP + i], x[CREEP + k])
+        dashpots, creep = k0 * x[lane.D + i] + k1 * x[lane.D + k], max(x[CREEP + i], x[CREEP + k])
         rate = math.sqrt(springs + dashpots * dashpots + creep * creep)
-        length = _REACH / max(rate, _REACH / _FLIGHT)
-        over, unsure = 1.0 / length, x[lane.UNSURE + i]
-        x[LENGTH + i], x[OVER_LENGTH + i] = length, over
-        x[DAMP + i], x[DAMP + k] = over * x[DAMP + i], over * x[DAMP + k]
-        x[lane.MARGIN + i], x[lane.MARGIN + k] = (
-            unsure * x[lane.SPAN + i],
-            unsure * x[lane.SPAN + k],
-        )
+        x[LENGTH + i] = x[LENGTH + k] = _REACH / max(rate, _REACH / _FLIGHT)
+        x[lane.MARGIN + i] = x[lane.MARGIN + k] = x[lane.UNSURE + i]
+    for i in range(BOTH):
+        pressing, compressed = x[lane.PRESSING + i], x[lane.LEVEL + i]
+        side, over = 1.0 if pressing > 0.0 else -1.0, 1.0 / x[LENGTH + i]
+        damp = side * x[lane.D + i] * over
+        x[SIDE + i], x[OVER_LENGTH + i] = side, over
+        x[DAMP + i] = damp if pressing + compressed > 0.0 else 0.0
+        x[lane.MARGIN + i] *= x[lane.SPAN + i]
 
 
 @kernel
@@ -129,27 +126,24 @@ def _expand(x: Floats, order: int) -> None:
         x[C_TERMS + i], x[S_TERMS + i] = c, s
         x[V + i] = r + (x[lane.MU_NOW + i] * c - x[lane.NU + i] * s)
     for j in range(order):
-        at, over = (j & _MASK) * BOTH, 1.0 / (j + 1.0)
-        c_now, s_now = C_TERMS + at, S_TERMS + at
-        c_next, s_next = c_now + BOTH, s_now + BOTH
+        c, s = C_TERMS + (j & _MASK) * BOTH, S_TERMS + (j & _MASK) * BOTH
+        over = 1.0 / (j + 1.0)
         for i in range(LANES):
             k, h, v0, v1 = LANES + i, x[LENGTH + i] * over, x[V + i], x[V + LANES + i]
-            floor = x[lane.PRESSING + i] * (x[c_now + i] + x[lane.D + i] * v0)
-            balls = x[lane.PRESSING + k] * (x[c_now + k] + x[lane.D + k] * v1)
+            floor = x[lane.PRESSING + i] * (x[c + i] + x[lane.D + i] * v0)
+            balls = x[lane.PRESSING + k] * (x[c + k] + x[lane.D + k] * v1)
             push = (balls - floor) * x[lane.OVER_1 + i]
             x[V + i], x[V + k] = h * push, -h * (push + balls * x[lane.OVER_2 + i])
-            x[c_next + i], x[c_next + k] = h * v0, h * v1
+            x[c + BOTH + i], x[c + BOTH + k] = h * v0, h * v1
         if j == 0:
             for i in range(LANES):
                 x[V + i] += x[LENGTH + i] * x[lane.GRAVITY + i]
         if creeps:
-            for i in range(LANES):
-                k, h = LANES + i, x[LENGTH + i] * over
-                s0 = h * (x[lane.MU_NOW + i] * x[c_now + i] - x[lane.NU + i] * x[s_now + i])
-                s1 = h * (x[lane.MU_NOW + k] * x[c_now + k] - x[lane.NU + k] * x[s_now + k])
-                x[s_next + i], x[s_next + k] = s0, s1
-                x[c_next + i] -= s0
-                x[c_next + k] -= s1
+            for i in range(BOTH):
+                rate = x[lane.MU_NOW + i] * x[c + i] - x[lane.NU + i] * x[s + i]
+                follows = x[LENGTH + i] * over * rate
+                x[s + BOTH + i] = follows
+                x[c + BOTH + i] -= follows
 
 
 @kernel
@@ -240,69 +234,45 @@ def _choose_steps(x: Floats) -> None:
         lands = x[LANDS + i] if sure else 0.0
         u = u if lands > 0.0 else x[TWO + i]
         stuck = 1.0 if u <= 0.0 or steps > limit else 0.0
-        x[LANDS + i], x[PART + i], x[lane.DOUBT + i], x[lane.STEPS + i] = lands, u, stuck, steps
+        x[LANDS + i], x[lane.DOUBT + i], x[lane.STEPS + i] = lands, stuck, steps
+        x[PART + i] = x[PART + LANES + i] = u
         x[lane.UNSURE + i] = unsure + error * x[lane.V0 + i]
         x[lane.NEW + lane.T + i] = x[lane.Y + lane.T + i] + u * x[LENGTH + i]
         holds = x[lane.PRESSING + i] + x[lane.PRESSING + LANES + i] + x[lane.GRAVITY + i]
-        flies = 1.0 if holds == 0.0 else 0.0
-        x[lane.ASKS + i] = lands + stuck + flies
+        x[lane.ASKS + i] = lands + stuck + (1.0 if holds == 0.0 else 0.0)
         x[lane.TAKEN + i] = x[lane.TAKEN + LANES + i] = 1.0 - lands
 
 
 @kernel
 def _move(x: Floats, order: int) -> None:
     """Compute the state at the end of each step; the rate is the slope of the compression."""
-    last = (order & _MASK) * BOTH
+    last, c_new, r_new = (order & _MASK) * BOTH, lane.NEW + lane.C, lane.NEW + lane.R
     for i in range(BOTH):
-        x[lane.NEW + lane.C + i], x[lane.NEW + lane.R + i] = x[C_TERMS + last + i], 0.0
+        x[c_new + i], x[r_new + i] = x[C_TERMS + last + i], 0.0
     for j in range(order - 1, -1, -1):
-        now = C_TERMS + (j & _MASK) * BOTH
-        for i in range(LANES):
-            u, k = x[PART + i], LANES + i
-            c0, c1 = x[lane.NEW + lane.C + i], x[lane.NEW + lane.C + k]
-            x[lane.NEW + lane.R + i] = c0 + u * x[lane.NEW + lane.R + i]
-            x[lane.NEW + lane.R + k] = c1 + u * x[lane.NEW + lane.R + k]
-            x[lane.NEW + lane.C + i], x[lane.NEW + lane.C + k] = (
-                x[now + i] + u * c0,
-                x[now + k] + u * c1,
-            )
-    for i in range(LANES):
-        over = x[OVER_LENGTH + i]
-        x[lane.NEW + lane.R + i] *= over
-        x[lane.NEW + lane.R + LANES + i] *= over
+        term = C_TERMS + (j & _MASK) * BOTH
+        for i in range(BOTH):
+            u, c = x[PART + i], x[c_new + i]
+            x[r_new + i] = c + u * x[r_new + i]
+            x[c_new + i] = x[term + i] + u * c
+    for i in range(BOTH):
+        x[r_new + i] *= x[OVER_LENGTH + i]
     if x[lane.CREEPS] > 0.0:
         for i in range(BOTH):
             x[lane.S_NEW + i] = x[S_TERMS + last + i]
         for j in range(order - 1, -1, -1):
-            now = S_TERMS + (j & _MASK) * BOTH
-            for i in range(LANES):
-                u, k = x[PART + i], LANES + i
-                x[lane.S_NEW + i] = x[now + i] + u * x[lane.S_NEW + i]
-                x[lane.S_NEW + k] = x[now + k] + u * x[lane.S_NEW + k]
+            term = S_TERMS + (j & _MASK) * BOTH
+            for i in range(BOTH):
+                x[lane.S_NEW + i] = x[term + i] + x[PART + i] * x[lane.S_NEW + i]
+        _recover(x)
 
 
 @kernel
-def _take(x: Floats) -> None:
-    """Take all steps that end at no event.
-
-    A surface that has recovered but for less than what is not sure has recovered. A contact that is
-    not compressed any more waits for a touch.
-    """
+def _recover(x: Floats) -> None:
+    """Let surfaces have recovered but for less than what is not sure; take their steps."""
     for i in range(BOTH):
-        c, r, s, s_new = (
-            x[lane.Y + lane.C + i],
-            x[lane.Y + lane.R + i],
-            x[lane.S + i],
-            x[lane.S_NEW + i],
-        )
+        s, s_new = x[lane.S + i], x[lane.S_NEW + i]
         rest = s_new if x[lane.PRESSING + i] > 0.0 or s_new > x[lane.MARGIN + i] else 0.0
-        c_new, r_new = x[lane.NEW + lane.C + i], x[lane.NEW + lane.R + i]
-        r_new += x[lane.NU + i] * (rest - s_new)
+        x[lane.NEW + lane.R + i] += x[lane.NU + i] * (rest - s_new)
+        x[lane.S_NEW + i] = rest
         x[lane.S + i] = rest if x[lane.TAKEN + i] > 0.0 else s
-        x[lane.Y + lane.R + i] = r_new if x[lane.TAKEN + i] > 0.0 else r
-        c, level = c_new if x[lane.TAKEN + i] > 0.0 else c, x[lane.LEVEL + i]
-        x[lane.Y + lane.C + i] = c
-        x[lane.LEVEL + i] = 0.0 if x[lane.PRESSING + i] == 0.0 and c <= 0.0 else level
-    for i in range(LANES):
-        t, t_new = x[lane.Y + lane.T + i], x[lane.NEW + lane.T + i]
-        x[lane.Y + lane.T + i] = t_new if x[lane.TAKEN + i] > 0.0 else t

@@ -364,11 +364,20 @@ def _go_on(x: Floats) -> None:
         x[STEPS + i] += 1.0
         x[ASKS + i] = asks
         x[TAKEN + i] = x[TAKEN + LANES + i] = taken
+    take_steps(x)
+
+
+@kernel
+def take_steps(x: Floats) -> None:
+    """Let the state at the end of a step be the present one of the lanes that are in TAKEN.
+
+    An open contact that is not compressed any more waits for a touch, as `accept` has it, too.
+    """
     for i in range(BOTH):
         c, c_new, r, r_new = x[Y + C + i], x[NEW + C + i], x[Y + R + i], x[NEW + R + i]
         x[Y + C + i] = c_new if x[TAKEN + i] > 0.0 else c
         x[Y + R + i] = r_new if x[TAKEN + i] > 0.0 else r
-    if x[WATCHES] > 0.0:  # as `accept` in `pair_events` does
+    if x[WATCHES] > 0.0:
         for i in range(BOTH):
             c, sign, level = x[Y + C + i], x[GAIN_SIGN + i], x[LEVEL + i]
             away = x[PRESSING + i] == 0.0 and c <= 0.0

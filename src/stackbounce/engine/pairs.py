@@ -121,12 +121,10 @@ def _run(drops: Drops, first: float, linear: bool, out: Outcomes, x: Floats) -> 
 @kernel
 def _idle(x: Floats, i: int) -> None:
     """Let a lane fly without a drop."""
+    for slot in range(i, lane.TOLERANCE, LANES):
+        x[slot] = 0.0
     x[lane.STATUS + i], x[lane.ROW + i], x[lane.V0 + i] = codes.ASK, -1.0, 1.0
-    x[lane.STEPS + i], x[lane.UNSURE + i], x[lane.GRAVITY + i] = 0.0, 0.0, 0.0
-    for k in (i, LANES + i):
-        x[lane.PRESSING + k], x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = 0.0, -1.0, 0.0
-        x[lane.S + k], x[lane.S_NEW + k], x[lane.MU_NOW + k], x[lane.NU + k] = 0.0, 0.0, 0.0, 0.0
-        x[lane.LEVEL + k] = 0.0
+    x[lane.Y + lane.C + i], x[lane.Y + lane.C + LANES + i] = -1.0, -1.0
     go_by(x, i, TIME, 1.0)
 
 
