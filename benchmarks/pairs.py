@@ -27,6 +27,7 @@ from stackbounce.engine.records import Drops
 from stackbounce.engine.work import EVENT_LIMIT
 from stackbounce.model.laws import ContactLaw, contact_numbers
 from stackbounce.run.batch import new_outcomes, run_lanes
+from stackbounce.run.engines import choose_lanes
 from stackbounce.run.options import Options
 
 LAWS = {
@@ -150,8 +151,10 @@ def _ways(law: str, drops: Drops) -> dict[tuple[str, float], tuple[int, Way]]:
     ways: dict[tuple[str, float], tuple[int, Way]] = {}
     for steps in STEPS:
         ways[LOOP, steps] = count, lambda steps=steps: loop(drops, steps) / speed
+    base = sb.Drop([sb.Ball(0.2), sb.Ball(0.1)], [LAWS[law]] * 2, impact_speed=1.0)
+    kernel = choose_lanes(base, [], Options(math.inf, TRUTH, EVENT_LIMIT))
     for rtol in TOLERANCES:
-        ways[LANES, rtol] = count, _lanes(drops, "run_pairs", rtol)
+        ways[LANES, rtol] = count, _lanes(drops, kernel, rtol)
         ways[DROPS, rtol] = count, _general(drops, FINITE, rtol)
     for name, solve in _solvers(law).items():
         for rtol in THEIRS:

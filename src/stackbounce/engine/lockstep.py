@@ -190,14 +190,19 @@ def _find_safe_times(x: Floats) -> None:
         h = p4 + min(0.0, h) * s
         h = p3 + min(0.0, h) * s
         h = p2 + min(0.0, h) * s
-        start = p0 - _CLOSE if p0 > _CLOSE else 0.0
-        square = p1 * p1 - 4.0 * h * start
-        q = abs(p1) + math.sqrt(max(0.0, square))
-        over = 2.0 * start if p1 < 0.0 else q
-        under = (q if square >= 0.0 else 0.0) if p1 < 0.0 else -2.0 * h
-        root = over / (under if under > 0.0 else 1.0)
-        root = root if under > 0.0 else s
-        x[SAFE + i] = min(s, root)
+        x[SAFE + i] = time_above(p0 - _CLOSE if p0 > _CLOSE else 0.0, p1, h, s)
+
+
+@kernel
+def time_above(p0: float, p1: float, h: float, longest: float) -> float:
+    """Return the time until p0 + p1 t + h t^2, with p0 at least 0, becomes negative, or less."""
+    square = p1 * p1 - 4.0 * h * p0
+    q = abs(p1) + math.sqrt(max(0.0, square))
+    over = 2.0 * p0 if p1 < 0.0 else q
+    under = (q if square >= 0.0 else 0.0) if p1 < 0.0 else -2.0 * h
+    root = over / (under if under > 0.0 else 1.0)
+    root = root if under > 0.0 else longest
+    return min(longest, root)
 
 
 @kernel

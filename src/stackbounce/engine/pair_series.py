@@ -23,6 +23,7 @@ import math
 from stackbounce.engine import pair_step as lane
 from stackbounce.engine.codes import ASK
 from stackbounce.engine.kernels import Floats, kernel
+from stackbounce.engine.lockstep import time_above
 from stackbounce.engine.pair_events import GAIN, RELEASE, TOUCH, accept, apply_event, fly
 from stackbounce.engine.pair_step import BOTH, LANES, take_steps
 
@@ -31,6 +32,7 @@ _REACH = 3.0  # the longest step, times the largest rate: the last term is then 
 _FLIGHT = 1e30  # s: the longest step of balls that no force acts on
 _ROUNDS = 3  # to find a root: what the last one changes is then small
 _NEAR = 1e-5  # of a step: a change so small leaves an error below round-off
+_ERROR = 1e-13  # of a step, over the impact speed
 _STEPS = 200.0  # longer runs accumulate round-off
 
 # Terms of the series in parts of a step, a slot for each contact: compression and its surface's;
@@ -54,6 +56,12 @@ COUNTED = _LANE + 8 * LANES
 LIMIT = COUNTED + 1
 SLOTS = LIMIT + 1
 _MASK = 31  # no change: it shows a compiler the range of a term's number
+
+
+@kernel
+def begin_series(x: Floats, event_limit: float) -> None:
+    """Set the numbers that hold for all lanes."""
+    x[lane.TOLERANCE], x[COUNTED], x[LIMIT] = _ERROR, ORDER, min(event_limit, _STEPS)
 
 
 @kernel
@@ -162,35 +170,25 @@ def _find_safe_times(x: Floats, order: int) -> None:
     for i in range(BOTH):
         c, c1, c2 = x[C_TERMS + i], x[C_TERMS + BOTH + i], x[C_TERMS + 2 * BOTH + i]
         p0, p1 = x[SIDE + i] * c + x[DAMP + i] * c1, x[SIDE + i] * c1 + 2.0 * x[DAMP + i] * c2
-        h, margin = x[BOUND + i], x[lane.MARGIN + i]
-        start = p0 - margin if p0 > margin else 0.0
-        square = p1 * p1 - 4.0 * h * start
-        q = abs(p1) + math.sqrt(max(0.0, square))
-        over = 2.0 * start if p1 < 0.0 else q
-        under = (q if square >= 0.0 else 0.0) if p1 < 0.0 else -2.0 * h
-        root = over / (under if under > 0.0 else 1.0)
-        root = root if under > 0.0 else 1.0
-        x[SAFE + i] = min(1.0, root)
+        margin = x[lane.MARGIN + i]
+        x[SAFE + i] = time_above(p0 - margin if p0 > margin else 0.0, p1, x[BOUND + i], 1.0)
 
 
 @kernel
 def _choose_contact(x: Floats, order: int) -> None:
     """Choose the contact that is safe for the shorter time, and make the series of its wait."""
     for i in range(LANES):
-        safe, other, k = x[SAFE + i], x[SAFE + LANES + i], LANES + i
-        floor = 1.0 if safe <= other else 0.0
-        balls = 1.0 - floor
-        x[FLOOR + i], x[PART + i] = floor, min(safe, other)
-        x[ONE + i], x[TWO + i] = max(safe, other), min(safe, other)
-        # sums: a choice between two slots would be compiled to a slow choice between addresses
-        x[VALUE + i], x[SLOPE + i] = floor * x[SIDE + i], balls * x[SIDE + k]
-        x[BEND + i], x[SURE + i] = floor * x[DAMP + i], balls * x[DAMP + k]
+        one, other = x[SAFE + i], x[SAFE + LANES + i]
+        x[FLOOR + i], x[PART + i] = 1.0 if one <= other else 0.0, min(one, other)
+        x[ONE + i], x[TWO + i] = max(one, other), min(one, other)
     for j in range(order):
-        now = C_TERMS + (j & _MASK) * BOTH
+        c = C_TERMS + (j & _MASK) * BOTH
         for i in range(LANES):
-            term = x[VALUE + i] * x[now + i] + x[SLOPE + i] * x[now + LANES + i]
-            rate = x[BEND + i] * x[now + BOTH + i] + x[SURE + i] * x[now + BOTH + LANES + i]
-            x[TERMS + (j & _MASK) * LANES + i] = term + (j + 1.0) * rate
+            k, floor = LANES + i, x[FLOOR + i]
+            one = x[SIDE + i] * x[c + i] + (j + 1.0) * x[DAMP + i] * x[c + BOTH + i]
+            other = x[SIDE + k] * x[c + k] + (j + 1.0) * x[DAMP + k] * x[c + BOTH + k]
+            # a sum: a choice between two slots would be compiled to a slow choice between addresses
+            x[TERMS + (j & _MASK) * LANES + i] = floor * one + (1.0 - floor) * other
 
 
 @kernel
@@ -225,7 +223,7 @@ def _improve_root(x: Floats, order: int) -> None:
 @kernel
 def _choose_steps(x: Floats) -> None:
     """Let each lane step to the event if it is sure, else to the end of the safe time."""
-    limit, error = min(x[LIMIT], _STEPS), x[lane.TOLERANCE]
+    limit, error = x[LIMIT], x[lane.TOLERANCE]
     for i in range(LANES):
         u, unsure, steps = x[PART + i], x[lane.UNSURE + i], x[lane.STEPS + i] + 1.0
         sure = x[SURE + i] > -error * x[lane.V0 + i] * x[LENGTH + i]

@@ -14,13 +14,7 @@ from stackbounce.engine.elementary import near_root, nearest_exponent, power
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.pair_alone import go_alone
 from stackbounce.engine.pair_events import begin_open, free_rate, go_by, look_after, press, touch
-from stackbounce.engine.pair_series import (
-    COUNTED,
-    LIMIT,
-    ORDER,
-    look_after_series,
-    step_by_series,
-)
+from stackbounce.engine.pair_series import begin_series, look_after_series, step_by_series
 from stackbounce.engine.pair_step import LANES, TIME, judge_step, take_step
 from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import Drops, Outcomes, Workspace
@@ -32,7 +26,6 @@ _FIRST_ROOT = 24  # it falls with this root of the error
 _FIRST_UNSURE = 2.0  # allowed errors of a step: what is not sure from the beginning
 _LEVELS, _LEVELS_PER_BIT = 1.5, 0.2  # of a continued fraction, for an error of rtol/100
 _REACH = 0.2  # of a compression, for an error of 1: so far do three derivatives lead
-_ROUND_OFF = 1e-13  # of a step by series, over the impact speed
 _COARSE = 2.0  # the largest estimate of order 3, for an error of 1; it falls with its cube root
 
 
@@ -76,7 +69,7 @@ def run_linear(drops: Drops, event_limit: int, out: Outcomes, space: Workspace) 
         As for `run_pairs`.
     """
     x = space.floats
-    x[lane.TOLERANCE], x[COUNTED], x[LIMIT] = _ROUND_OFF, ORDER, event_limit
+    begin_series(x, float(event_limit))
     _run(drops, 1.0, True, out, x)
 
 
