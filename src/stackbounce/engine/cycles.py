@@ -65,9 +65,8 @@ def lowest_compression(stack: Stack, i: int) -> float:
 @kernel
 def begin_loading(stack: Stack, i: int) -> None:
     """Let contact i forget all its peaks."""
-    stack.phase[i] = COMPRESSING
     stack.depth[i] = 0
-    stack.top[i] = math.inf
+    _go_on_loading(stack, i)
 
 
 @kernel
