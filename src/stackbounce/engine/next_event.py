@@ -508,22 +508,17 @@ def _safe_wait(
     f[0] += band - sign * level
     if f[0] <= 0.5 * band:
         return 0.0, True
-    if order <= 2 and tail == 0.0:
-        for k in range(order + 1, 3):
-            f[k] = 0.0
-        return parabola_root(f[0] - 0.5 * band, f[1], f[2]), True
-    if tail == 0.0:
+    if tail == 0.0 and order > 2:
         return min(safe_step(f, order, 0.0, horizon), horizon), False
+    for k in range(order + 1, power + 2):
+        f[k] = 0.0
+    if tail == 0.0:
+        return parabola_root(f[0] - 0.5 * band, f[1], f[2]), True
     size = abs(f[0]) + band / codes.EPSILON
     # where the remainder is as large, as a power of two: the choice of units changes no bit
     natural = times_power_of_two(8.0, exponent_of(size / tail) // power)
     if order < power and more == 0.0:
-        for k in range(order + 1, power):
-            f[k] = 0.0
         return safe_step(f, power - 1, tail, min(natural, horizon)), False
-    last = max(order, power + 1)
-    for k in range(order + 1, last + 1):
-        f[k] = 0.0
     f[power] -= tail
     f[power + 1] -= more
-    return safe_step(f, last, 0.0, min(natural, horizon)), False
+    return safe_step(f, max(order, power + 1), 0.0, min(natural, horizon)), False
