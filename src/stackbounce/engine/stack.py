@@ -212,11 +212,9 @@ def as_arrays(record: Any) -> Any:
     """Return a Stack or Samples of lists as one of numpy arrays, for compiled kernels."""
     import numpy as np
 
-    return type(record)(
-        *(
-            np.array(values, dtype=np.int64 if name in _INTEGERS else np.float64)
-            for name, values in zip(record._fields, record, strict=True)
-        )
+    return record._make(
+        np.array(values, dtype=np.int64 if name in _INTEGERS else np.float64)
+        for name, values in zip(record._fields, record, strict=True)
     )
 
 
@@ -235,7 +233,5 @@ def in_one_room(record: Any) -> tuple[Any, tuple[Any, Any]]:
         sizes = [array.size for array in arrays if array.dtype == kind]
         room: Any = np.zeros(sum(sizes), dtype=kind)
         rooms[kind] = room, iter(np.split(room, np.cumsum(sizes)[:-1]))
-    views = type(record)(
-        *(next(rooms[array.dtype.type][1]).reshape(array.shape) for array in arrays)
-    )
+    views = record._make(next(rooms[one.dtype.type][1]).reshape(one.shape) for one in arrays)
     return views._replace(**kept), (rooms[np.float64][0], rooms[np.int64][0])
