@@ -150,6 +150,13 @@ def approach_speed(stack: Stack, i: int) -> float:
 
 
 @kernel
+def approach_noise(stack: Stack, i: int) -> float:
+    """Return a bound on the round-off of the speed at which the balls at contact i approach."""
+    noise = stack.velocity_noise[i]
+    return noise + stack.velocity_noise[i - 1] if i > 0 else noise
+
+
+@kernel
 def _linearise_if_slow(stack: Stack, i: int) -> None:
     """Linearise opening contact i, anchored now, if the work left under its chord is small enough.
 
