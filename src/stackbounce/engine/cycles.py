@@ -180,12 +180,6 @@ def _moment(stack: Stack, i: int, m: float, unit: float, low: float, high: float
 
 
 @kernel
-def loading_work(stack: Stack, i: int, c: float) -> float:
-    """Return the work of the first loading of contact i up to c."""
-    return _moment(stack, i, 0.0, 1.0, 0.0, c)
-
-
-@kernel
 def _shared_work(stack: Stack, i: int, peak: float, low: float, high: float) -> tuple[float, float]:
     """Return the integrals of r(c/peak) L(c) and of r(c/peak) from ``low`` to ``high``."""
     work, length, m = 0.0, 0.0, stack.loss_exponent[i]
