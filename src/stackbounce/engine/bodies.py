@@ -12,6 +12,7 @@ be larger than both deviations together if both were as long as at rest.
 import math
 
 from stackbounce.engine.codes import ABSENT, OPEN
+from stackbounce.engine.contacts import approach_noise
 from stackbounce.engine.kernels import kernel
 from stackbounce.engine.motion import compression_at, velocity_at
 from stackbounce.engine.slots import GRAVITY, LAST_CHECK
@@ -116,15 +117,13 @@ def have_parted(stack: Stack, time: float) -> bool:
             continue
         if stack.phase[i] != OPEN:
             return False
-        noise = stack.velocity_noise[i]
         rate = -body_velocity(stack, i, time)
         gap = -compression_at(stack, i, time) - _deviation(stack, i, time)
         reach = _largest_deviation(stack, i, time)
         if i > 0:
-            noise += stack.velocity_noise[i - 1]
             rate += body_velocity(stack, i - 1, time)
             gap += _deviation(stack, i - 1, time)
             reach += _largest_deviation(stack, i - 1, time)
-        if rate > noise or gap < reach:
+        if rate > approach_noise(stack, i) or gap < reach:
             return False
     return True

@@ -67,8 +67,9 @@ def find_collapse(stack: RigidStack, contact: int, until: float, log: Floats) ->
     for other in (contact - 1, contact + 1):
         if 0 <= other < len(stack.mass):
             duration = pair_duration(stack, contact, other)
+            still = _is_still(stack, contact) and _is_still(stack, other)
             certain = duration < math.inf and duration <= left
-            if duration <= soon or (certain and _are_still(stack, contact, other)):
+            if duration <= soon or (certain and still and stack.number[slots.GRAVITY] == 0.0):
                 _merge(stack, min(contact, other), max(contact, other), duration, log)
     stack.last_hit[contact] = stack.counter[slots.EVENTS]
     low, high = vanished_group(stack, contact)
@@ -76,13 +77,13 @@ def find_collapse(stack: RigidStack, contact: int, until: float, log: Floats) ->
         _merge(stack, low, high, 0.0, log)
     _mark_involved(stack, contact, contact)
     stack.counter[slots.SINCE_KEPT] += 1
-    low, high, shrink = compare_with_kept(stack, contact)
-    if shrink != 0.0:
-        # later rounds last shrink, shrink^2, ... times the present one
-        ratio = max(shrink, 0.0)
+    low, high = stack.counter[slots.LOWEST_INVOLVED], stack.counter[slots.HIGHEST_INVOLVED]
+    ratio = _compare_with_kept(stack, contact, low, high)
+    if ratio < 1.0:  # later rounds last ratio, ratio^2, ... times the present one
         round_time = stack.number[slots.LAST_EVENT] - stack.number[slots.KEPT_TIME]
-        if ratio < 1.0 and round_time * ratio / (1.0 - ratio) <= soon:
-            _merge(stack, low, high, round_time * ratio / (1.0 - ratio), log)
+        duration = round_time * ratio / (1.0 - ratio)
+        if duration <= soon:
+            _merge(stack, low, high, duration, log)
     if stack.counter[slots.SINCE_KEPT] >= stack.counter[slots.KEEP_AFTER]:
         keep_state(stack, contact, stack.number[slots.LAST_EVENT])
 
@@ -244,40 +245,31 @@ def keep_state(stack: RigidStack, contact: int, time: float) -> None:
 
 
 @kernel
-def compare_with_kept(stack: RigidStack, contact: int) -> tuple[int, int, float]:
-    """Return the lowest and highest contact of a repeated state, and the ratio of round durations.
+def _compare_with_kept(stack: RigidStack, contact: int, low: int, high: int) -> float:
+    """Return how long each following round lasts, over the one before; infinity if none follows.
 
-    A state repeats the reference state (`keep_state`) if its rates and gaps have the same ratios on
-    a smaller scale. Each following round then lasts ``ratio`` times as long as the one before. The
-    ratio is 0 if the state is not repeated, and -1 if the rounds take no time.
+    The state repeats the reference state (`keep_state`) if its rates and gaps at contacts low..high
+    have the same ratios on a smaller scale. The result is 0 if the rounds take no time.
     """
-    low, high = stack.counter[slots.LOWEST_INVOLVED], stack.counter[slots.HIGHEST_INVOLVED]
     if contact != stack.counter[slots.KEPT_CONTACT] or high < low + 2:
-        return low, high, 0.0
+        return math.inf
     size, kept, gap, kept_gap = 0.0, 0.0, 0.0, 0.0
     for i in range(low, high + 1):
         if stack.involved[i] == 0 or varies(stack, i):
-            return low, high, 0.0
+            return math.inf
         size = max(size, abs(rate_now(stack, i)))
         kept = max(kept, abs(stack.kept_rate[i]))
         gap = max(gap, -compression_after(stack, i, 0.0))
         kept_gap = max(kept_gap, -stack.kept_gap[i])
     if size >= kept or size == 0.0 or (gap == 0.0) != (kept_gap == 0.0):
-        return low, high, 0.0
+        return math.inf
     for i in range(low, high + 1):
         if abs(rate_now(stack, i) / size - stack.kept_rate[i] / kept) > _SAME:
-            return low, high, 0.0
+            return math.inf
         part = compression_after(stack, i, 0.0) / gap if gap > 0.0 else 0.0
         if kept_gap > 0.0 and abs(part - stack.kept_gap[i] / kept_gap) > _SAME_GAPS:
-            return low, high, 0.0
-    shrink = gap / kept_gap * kept / size if kept_gap > 0.0 else 0.0
-    return low, high, shrink if shrink > 0.0 else -1.0
-
-
-@kernel
-def _are_still(stack: RigidStack, i: int, j: int) -> bool:
-    """Return whether, without gravity, the rates of contacts i and j are close to underflow."""
-    return stack.number[slots.GRAVITY] == 0.0 and _is_still(stack, i) and _is_still(stack, j)
+            return math.inf
+    return gap / kept_gap * kept / size if kept_gap > 0.0 else 0.0
 
 
 @kernel

@@ -59,7 +59,7 @@ def close_contact(stack: Stack, i: int, time: float) -> None:
     stack.peak_compression[i] = 0.0
     stack.impulse[i] = 0.0
     begin_loading(stack, i)
-    _set_loading_curve(stack, i, stack.compression[i], True)
+    _set_loading_curve(stack, i, stack.compression[i])
     _linearise_at_touch(stack, i)
 
 
@@ -71,18 +71,18 @@ def _linearise_at_touch(stack: Stack, i: int) -> None:
 
 
 @kernel
-def _set_loading_curve(stack: Stack, i: int, c: float, up: bool) -> None:
+def _set_loading_curve(stack: Stack, i: int, c: float) -> None:
     """Set the force of contact i, at c, to its loading curve: k c^p, or k c^q times the gain."""
     unit = stack.scale[i]
     exponent = stack.factor_exponent[i]
     _set_curve(stack, i, stack.stiffness[i] * power(unit, exponent), unit, exponent)
     if exponent == 1.0:
         stack.rate[i] = stack.stiffness[i]
-    _set_shares(stack, i, c, up)
+    _set_shares(stack, i, c, True)
 
 
 @kernel
-def _set_unloading_curve(stack: Stack, i: int, pressing: float, c: float, up: bool) -> None:
+def _set_unloading_curve(stack: Stack, i: int, pressing: float, c: float) -> None:
     """Set the force of contact i, at c, to the curve from its last peak, where it is ``pressing``.
 
     A piecewise contact unloads along its gain times a power.
@@ -92,7 +92,7 @@ def _set_unloading_curve(stack: Stack, i: int, pressing: float, c: float, up: bo
         _set_curve(stack, i, stack.stiffness[i], peak, stack.loss_exponent[i])
     else:
         _set_curve(stack, i, pressing, peak, stack.unloading[i])
-    _set_shares(stack, i, c, up)
+    _set_shares(stack, i, c, False)
     if stack.curve_exponent[i] == 1.0:
         stack.rate[i] = stack.curve_force[i] / peak
 
@@ -104,15 +104,6 @@ def _set_shares(stack: Stack, i: int, c: float, up: bool) -> None:
         take_shares(stack, i, c, up)
     if stack.depth[i] > 0:
         stack.linearised_below[i] = 0.0
-
-
-@kernel
-def _set_present_curve(stack: Stack, i: int, c: float, up: bool) -> None:
-    """Set the force of contact i, at c, to the curve of its present cycle."""
-    if stack.phase[i] == codes.RELEASING:
-        _set_unloading_curve(stack, i, loading_force(stack, i, stack.top[i]), c, up)
-    else:
-        _set_loading_curve(stack, i, c, up)
 
 
 @kernel
@@ -156,6 +147,13 @@ def reduced_mass(stack: Stack, i: int) -> float:
 def approach_speed(stack: Stack, i: int) -> float:
     """Return the speed at which the balls at contact i, both anchored now, approach each other."""
     return (stack.velocity[i - 1] if i > 0 else 0.0) - stack.velocity[i]
+
+
+@kernel
+def approach_noise(stack: Stack, i: int) -> float:
+    """Return a bound on the round-off of the speed at which the balls at contact i approach."""
+    noise = stack.velocity_noise[i]
+    return noise + stack.velocity_noise[i - 1] if i > 0 else noise
 
 
 @kernel
@@ -220,18 +218,22 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
         turn_out(stack, i, compression)
         if stack.depth[i] > 0:
             pressing = loading_force(stack, i, compression)
-        _set_unloading_curve(stack, i, pressing, compression, False)
+        _set_unloading_curve(stack, i, pressing, compression)
     elif kind == codes.DIP:
         if compression < _ALL_BUT_OPEN * stack.top[i]:  # all elements forget their peak
             begin_loading(stack, i)
-            _set_loading_curve(stack, i, compression, True)
+            _set_loading_curve(stack, i, compression)
             _linearise_at_touch(stack, i)
         else:
             turn_in(stack, i, compression)
-            _set_loading_curve(stack, i, compression, True)
+            _set_loading_curve(stack, i, compression)
     elif kind == codes.RETURNED:
         return_to_turn(stack, i)
-        _set_present_curve(stack, i, compression, stack.phase[i] == codes.COMPRESSING)
+        if stack.phase[i] == codes.COMPRESSING:
+            _set_loading_curve(stack, i, compression)
+        else:
+            pressing = loading_force(stack, i, stack.top[i])
+            _set_unloading_curve(stack, i, pressing, compression)
     elif kind == codes.CROSSED:
         knot, up = crossed_knot(stack, i)
         take_shares(stack, i, knot, up)
@@ -268,7 +270,7 @@ def correct_curve(stack: Stack, i: int) -> None:
     steep unloading curve, or the compression at which a power law is linearised.
     """
     compression = stack.compression[i]
-    exponent = stack.curve_exponent[i]
+    curved = stack.curve_exponent[i] not in (0.0, 1.0)
     if stack.phase[i] < codes.COMPRESSING or stack.linearised[i] == 1:
         return
     rises = stack.phase[i] == codes.COMPRESSING
@@ -277,7 +279,5 @@ def correct_curve(stack: Stack, i: int) -> None:
         or (not rises and compression * _BEYOND < lowest_compression(stack, i))
     ):
         change_curve(stack, i, codes.RETURNED)
-    elif exponent in (0.0, 1.0):
-        return
-    elif compression < 0.5 * stack.linearised_below[i]:
+    elif curved and compression < 0.5 * stack.linearised_below[i]:
         _linearise(stack, i)

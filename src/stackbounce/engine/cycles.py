@@ -65,9 +65,8 @@ def lowest_compression(stack: Stack, i: int) -> float:
 @kernel
 def begin_loading(stack: Stack, i: int) -> None:
     """Let contact i forget all its peaks."""
-    stack.phase[i] = COMPRESSING
     stack.depth[i] = 0
-    stack.top[i] = math.inf
+    _go_on_loading(stack, i)
 
 
 @kernel
@@ -178,12 +177,6 @@ def _moment(stack: Stack, i: int, m: float, unit: float, low: float, high: float
     if low > 0.0:
         total -= low * loading_force(stack, i, low) * power(low / unit, m)
     return total / (stack.exponent[i] + m + 1.0)
-
-
-@kernel
-def loading_work(stack: Stack, i: int, c: float) -> float:
-    """Return the work of the first loading of contact i up to c."""
-    return _moment(stack, i, 0.0, 1.0, 0.0, c)
 
 
 @kernel

@@ -50,17 +50,13 @@ one also a force, an energy, a static compression, and the terms of its power se
 import math
 
 from stackbounce.engine import codes
-from stackbounce.engine.cycles import (
-    has_hysteresis,
-    loading_compression,
-    loading_work,
-    returned_work,
-)
+from stackbounce.engine.cycles import has_hysteresis, loading_compression, returned_work
 from stackbounce.engine.elementary import power
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.pieces import (
     compression_of_work,
     has_one_curve,
+    pieces_work,
     take_table,
     take_two_stages,
 )
@@ -246,7 +242,7 @@ def potential(stack: Stack, i: int, compression: float) -> float:
     if has_hysteresis(stack, i):
         return returned_work(stack, i, c)
     if stack.law[i] == codes.PIECEWISE:
-        return loading_work(stack, i, c)
+        return stack.stiffness[i] * pieces_work(stack, i, c)
     if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
         return 0.5 * stack.rate[i] * c * c
     exponent = stack.curve_exponent[i] + 1.0

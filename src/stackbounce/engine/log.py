@@ -35,10 +35,8 @@ def convert_log(log: Floats, rows: int, unit: float) -> None:
     """Convert rows of a log to SI units: with kg and m fixed, energies go with forces."""
     for line in range(rows):
         at = line * codes.LOG_COLUMNS
-        log[at + codes.TIME] *= unit
-        log[at + codes.START] *= unit
-        log[at + codes.PEAK_TIME] *= unit
-        log[at + codes.LOWER_VELOCITY] /= unit
-        log[at + codes.UPPER_VELOCITY] /= unit
+        for column in (codes.TIME, codes.START, codes.PEAK_TIME):
+            log[at + column] *= unit
+        for column in (codes.LOWER_VELOCITY, codes.UPPER_VELOCITY, codes.IMPULSE):
+            log[at + column] /= unit
         log[at + codes.PEAK_FORCE] /= unit * unit
-        log[at + codes.IMPULSE] /= unit

@@ -56,8 +56,7 @@ def _orthogonalise(stack: Stack, i: int, j: int, low: int, high: int) -> bool:
     one, other = i * WIDTH, j * WIDTH
     ii, jj, ij = 0.0, 0.0, 0.0
     for b in range(balls):
-        x = stack.rows[one + b]
-        y = stack.rows[other + b]
+        x, y = stack.rows[one + b], stack.rows[other + b]
         ii += x * x
         jj += y * y
         ij += x * y
@@ -69,17 +68,18 @@ def _orthogonalise(stack: Stack, i: int, j: int, low: int, high: int) -> bool:
         tangent = -tangent
     cosine = 1.0 / math.sqrt(1.0 + tangent * tangent)
     sine = tangent * cosine
-    for b in range(balls):
-        x = stack.rows[one + b]
-        y = stack.rows[other + b]
-        stack.rows[one + b] = cosine * x - sine * y
-        stack.rows[other + b] = sine * x + cosine * y
-    for k in range(high - low):
-        x = stack.shape[one + k]
-        y = stack.shape[other + k]
-        stack.shape[one + k] = cosine * x - sine * y
-        stack.shape[other + k] = sine * x + cosine * y
+    _rotate(stack.rows, one, other, balls, cosine, sine)
+    _rotate(stack.shape, one, other, high - low, cosine, sine)
     return True
+
+
+@kernel
+def _rotate(rows: Floats, one: int, other: int, count: int, cosine: float, sine: float) -> None:
+    """Rotate two rows of numbers, which begin at ``one`` and ``other``, into each other."""
+    for k in range(count):
+        x, y = rows[one + k], rows[other + k]
+        rows[one + k] = cosine * x - sine * y
+        rows[other + k] = sine * x + cosine * y
 
 
 @kernel

@@ -49,9 +49,8 @@ def digest_of_manifest(manifest: dict[str, Any]) -> str:
 
 def platform_name() -> str:
     """Return the name of this platform, such as ``linux-x86_64``."""
-    system = {"linux": "linux", "darwin": "macos", "win32": "windows"}.get(
-        sys.platform, sys.platform
-    )
+    systems = {"darwin": "macos", "win32": "windows"}
+    system = systems.get(sys.platform, sys.platform)
     machine = platform.machine().lower()
     return f"{system}-{ {'amd64': 'x86_64', 'arm64': 'aarch64'}.get(machine, machine) }"
 

@@ -36,7 +36,7 @@ import math
 from typing import NamedTuple, TypeAlias
 
 from stackbounce.engine import codes
-from stackbounce.engine.contacts import linearised_impulse_limit
+from stackbounce.engine.contacts import approach_noise, linearised_impulse_limit
 from stackbounce.engine.cycles import has_hysteresis, lowest_compression
 from stackbounce.engine.elementary import exponent_of, times_power_of_two
 from stackbounce.engine.event_queue import schedule
@@ -178,14 +178,8 @@ def _has_peaks(stack: Stack, i: int) -> bool:
 
 
 @kernel
-def _earlier(motion: Motion, event: Event, wait: float, reached: bool, kind: int) -> Event:
-    """Return another event if it comes before the one found so far, while the series is valid."""
-    return (wait, reached, kind) if wait < _limit(motion, event) else event
-
-
-@kernel
 def _limit(motion: Motion, event: Event) -> float:
-    """Return how far to search for an event that comes before the one found so far."""
+    """Return how far to search for an event before the one found so far: the series is valid."""
     return min(event[0], motion.horizon)
 
 
@@ -198,7 +192,8 @@ def _touch(stack: Stack, i: int, motion: Motion) -> Event:
         rate_band += _TOUCH_MARGIN * stack.number[TOLERANCE] * stack.number[SPEED]
     if a[0] < -band or a[motion.root] < -rate_band:
         stack.touching[i] = math.nan
-    if motion.straight and _never_meets(stack, i, a):
+    # two balls in flight, or one above the floor; a surface that recovers does so ever more slowly
+    if motion.straight and a[1] <= approach_noise(stack, i):
         return math.inf, False, codes.CHECK
     if motion.root == 2 and _is_pressed_together(stack, i, a, motion.order):
         return 0.0, True, codes.TOUCH
@@ -259,7 +254,7 @@ def _linearise(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
         return event
     limit = _limit(motion, event)
     wait, reached = _level_wait(stack, motion, 1.0, level, motion.band, limit)
-    return _earlier(motion, event, wait, reached, codes.LINEARISED)
+    return (wait, reached, codes.LINEARISED) if wait < limit else event
 
 
 @kernel
@@ -279,7 +274,7 @@ def _rise(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
         return event
     limit = _limit(motion, event)
     wait, reached = _level_wait(stack, motion, -1.0, level, motion.band, limit)
-    return _earlier(motion, event, wait, reached, kind)
+    return (wait, reached, kind) if wait < limit else event
 
 
 @kernel
@@ -307,7 +302,7 @@ def _curve(stack: Stack, i: int, time: float, motion: Motion, event: Event) -> E
     budget, limit = linearised_impulse_limit(stack, i), _limit(motion, event)
     band = 0.1 * budget
     wait, reached = _safe_wait(stack, spent, order, power, tail, 0.0, -1.0, budget, band, limit)
-    return _earlier(motion, event, wait, reached, codes.CURVED)
+    return (wait, reached, codes.CURVED) if wait < limit else event
 
 
 @kernel
@@ -326,7 +321,7 @@ def _turn(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
     wait, reached = _safe_wait(
         stack, a, order - root, power - 1, tail, 0.0, sign, 0.0, motion.rate_band, limit
     )
-    return _earlier(motion, event, wait, reached, codes.PEAK if rises else codes.DIP)
+    return (wait, reached, codes.PEAK if rises else codes.DIP) if wait < limit else event
 
 
 @kernel
@@ -459,18 +454,6 @@ def _is_pressed_together(stack: Stack, i: int, a: Floats, order: int) -> bool:
 
 
 @kernel
-def _never_meets(stack: Stack, i: int, a: Floats) -> bool:
-    """Return whether two balls in flight without relative acceleration do not approach each other.
-
-    The lower one may be the floor. A surface that recovers does so ever more slowly.
-    """
-    noise = stack.velocity_noise[i]
-    if i > 0:
-        noise += stack.velocity_noise[i - 1]
-    return a[1] <= noise
-
-
-@kernel
 def _level_wait(
     stack: Stack, motion: Motion, sign: float, level: float, band: float, limit: float
 ) -> tuple[float, bool]:
@@ -508,22 +491,17 @@ def _safe_wait(
     f[0] += band - sign * level
     if f[0] <= 0.5 * band:
         return 0.0, True
-    if order <= 2 and tail == 0.0:
-        for k in range(order + 1, 3):
-            f[k] = 0.0
-        return parabola_root(f[0] - 0.5 * band, f[1], f[2]), True
-    if tail == 0.0:
+    if tail == 0.0 and order > 2:
         return min(safe_step(f, order, 0.0, horizon), horizon), False
+    for k in range(order + 1, power + 2):
+        f[k] = 0.0
+    if tail == 0.0:
+        return parabola_root(f[0] - 0.5 * band, f[1], f[2]), True
     size = abs(f[0]) + band / codes.EPSILON
     # where the remainder is as large, as a power of two: the choice of units changes no bit
     natural = times_power_of_two(8.0, exponent_of(size / tail) // power)
     if order < power and more == 0.0:
-        for k in range(order + 1, power):
-            f[k] = 0.0
         return safe_step(f, power - 1, tail, min(natural, horizon)), False
-    last = max(order, power + 1)
-    for k in range(order + 1, last + 1):
-        f[k] = 0.0
     f[power] -= tail
     f[power + 1] -= more
-    return safe_step(f, last, 0.0, min(natural, horizon)), False
+    return safe_step(f, max(order, power + 1), 0.0, min(natural, horizon)), False

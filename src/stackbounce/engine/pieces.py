@@ -25,7 +25,6 @@ from stackbounce.engine.elementary import power
 from stackbounce.engine.kernels import kernel
 from stackbounce.engine.stack import MOST_PIECES, PIECE_NUMBERS, Stack
 
-_BEGIN, _CONSTANT, _SLOPE, _SQUARE = 0, 1, 2, 3  # numbers of a piece
 _HALVINGS = 60  # of a range of compressions whose ends are a factor of 2 apart
 _ROUND_OFF = 4.0 * EPSILON  # of a share
 
@@ -64,9 +63,22 @@ def take_table(stack: Stack, i: int, loading: int, loss: float, returned: float)
 def _put_straight(stack: Stack, i: int, j: int, begin: float, slope: float) -> None:
     """Give contact i a straight piece that begins where the first one, c, is."""
     at = (i * MOST_PIECES + j) * PIECE_NUMBERS
-    stack.pieces[at + _BEGIN] = stack.pieces[at + _CONSTANT] = begin
-    stack.pieces[at + _SLOPE] = slope
-    stack.pieces[at + _SQUARE] = 0.0
+    stack.pieces[at] = stack.pieces[at + 1] = begin
+    stack.pieces[at + 2] = slope
+    stack.pieces[at + 3] = 0.0
+
+
+@kernel
+def _piece(stack: Stack, i: int, j: int) -> tuple[float, float, float, float]:
+    """Return the four numbers of a piece of contact i: x, a, b and s."""
+    at = (i * MOST_PIECES + j) * PIECE_NUMBERS
+    return stack.pieces[at], stack.pieces[at + 1], stack.pieces[at + 2], stack.pieces[at + 3]
+
+
+@kernel
+def _end(stack: Stack, i: int, j: int, last: int) -> float:
+    """Return the compression at which a piece of contact i ends; the last of its curve has none."""
+    return stack.pieces[(i * MOST_PIECES + j + 1) * PIECE_NUMBERS] if j < last else math.inf
 
 
 @kernel
@@ -82,10 +94,10 @@ def _piece_at(stack: Stack, i: int, first: int, count: int, unit: float, c: floa
     The pieces begin at compressions in a unit. Where one piece ends and the next begins, that is
     the next one if the compression goes up.
     """
-    j = first
-    while j + 1 < first + count:
-        following = stack.pieces[(i * MOST_PIECES + j + 1) * PIECE_NUMBERS + _BEGIN] * unit
-        if following > c or (following == c and not up):
+    j, last = first, first + count - 1
+    while j < last:
+        end = _end(stack, i, j, last) * unit
+        if end > c or (end == c and not up):
             break
         j += 1
     return j
@@ -96,15 +108,10 @@ def find_piece(stack: Stack, i: int, c: float, up: bool) -> None:
     """Set the gain of contact i to the piece of its loading curve at a compression."""
     count = stack.loading_pieces[i]
     j = _piece_at(stack, i, 0, count, 1.0, c, up)
-    at = (i * MOST_PIECES + j) * PIECE_NUMBERS
-    stack.gain_origin[i] = stack.pieces[at + _BEGIN]
-    stack.gain_constant[i] = stack.pieces[at + _CONSTANT]
-    stack.gain_slope[i] = stack.pieces[at + _SLOPE]
-    stack.gain_square[i] = stack.pieces[at + _SQUARE]
-    stack.piece_low[i] = stack.gain_origin[i]
-    stack.piece_high[i] = math.inf
-    if j + 1 < count:
-        stack.piece_high[i] = stack.pieces[at + PIECE_NUMBERS + _BEGIN]
+    begin, constant, slope, square = _piece(stack, i, j)
+    stack.gain_origin[i], stack.gain_constant[i] = begin, constant
+    stack.gain_slope[i], stack.gain_square[i] = slope, square
+    stack.piece_low[i], stack.piece_high[i] = begin, _end(stack, i, j, count - 1)
 
 
 @kernel
@@ -122,12 +129,9 @@ def piece_share(
     """Return f and g of the share f + g c/C of a measured contact, and the ends of their piece."""
     first, count = stack.loading_pieces[i], stack.unloading_pieces[i]
     j = _piece_at(stack, i, first, count, peak, c, up)
-    at = (i * MOST_PIECES + j) * PIECE_NUMBERS
-    low, high = stack.pieces[at + _BEGIN] * peak, math.inf
-    if j + 1 < first + count:
-        high = stack.pieces[at + PIECE_NUMBERS + _BEGIN] * peak
-    slope = stack.pieces[at + _SLOPE]
-    return stack.pieces[at + _CONSTANT] - slope * stack.pieces[at + _BEGIN], slope, low, high
+    begin, constant, slope, _ = _piece(stack, i, j)
+    end = _end(stack, i, j, first + count - 1)
+    return constant - slope * begin, slope, begin * peak, end * peak
 
 
 @kernel
@@ -150,16 +154,10 @@ def pieces_moment(stack: Stack, i: int, m: float, unit: float, low: float, high:
     """Return the integral of (c/unit)^m times the loading curve over c, over the stiffness."""
     total, count = 0.0, stack.loading_pieces[i]
     for j in range(count):
-        at = (i * MOST_PIECES + j) * PIECE_NUMBERS
-        begin, b = stack.pieces[at + _BEGIN], high
-        if j + 1 < count:
-            b = min(b, stack.pieces[at + PIECE_NUMBERS + _BEGIN])
-        a = max(low, begin)
+        begin, constant, slope, square = _piece(stack, i, j)
+        a, b = max(low, begin), min(high, _end(stack, i, j, count - 1))
         if a >= b:
             continue
-        constant = stack.pieces[at + _CONSTANT]
-        slope = stack.pieces[at + _SLOPE]
-        square = stack.pieces[at + _SQUARE]
         if m == 0.0:
             far, near = b - begin, a - begin
             total += far * (constant + far * (0.5 * slope + far * square / 3.0))
@@ -178,11 +176,9 @@ def pieces_moment(stack: Stack, i: int, m: float, unit: float, low: float, high:
 def pieces_value(stack: Stack, i: int, c: float) -> float:
     """Return the loading curve at a compression, over the stiffness."""
     j = _piece_at(stack, i, 0, stack.loading_pieces[i], 1.0, c, True)
-    at = (i * MOST_PIECES + j) * PIECE_NUMBERS
-    y = c - stack.pieces[at + _BEGIN]
-    return stack.pieces[at + _CONSTANT] + y * (
-        stack.pieces[at + _SLOPE] + y * stack.pieces[at + _SQUARE]
-    )
+    begin, constant, slope, square = _piece(stack, i, j)
+    y = c - begin
+    return constant + y * (slope + y * square)
 
 
 @kernel

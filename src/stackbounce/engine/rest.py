@@ -74,7 +74,8 @@ def is_bound(stack: Stack) -> bool:
         damped = damped or is_damped(stack, i)
         if has_hysteresis(stack, i):
             hysteresis = True
-            excess += _leeway(stack, i, weight)
+            off = abs(force(stack, i, c, 0.0, 0.0) - weight)
+            excess += off * abs(_far_side(stack, i, weight) - c)  # D: the most that it can give
             if excess >= min(barrier, weight * c):  # before the potential, which takes long
                 return False
             count_cycles(stack, i)
@@ -93,13 +94,6 @@ def is_bound(stack: Stack) -> bool:
     if damped:
         return excess < barrier and excess <= still * still * reference
     return excess < (_LEFT_BY_HYSTERESIS if hysteresis else 1.0) * barrier
-
-
-@kernel
-def _leeway(stack: Stack, i: int, weight: float) -> float:
-    """Return the most energy that contact i, with hysteresis, can give under a weight."""
-    off = abs(force(stack, i, stack.compression[i], 0.0, 0.0) - weight)
-    return off * abs(_far_side(stack, i, weight) - stack.compression[i])
 
 
 @kernel

@@ -40,9 +40,8 @@ def begin_collisions(stack: RigidStack) -> None:
     stack.counter[slots.LOWEST_LOSSY] = size
     clear_queue(stack.due, stack.heap, stack.place)
     for i in range(size):
-        stack.number[slots.SPEED] = max(
-            stack.number[slots.SPEED], abs(stack.velocity[i]) * stack.number[slots.UNIT]
-        )
+        speed = abs(stack.velocity[i]) * stack.number[slots.UNIT]
+        stack.number[slots.SPEED] = max(stack.number[slots.SPEED], speed)
         below = stack.velocity[i - 1] if i > 0 else 0.0
         stack.rate[i] = below - stack.velocity[i]
         if loses_energy(stack, i):
@@ -92,9 +91,8 @@ def collide_all(
 @kernel
 def rigid_velocity(stack: RigidStack, b: int, time: float) -> float:
     """Return the velocity of ball b in m/s at a time after the last collision."""
-    return (
-        velocity_after(stack, b, time - stack.number[slots.LAST_EVENT]) * stack.number[slots.UNIT]
-    )
+    later = time - stack.number[slots.LAST_EVENT]
+    return velocity_after(stack, b, later) * stack.number[slots.UNIT]
 
 
 @kernel

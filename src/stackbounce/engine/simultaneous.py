@@ -10,6 +10,7 @@ import math
 from stackbounce.engine import codes, slots
 from stackbounce.engine.bodies import have_parted, load_floor
 from stackbounce.engine.contacts import (
+    approach_noise,
     approach_speed,
     change_curve,
     change_phase,
@@ -384,10 +385,8 @@ def _approaches(stack: Stack, i: int) -> bool:
     """Return whether ball i approaches the ball below it, or the floor."""
     if stack.law[i] == codes.ABSENT:
         return False
-    noise = stack.velocity_noise[i]
-    if i > 0:
-        noise += stack.velocity_noise[i - 1]
-    return overlap_rate_at(stack, i, stack.number[slots.LAST_EVENT]) > noise
+    rate = overlap_rate_at(stack, i, stack.number[slots.LAST_EVENT])
+    return rate > approach_noise(stack, i)
 
 
 @kernel

@@ -165,12 +165,13 @@ class Samples(NamedTuple):
     stored: Floats
 
 
-_SLOTS = {"number": slots.NUMBERS, "counter": slots.COUNTERS}
-_PER_SERIES = {"scratch": TERMS, "watched": TERMS, "margin": TERMS, "changed": TERMS}
-_PER_SLOT = ("due", "event", "heap", "place")  # two slots for each ball
-_PER_MODE = ("shape", "rows")
-_PER_TURN = ("highs", "lows")
+# lengths of arrays that do not have one number for each ball: of any stack, and of a `Stack`
+_LENGTHS = {"number": slots.NUMBERS, "counter": slots.COUNTERS, "now": 1}
+_LENGTHS |= dict.fromkeys(("scratch", "watched", "margin", "changed"), TERMS)
 _KEPT = "pieces"  # the caller fills it before a run, which does not clear it
+_PER_BALL = {_KEPT: MOST_PIECES * PIECE_NUMBERS}
+_PER_BALL |= dict.fromkeys(("due", "event", "heap", "place"), 2)
+_PER_BALL |= dict.fromkeys(("shape", "rows"), WIDTH) | dict.fromkeys(("highs", "lows"), TURNS)
 _INTEGERS = {
     name
     for record in (Stack, RigidStack)
@@ -182,24 +183,18 @@ _ROWS = {name for name, kind in Stack.__annotations__.items() if kind is Rows}
 
 def new_stack(size: int) -> Stack:
     """Return an empty stack of ``size`` balls as plain lists of zeros."""
-    lengths = dict.fromkeys(Stack._fields, size)
-    lengths |= dict.fromkeys(_PER_SLOT, 2 * size)
-    lengths |= dict.fromkeys(_PER_MODE, size * WIDTH)
-    lengths |= dict.fromkeys(_PER_TURN, size * TURNS)
-    lengths[_KEPT] = size * MOST_PIECES * PIECE_NUMBERS
-    lengths |= _SLOTS | _PER_SERIES
     rows = {name: [[0.0] * TERMS for _ in range(size)] for name in _ROWS}
-    return Stack(**_zeros(Stack, lengths) | rows)
+    return Stack(**_zeros(Stack, size, _PER_BALL) | rows)
 
 
 def new_rigid_stack(size: int) -> RigidStack:
     """Return an empty stack of ``size`` rigid balls as plain lists of zeros."""
-    lengths = dict.fromkeys(RigidStack._fields, size) | _SLOTS | {"now": 1}
-    return RigidStack(**_zeros(RigidStack, lengths))
+    return RigidStack(**_zeros(RigidStack, size, {}))
 
 
-def _zeros(record: Any, lengths: dict[str, int]) -> dict[str, Any]:
-    """Return a list of zeros for each field of a record."""
+def _zeros(record: Any, size: int, per_ball: dict[str, int]) -> dict[str, Any]:
+    """Return a list of zeros for each field of a record; of some there are several per ball."""
+    lengths = {name: size * per_ball.get(name, 1) for name in record._fields} | _LENGTHS
     return {name: [0 if name in _INTEGERS else 0.0] * lengths[name] for name in record._fields}
 
 
@@ -212,11 +207,9 @@ def as_arrays(record: Any) -> Any:
     """Return a Stack or Samples of lists as one of numpy arrays, for compiled kernels."""
     import numpy as np
 
-    return type(record)(
-        *(
-            np.array(values, dtype=np.int64 if name in _INTEGERS else np.float64)
-            for name, values in zip(record._fields, record, strict=True)
-        )
+    return record._make(
+        np.array(values, dtype=np.int64 if name in _INTEGERS else np.float64)
+        for name, values in zip(record._fields, record, strict=True)
     )
 
 
@@ -235,7 +228,5 @@ def in_one_room(record: Any) -> tuple[Any, tuple[Any, Any]]:
         sizes = [array.size for array in arrays if array.dtype == kind]
         room: Any = np.zeros(sum(sizes), dtype=kind)
         rooms[kind] = room, iter(np.split(room, np.cumsum(sizes)[:-1]))
-    views = type(record)(
-        *(next(rooms[array.dtype.type][1]).reshape(array.shape) for array in arrays)
-    )
+    views = record._make(next(rooms[one.dtype.type][1]).reshape(one.shape) for one in arrays)
     return views._replace(**kept), (rooms[np.float64][0], rooms[np.int64][0])

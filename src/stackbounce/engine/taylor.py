@@ -15,6 +15,7 @@ exponential, whatever its eigenvalues; the tolerance is then round-off, whatever
 import math
 
 from stackbounce.engine.codes import HYSTERETIC, PRODUCT
+from stackbounce.engine.contacts import record_peak
 from stackbounce.engine.elementary import near_root, power
 from stackbounce.engine.forces import (
     creeps,
@@ -185,10 +186,8 @@ def record_series_peaks(stack: Stack, low: int, high: int, s: float) -> None:
             pressing, at = _largest_value(stack.force_series[i], order, s)
         elif crest > stack.peak_compression[i]:
             pressing = force(stack, i, crest, 0.0, 0.0)
-        if pressing > stack.peak_force[i]:
-            stack.peak_force[i] = pressing
-            stack.peak_time[i] = stack.anchor[first] + (at if root == 1 else at * at)
-        stack.peak_compression[i] = max(stack.peak_compression[i], crest)
+        time = stack.anchor[first] + (at if root == 1 else at * at)
+        record_peak(stack, i, crest, pressing, time)
 
 
 @kernel

@@ -26,14 +26,9 @@ def half_turns(x: float) -> tuple[float, float]:
 def cosine(z: float) -> float:
     """Return cos x for z = x^2, x at most pi/2."""
     zz = z * z
-    even = 4.6161350973324585e-14
-    even = 2.0876592592640105e-09 + zz * even
-    even = 2.4801587285783923e-05 + zz * even
-    even = 0.04166666666666583 + zz * even
-    even = 1.0 + zz * even
-    odd = -1.1463635441551134e-11
-    odd = -2.755731706851301e-07 + zz * odd
-    odd = -0.001388888888883005 + zz * odd
+    even = 2.4801587285783923e-05 + zz * (2.0876592592640105e-09 + zz * 4.6161350973324585e-14)
+    even = 1.0 + zz * (0.04166666666666583 + zz * even)
+    odd = -0.001388888888883005 + zz * (-2.755731706851301e-07 + zz * -1.1463635441551134e-11)
     odd = -0.5 + zz * odd
     return even + z * odd
 
@@ -42,14 +37,9 @@ def cosine(z: float) -> float:
 def sinc(z: float) -> float:
     """Return (sin x)/x for z = x^2, x at most pi/2."""
     zz = z * z
-    even = 2.7222687986209786e-15
-    even = 1.6058943987849492e-10 + zz * even
-    even = 2.755731921214364e-06 + zz * even
-    even = 0.008333333333333212 + zz * even
-    even = 1.0 + zz * even
-    odd = -7.643098981846764e-13
-    odd = -2.505210696129337e-08 + zz * odd
-    odd = -0.00019841269841215352 + zz * odd
+    even = 2.755731921214364e-06 + zz * (1.6058943987849492e-10 + zz * 2.7222687986209786e-15)
+    even = 1.0 + zz * (0.008333333333333212 + zz * even)
+    odd = -0.00019841269841215352 + zz * (-2.505210696129337e-08 + zz * -7.643098981846764e-13)
     odd = -0.16666666666666666 + zz * odd
     return even + z * odd
 

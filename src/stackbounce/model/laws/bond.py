@@ -12,7 +12,7 @@ from stackbounce.model.laws.registry import register
 
 
 @register
-@dataclass(frozen=True)
+@dataclass(frozen=True)  # which shows a damping of 0, too
 class Bond(DampedSpring):
     """A spring and a dashpot that push and pull, and never open: two parts of one body.
 

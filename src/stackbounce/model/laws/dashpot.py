@@ -16,7 +16,6 @@ Source: T. Schwager and T. Pöschel, Granular Matter 9, 465 (2007), who write ar
 """
 
 import math
-from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
 from stackbounce.engine import codes
@@ -44,7 +43,6 @@ class DampedSpring(ContactLaw):
 
 
 @register
-@dataclass(frozen=True)
 class Dashpot(DampedSpring):
     """A linear spring and a dashpot in parallel (Kelvin-Voigt), which cannot pull.
 

@@ -1,6 +1,5 @@
 """The lossless laws: the force is a power of the compression, loading and unloading."""
 
-from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from stackbounce.engine import codes
@@ -33,7 +32,6 @@ class ElasticLaw(ContactLaw):
 
 
 @register
-@dataclass(frozen=True)
 class Spring(ElasticLaw):
     """A linear spring without loss that can be compressed and cannot pull.
 
@@ -72,7 +70,6 @@ class Spring(ElasticLaw):
 
 
 @register
-@dataclass(frozen=True)
 class Hertz(ElasticLaw):
     """The contact of two elastic spheres, or of one and a flat floor, without loss.
 
@@ -170,7 +167,6 @@ def _shares(name: str, ball: object) -> tuple[float, float]:
 
 
 @register
-@dataclass(frozen=True)
 class PowerLaw(ElasticLaw):
     """A spring without loss whose force grows as a power of the compression.
 

@@ -8,7 +8,6 @@ the force from ``F_b = sin(t_b) = φ F_p`` to ``F_p``, ``(F_p**2 - F_b**2)/(2 r)
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self
 
 from stackbounce.engine import codes
@@ -32,7 +31,6 @@ _SOFTEST = 6.0  # exponent of a release
 
 
 @register
-@dataclass(frozen=True)
 class HollowBall(ContactLaw):
     """A hollow ball: stiff until its wall buckles, softer then, with hysteresis.
 

@@ -17,7 +17,6 @@ D. E. Orin, IEEE Trans. Syst. Man Cybern. A 29, 566 (1999).
 """
 
 import math
-from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
 from stackbounce.engine import codes
@@ -34,7 +33,6 @@ _FACTORS = tuple(1.0 / math.factorial(n) for n in range(2, 22))
 
 
 @register
-@dataclass(frozen=True)
 class HuntCrossley(ContactLaw):
     """A power law with a damping force in proportion to the elastic force.
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import KW_ONLY, dataclass, field
+from dataclasses import KW_ONLY, field
 from typing import Annotated, Any, ClassVar, Self
 
 from stackbounce.engine import codes
@@ -25,7 +25,6 @@ _SOFTEST, _STEEPEST_FLANK = 6.0, 100.0  # exponents of a release that is not kno
 
 
 @register
-@dataclass(frozen=True, repr=False)
 class Hysteretic(ContactLaw):
     """A lossy spring with hysteresis: it unloads along another curve than it loads.
 

@@ -112,9 +112,9 @@ _Law = TypeVar("_Law", bound="ContactLaw")
 class ContactLaw(Shown):
     """The base class of all contact laws: the attributes and methods that the package uses.
 
-    A law is a frozen dataclass; the hint of each parameter holds a `Quantity`. The class must set
-    `formula`, `source` and `form`. It overrides the defaults that do not apply to it, and
-    is decorated with `stackbounce.model.laws.registry.register`.
+    A law is decorated with `stackbounce.model.laws.registry.register`, which makes it a frozen
+    dataclass; the hint of each parameter holds a `Quantity`. The class must set `formula`, `source`
+    and `form`. It overrides the defaults that do not apply to it.
     """
 
     says: ClassVar[str]

@@ -1,6 +1,6 @@
 """The registry of contact laws: each class adds itself by the decorator `register`."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar, dataclass_transform
 
 from stackbounce.errors import InvalidValue, nearest, shown
@@ -23,7 +23,7 @@ def usual_laws() -> list[str]:
 _JOINED = str.maketrans("", "", "-_")
 
 
-@dataclass_transform(frozen_default=True)
+@dataclass_transform(frozen_default=True, field_specifiers=(field,))
 def register(law: type[_Law]) -> type[_Law]:
     """Let all of stackbounce know a contact law of your own; used as a decorator.
 

@@ -1,7 +1,7 @@
 """Rigid contacts: instantaneous collisions; restitutions may depend on the speed, and scatter."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Annotated, Any, ClassVar, Self
 
 from stackbounce.engine import codes
@@ -19,7 +19,6 @@ _SEED = Quantity("", lambda n, v: between(n, v, 0.0, _SEEDS), (0.0, 0.0, 100.0))
 
 
 @register
-@dataclass(frozen=True, repr=False)
 class Rigid(ContactLaw):
     """An instantaneous collision with Newton's restitution.
 
@@ -76,7 +75,6 @@ class Rigid(ContactLaw):
 
 
 @register
-@dataclass(frozen=True, repr=False)
 class RigidBySpeed(Rigid):
     """An instantaneous collision whose restitution falls with a power of the speed.
 
@@ -164,7 +162,6 @@ class RigidBySpeed(Rigid):
 
 
 @register
-@dataclass(frozen=True, repr=False)
 class RigidLossBySpeed(RigidBySpeed):
     """An instantaneous collision whose loss grows with a power of the speed.
 

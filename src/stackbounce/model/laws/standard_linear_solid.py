@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
 from stackbounce.engine import codes
@@ -12,7 +11,6 @@ from stackbounce.model.laws.registry import register
 
 
 @register
-@dataclass(frozen=True)
 class StandardLinearSolid(ContactLaw):
     """A spring in parallel with a spring and a dashpot in series (Zener): its force relaxes.
 

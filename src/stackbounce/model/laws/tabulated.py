@@ -12,7 +12,6 @@ Sci. Stat. Comput. 5, 300 (1984).
 import functools
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self
 
 from stackbounce.engine import codes
@@ -35,7 +34,6 @@ Piece = tuple[float, float, float, float]
 
 
 @register
-@dataclass(frozen=True, repr=False)
 class Tabulated(ContactLaw):
     """A law from measured points, such as those of a press curve: force over compression.
 

@@ -7,7 +7,6 @@ Source: P. Müller and T. Pöschel, Phys. Rev. E 84, 021302 (2011). As here, the
 the force is back at zero.
 """
 
-from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from stackbounce.engine import codes
@@ -17,7 +16,6 @@ from stackbounce.model.laws.registry import register
 
 
 @register
-@dataclass(frozen=True)
 class Viscoelastic(ContactLaw):
     """The contact of two viscoelastic spheres, or of one and a flat floor.
 
