@@ -67,9 +67,8 @@ def find_collapse(stack: RigidStack, contact: int, until: float, log: Floats) ->
     for other in (contact - 1, contact + 1):
         if 0 <= other < len(stack.mass):
             duration = pair_duration(stack, contact, other)
-            still = _is_still(stack, contact) and _is_still(stack, other)
             certain = duration < math.inf and duration <= left
-            if duration <= soon or (certain and still and stack.number[slots.GRAVITY] == 0.0):
+            if duration <= soon or (certain and _are_still(stack, contact, other)):
                 _merge(stack, min(contact, other), max(contact, other), duration, log)
     stack.last_hit[contact] = stack.counter[slots.EVENTS]
     low, high = vanished_group(stack, contact)
@@ -270,6 +269,12 @@ def _compare_with_kept(stack: RigidStack, contact: int, low: int, high: int) -> 
         if kept_gap > 0.0 and abs(part - stack.kept_gap[i] / kept_gap) > _SAME_GAPS:
             return math.inf
     return gap / kept_gap * kept / size if kept_gap > 0.0 else 0.0
+
+
+@kernel
+def _are_still(stack: RigidStack, i: int, j: int) -> bool:
+    """Return whether, without gravity, the rates of contacts i and j are close to underflow."""
+    return stack.number[slots.GRAVITY] == 0.0 and _is_still(stack, i) and _is_still(stack, j)
 
 
 @kernel
