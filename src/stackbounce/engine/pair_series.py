@@ -37,7 +37,7 @@ _STEPS = 200.0  # longer runs accumulate round-off
 
 # Terms of the series in parts of a step, a slot for each contact: compression and its surface's;
 # and, a slot for each lane, of what the contact waits for that may end the step.
-C_TERMS = lane.SLOTS
+C_TERMS = lane.SLOTS + -lane.SLOTS % LANES  # a row begins at a cache line
 S_TERMS = C_TERMS + (ORDER + 1) * BOTH
 TERMS = S_TERMS + (ORDER + 1) * BOTH
 # Slots for each contact: a term of its free closing rate; the rate at which its surface follows;

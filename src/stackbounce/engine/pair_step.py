@@ -40,7 +40,7 @@ from collections.abc import Sequence
 from stackbounce.engine.elementary import swift_exp, swift_log
 from stackbounce.engine.kernels import Floats, kernel
 
-LANES = 32  # a power of two
+LANES = 16  # a power of two
 BOTH = 2 * LANES  # a slot for each contact: the floor's, then the balls'
 CYCLES = 4  # of hysteresis, inside one another: the general engine follows more of them
 
