@@ -9,8 +9,9 @@ import math
 
 from stackbounce.engine import pair_step as lane
 from stackbounce.engine.codes import ASK, FINISHED
-from stackbounce.engine.elementary import exp, power
+from stackbounce.engine.elementary import exp
 from stackbounce.engine.kernels import Floats, kernel
+from stackbounce.engine.pair_cycles import follow, forget
 from stackbounce.engine.pair_step import BOTH, EVENT, LANES, ROOT, TIME
 
 # kinds of event; GAIN: the gain that is watched is 0; RETURN: the compression comes back to a
@@ -61,7 +62,7 @@ def press(x: Floats, i: int, k: int) -> None:
     x[lane.PRESSING + k], x[lane.SIGN + k], x[lane.GAIN_SIGN + k] = x[lane.STIFFNESS + k], 1.0, 1.0
     x[lane.MU_NOW + k] = x[lane.MU + k]
     if x[lane.LOSS + k] > 0.0:
-        _forget(x, k)
+        forget(x, k)
     if x[lane.COUNT + k] == 0.0:
         x[lane.FIRST + k] = x[lane.Y + lane.T + i]
     x[lane.COUNT + k] += 1.0
@@ -78,30 +79,7 @@ def open_now(x: Floats, k: int) -> None:
 def begin_open(x: Floats, k: int) -> None:
     """Let contact k be open, and remember nothing."""
     open_now(x, k)
-    _forget(x, k)
-
-
-@kernel
-def _forget(x: Floats, k: int) -> None:
-    """Let contact k be on its loading curve; this is all that there is without hysteresis."""
-    x[lane.OUTWARD + k], x[lane.DEPTH + k], x[lane.HIGHS + k] = 0.0, 0.0, 1.0
-    _follow(x, k)
-
-
-@kernel
-def _follow(x: Floats, k: int) -> None:
-    """Set the numbers of the force of contact k on its present curve (see `cycles`)."""
-    out, depth = x[lane.OUTWARD + k], int(x[lane.DEPTH + k])
-    peak, held, before = x[lane.TOP + k] if out > 0.0 else x[lane.HIGHS + k], 0.0, 0.0
-    for j in range(depth):
-        high, low = x[lane.HIGHS + j * BOTH + k], x[lane.LOWS + j * BOTH + k]
-        upto = x[lane.STIFFNESS + k] * power(low, x[lane.POWER + k] + 1.0)
-        held += (upto - before) * power(peak / high, x[lane.LOSS + k])
-        before = upto
-    x[lane.OVER_PEAK + k], x[lane.ADDED + k], x[lane.KEPT + k] = 1.0 / peak, 1.0 - out, out
-    x[lane.HELD + k], x[lane.OFFSET + k] = held - out * before, (out - 1.0) * before
-    ends = lane.LOWS if out > 0.0 else lane.HIGHS
-    x[lane.LEVEL + k] = x[ends + (depth - 1) * BOTH + k] if depth > 0 else 0.0
+    forget(x, k)
 
 
 @kernel
@@ -129,7 +107,7 @@ def _turn_or_return(x: Floats, i: int, k: int, kind: float) -> None:
     x[lane.OUTWARD + k], x[lane.DEPTH + k] = 1.0 if out else 0.0, depth
     x[lane.SIGN + k] = 1.0 if out or depth == 0 else -1.0
     x[lane.GAIN_SIGN + k] = -1.0 if out else 1.0
-    _follow(x, k)
+    follow(x, k)
     go_by(x, i, TIME, x[lane.BY_TIME + i])
 
 

@@ -50,10 +50,10 @@ V, CREEP, SIDE, DAMP, BOUND, SAFE, LENGTH, OVER_LENGTH, PART = (_EACH + k * BOTH
 # which one contact is safe, and both are; what the contact waits for, its slope, half its second
 # derivative, and how sure the root is.
 _LANE = _EACH + 9 * BOTH
-LANDS, FLOOR, ONE, TWO, VALUE, SLOPE, BEND, SURE = (_LANE + k * LANES for k in range(8))
+LANDS, FLOOR, ONE_SAFE, BOTH_SAFE, VALUE, SLOPE, BEND, SURE = (_LANE + k * LANES for k in range(8))
 # The order: in a slot, so that a compiler does not unroll the loops. The most steps of a drop.
-COUNTED = _LANE + 8 * LANES
-LIMIT = COUNTED + 1
+COUNT_OF_TERMS = _LANE + 8 * LANES
+LIMIT = COUNT_OF_TERMS + 1
 SLOTS = LIMIT + 1
 _MASK = 31  # no change: it shows a compiler the range of a term's number
 
@@ -61,13 +61,13 @@ _MASK = 31  # no change: it shows a compiler the range of a term's number
 @kernel
 def begin_series(x: Floats, event_limit: float) -> None:
     """Set the numbers that hold for all lanes."""
-    x[lane.TOLERANCE], x[COUNTED], x[LIMIT] = _ERROR, ORDER, min(event_limit, _STEPS)
+    x[lane.TOLERANCE], x[COUNT_OF_TERMS], x[LIMIT] = _ERROR, ORDER, min(event_limit, _STEPS)
 
 
 @kernel
 def step_by_series(x: Floats) -> None:
     """Move each lane on, at most to its next event; `look_after_series` applies that."""
-    order = int(x[COUNTED]) & _MASK
+    order = int(x[COUNT_OF_TERMS]) & _MASK
     _choose_lengths(x)
     _expand(x, order)
     _find_safe_times(x, order)
@@ -180,7 +180,7 @@ def _choose_contact(x: Floats, order: int) -> None:
     for i in range(LANES):
         one, other = x[SAFE + i], x[SAFE + LANES + i]
         x[FLOOR + i], x[PART + i] = 1.0 if one <= other else 0.0, min(one, other)
-        x[ONE + i], x[TWO + i] = max(one, other), min(one, other)
+        x[ONE_SAFE + i], x[BOTH_SAFE + i] = max(one, other), min(one, other)
     for j in range(order):
         c = C_TERMS + (j & _MASK) * BOTH
         for i in range(LANES):
@@ -228,9 +228,9 @@ def _choose_steps(x: Floats) -> None:
         u, unsure, steps = x[PART + i], x[lane.UNSURE + i], x[lane.STEPS + i] + 1.0
         sure = x[SURE + i] > -error * x[lane.V0 + i] * x[LENGTH + i]
         sure = sure and x[SLOPE + i] < -unsure * x[LENGTH + i]
-        sure = sure and 0.0 < u <= min(x[ONE + i], 1.0)
+        sure = sure and 0.0 < u <= min(x[ONE_SAFE + i], 1.0)
         lands = x[LANDS + i] if sure else 0.0
-        u = u if lands > 0.0 else x[TWO + i]
+        u = u if lands > 0.0 else x[BOTH_SAFE + i]
         stuck = 1.0 if u <= 0.0 or steps > limit else 0.0
         x[LANDS + i], x[lane.DOUBT + i], x[lane.STEPS + i] = lands, stuck, steps
         x[PART + i] = x[PART + LANES + i] = u
