@@ -39,6 +39,7 @@ from stackbounce.engine.work import (
     EVENT_LIMIT,
     LANE_EVENTS,
     LANES_RTOL,
+    TURN_WORK,
     WORK_LIMIT,
 )
 
@@ -82,13 +83,14 @@ def layout() -> dict[str, Any]:
             "factor": AGAIN,
             "least": LANES_RTOL,
             "work": AGAIN_WORK,
+            "turns": TURN_WORK,
             "asked": ASKED_RTOL,
         },
         "log": _numbered(f"{_COLUMNS} IMPULSE PEAK_TIME"),
         "statuses": _numbered(_STATUSES),
         "causes": _numbered("ENDLESS STIFF EXTREME"),
         "events": _numbered(_EVENTS),
-        "forms": _numbered("ABSENT POWER"),
+        "forms": _numbered("ABSENT POWER HYSTERETIC"),
         "linear_forms": list(codes.LINEAR_FORMS),
         "pair_forms": list(codes.PAIR_FORMS),
     }

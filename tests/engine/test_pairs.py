@@ -35,9 +35,10 @@ def run(drops, rtol):
 )
 @pytest.mark.parametrize(("count", "gravity"), COUNTS)
 def test_as_the_general_engine(entry, forms, digits, count, gravity):
-    """Counts are right, and errors near the tolerance, but for four drops that magnify any error.
+    """Counts are right, and errors near the tolerance.
 
-    Under gravity a few drops come to rest. A few swing, too gently to matter, to the limit.
+    Under gravity a few drops come to rest, and one magnifies any error. A few swing, too gently to
+    matter, to the limit.
     """
     drops, rtol = pairs(count, digits, 1.5, gravity, forms), 10.0**-digits
     work = 10**7 if gravity else 10**12
@@ -50,8 +51,8 @@ def test_as_the_general_engine(entry, forms, digits, count, gravity):
     known = (out.status == codes.FINISHED) & ended
     assert known.mean() > (0.7 if digits == 3 else 0.95)
     error = np.abs(whole.rebound_ratio - exact.rebound_ratio).max(axis=1)[ended]
-    assert np.median(error) < 0.5 * rtol
-    assert np.quantile(error, 1.0 - 4.0 / count) < 10.0 * rtol
+    assert np.median(error) < 0.1 * rtol
+    assert np.sort(error)[-2 if gravity else -1] < 5.0 * rtol
     last = np.nanmax(exact.last_release[known], axis=1)[:, None]
     for name in ("first_touch", "last_release"):
         time, right = getattr(out, name)[known], getattr(exact, name)[known]

@@ -221,6 +221,8 @@ def look_after(x: Floats, i: int) -> None:
         go_by(x, i, TIME, _PART * x[lane.WAIT + i])
     else:
         apply_event(x, i)
+        if x[lane.WATCHES] > 0.0 and x[lane.STATUS + i] == 0.0 and x[lane.MODE + i] == TIME:
+            _look_ahead(x, i)
 
 
 @kernel
@@ -256,7 +258,7 @@ def _slope(x: Floats, state: int, acc: int, k: int) -> float:
 @kernel
 def _wait(left: float, rate: float, change: float) -> float:
     """Return how long a number takes to become 0, from its derivatives; infinity if it rises."""
-    if not left * rate < 0.0:
+    if not (left * rate < 0.0 or (rate == 0.0 and left * change < 0.0)):
         return math.inf
     square = rate * rate - 2.0 * change * left
     return 2.0 * abs(left) / (abs(rate) + math.sqrt(square)) if square > 0.0 else abs(left / rate)
@@ -283,9 +285,16 @@ def _take(x: Floats, i: int) -> None:
     else:
         go_by(x, i, TIME, lane.ONWARD * x[lane.DT + i] * min(grow, 1.0))
     x[lane.BY_TIME + i] = x[lane.H + i]
+    x[lane.OWN + i] = x[lane.OWN + LANES + i] = 0.0
+    _look_ahead(x, i)
+
+
+@kernel
+def _look_ahead(x: Floats, i: int) -> None:
+    """Aim the next step of a lane, which goes by time, at the event expected in it, if any."""
     first, contact, kind = math.inf, -1, TOUCH
     for k in (i, LANES + i):
-        x[lane.OWN + k], left = 0.0, x[lane.Y + lane.C + k] - x[lane.LEVEL + k]
+        left = x[lane.Y + lane.C + k] - x[lane.LEVEL + k]
         wait = _wait(left, x[lane.Y + lane.R + k], x[lane.ACC_NEW + k])
         if wait < first:
             first, contact, kind = wait, k, _kind(x, k)
@@ -293,7 +302,7 @@ def _take(x: Floats, i: int) -> None:
         sign = x[lane.GAIN_SIGN + k]
         if (sign > 0.0 or _turns(x, k)) and sign * gain < -sign * slope * first:
             first, contact, kind = -gain / slope, k, GAIN
-    ahead = first / x[lane.NEXT + i]
+    ahead = first / (lane.AHEAD * x[lane.H + i])
     if ahead < 1.5 and not (ahead < _NEAR and _aim(x, i, contact, kind, first, lane.ACC_NEW)):
         x[lane.H + i] = min(x[lane.H + i], _PART * first)
 

@@ -20,13 +20,13 @@ from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import Drops, Outcomes, Workspace
 from stackbounce.engine.work import LANE_STEP
 
-_STEP = 0.4  # the error allowed in one step, over rtol
+_STEP = 1.0  # the error allowed in one step, over rtol
 _FIRST = 0.9  # of the root of a typical compression: the first step by a root, for an error of 1
 _FIRST_ROOT = 24  # it falls with this root of the error
 _FIRST_UNSURE = 2.0  # allowed errors of a step: what is not sure from the beginning
 _LEVELS, _LEVELS_PER_BIT = 1.5, 0.2  # of a continued fraction, for an error of rtol/100
-_REACH = 0.2  # of a compression, for an error of 1: so far do three derivatives lead
-_COARSE = 2.0  # the largest estimate of order 3, for an error of 1; it falls with its cube root
+_REACH = 0.5  # of a compression, for an error of 1: so far do three derivatives lead
+_COARSE = 1.5  # the largest estimate of order 3, for an error of 1; it falls with its cube root
 
 
 @kernel
@@ -147,6 +147,7 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
     k = LANES + i
     if x[lane.Y + lane.C + k] == 0.0:
         press(x, i, k)
+        x[lane.BY_TIME + i] = 2.0 * first * first * x[lane.SPAN + k]  # the first step at most
     touch(x, i, i)
     if x[lane.PRESSING + k] > 0.0:  # from rest: it is compressed from now on
         x[lane.OWN + k] = 1.0

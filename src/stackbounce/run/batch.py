@@ -37,6 +37,7 @@ from stackbounce.engine.work import (
     ASKED_RTOL,
     LANE_EVENTS,
     LANES_RTOL,
+    TURN_WORK,
 )
 from stackbounce.model import Drop
 from stackbounce.run.engines import choose_compiled, choose_engine, choose_lanes
@@ -211,7 +212,8 @@ def run_lanes(
     unsure, closer = out.status == codes.ASK, max(AGAIN * rtol, LANES_RTOL)
     again = again and lanes == "run_pairs" and closer < rtol
     if again:
-        unsure |= out.work > AGAIN_WORK * rtol**-0.125
+        turns = np.logical_or(*(drops.form.T == codes.HYSTERETIC))
+        unsure |= out.work > AGAIN_WORK * rtol**-0.125 + TURN_WORK * turns
     else:
         closer = min(options.rtol, ASKED_RTOL)
     rows = np.flatnonzero(unsure)

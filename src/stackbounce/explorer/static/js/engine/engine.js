@@ -91,14 +91,14 @@ class Engine {
 
   /** Run the drops that an engine in lanes is not sure of more closely, by the rule of `run/batch.py`. */
   answer(drops, outcomes, { rtol, again, lanes, ...options }) {
-    const { factor, least, work, asked } = this.layout.closer;
-    const near = Math.max(factor * rtol, least);
+    const { closer, forms, statuses } = this.layout;
+    const near = Math.max(closer.factor * rtol, closer.least);
     const repeats = again && lanes === "run_pairs" && near < rtol;
-    const long = repeats ? work * rtol ** -0.125 : Infinity;
-    const { status, work: spent } = outcomes;
-    const rows = [...status.keys()].filter((row) => status[row] === this.layout.statuses.ASK || spent[row] > long);
+    const turns = (row) => (drops.form.slice(2 * row, 2 * row + 2).includes(forms.HYSTERETIC) ? closer.turns : 0);
+    const long = (row) => repeats && outcomes.work[row] > closer.work * rtol ** -0.125 + turns(row);
+    const rows = [...outcomes.status.keys()].filter((row) => outcomes.status[row] === statuses.ASK || long(row));
     if (!rows.length) return;
-    Object.assign(options, repeats ? { rtol: near, lanes, again: false } : { rtol: Math.min(rtol, asked) });
+    Object.assign(options, repeats ? { rtol: near, lanes, again: false } : { rtol: Math.min(rtol, closer.asked) });
     const width = (values) => values.length / outcomes.status.length;
     const some = { rigid: false };
     for (const { name } of this.layout.records.Drops) {
