@@ -11,7 +11,7 @@ import pytest
 from adversary.table import begin, expect, row
 
 TESTS = Path(__file__).parents[1]
-COUNTS = {"signals": 2, "kills": 7, "pairs": 14, "stores": 10, "disks": 6}
+COUNTS = {"signals": 1, "kills": 4, "pairs": 7, "stores": 5, "disks": 3}
 
 
 @pytest.mark.slow

@@ -19,7 +19,7 @@ from stackbounce.run.paths import number_at
 
 HERTZ = sb.Drop([sb.Ball(0.15), sb.Ball(0.057)], [sb.Hertz(1e6)] * 2, impact_speed=2.0)
 LIMIT = 1_000_000
-COUNTS = [(3000, False), (1000, True), pytest.param(40_000, False, marks=pytest.mark.slow)]
+COUNTS = [(3000, False), (1000, True), pytest.param(20_000, False, marks=pytest.mark.slow)]
 
 
 ENTRIES = [(run_pairs, codes.PAIR_FORMS, 1e-6), (run_linear, codes.LINEAR_FORMS, LIMIT)]
@@ -52,7 +52,7 @@ def test_as_the_general_engine(entry, forms, digits, count, gravity):
     assert known.mean() > (0.7 if digits == 3 else 0.95)
     error = np.abs(whole.rebound_ratio - exact.rebound_ratio).max(axis=1)[ended]
     assert np.median(error) < 0.1 * rtol
-    assert np.sort(error)[-2 if gravity else -1] < 5.0 * rtol
+    assert np.sort(error)[-2 if gravity else -1] < 10.0 * rtol
     last = np.nanmax(exact.last_release[known], axis=1)[:, None]
     for name in ("first_touch", "last_release"):
         time, right = getattr(out, name)[known], getattr(exact, name)[known]

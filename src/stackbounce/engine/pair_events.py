@@ -222,7 +222,7 @@ def look_after(x: Floats, i: int) -> None:
     else:
         apply_event(x, i)
         if x[lane.WATCHES] > 0.0 and x[lane.STATUS + i] == 0.0 and x[lane.MODE + i] == TIME:
-            _look_ahead(x, i)
+            _look_ahead(x, i)  # else the other contact mostly goes by a formula
 
 
 @kernel
@@ -257,7 +257,7 @@ def _slope(x: Floats, state: int, acc: int, k: int) -> float:
 
 @kernel
 def _wait(left: float, rate: float, change: float) -> float:
-    """Return how long a number takes to become 0, from its derivatives; infinity if it rises."""
+    """Return how long a number takes to become 0, from its derivatives; infinity if it grows."""
     if not (left * rate < 0.0 or (rate == 0.0 and left * change < 0.0)):
         return math.inf
     square = rate * rate - 2.0 * change * left

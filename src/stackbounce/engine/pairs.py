@@ -147,7 +147,7 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
     k = LANES + i
     if x[lane.Y + lane.C + k] == 0.0:
         press(x, i, k)
-        x[lane.BY_TIME + i] = 2.0 * first * first * x[lane.SPAN + k]  # the first step at most
+        x[lane.BY_TIME + i] = 2.0 * first * first * x[lane.SPAN + k]  # it may be much the stiffer
     touch(x, i, i)
     if x[lane.PRESSING + k] > 0.0:  # from rest: it is compressed from now on
         x[lane.OWN + k] = 1.0
