@@ -209,13 +209,18 @@ def _fall(x: Floats, i: int) -> None:
 
 
 @kernel
-def look_after(x: Floats, i: int) -> None:
-    """Decide how a lane goes on whose step meets an event, or may, or comes near one."""
+def look_after(x: Floats, i: int) -> bool:
+    """Decide how a lane goes on whose step meets an event, or may, or comes near one.
+
+    Return whether an event was applied.
+    """
     doubt = x[lane.DOUBT + i] + x[lane.DOUBT + LANES + i] > 0.0
     if x[lane.STEPS + i] > lane.MOST_STEPS:
         x[lane.STATUS + i] = ASK
+    elif x[lane.TAKEN + i] > 0.0:
+        _look_ahead(x, i)
     elif x[lane.MODE + i] != EVENT:
-        if not doubt or not _retry(x, i):
+        if not _retry(x, i):
             _take(x, i)
     elif doubt or x[lane.OVER_ERROR + i] < 1.0 or not _is_steady(x, i):
         go_by(x, i, TIME, _PART * x[lane.WAIT + i])
@@ -223,6 +228,8 @@ def look_after(x: Floats, i: int) -> None:
         apply_event(x, i)
         if x[lane.WATCHES] > 0.0 and x[lane.STATUS + i] == 0.0 and x[lane.MODE + i] == TIME:
             _look_ahead(x, i)  # else the other contact mostly goes by a formula
+        return True
+    return False
 
 
 @kernel

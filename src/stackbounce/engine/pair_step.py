@@ -137,26 +137,21 @@ def _find_rates(x: Floats, node: float, weight: float) -> None:
 
     The rates are those of a whole step. The time at its end gets a part, ``weight``, of dt/ds.
     """
-    if x[GENERAL] == 0.0:
-        for i in range(BOTH):
-            root = math.sqrt(max(x[NOW + C + i], 0.0))
-            x[F + i] = root if x[POWER + i] > 0.0 else 1.0
-    else:
+    if x[GENERAL] > 0.0:
         for i in range(BOTH):
             x[BASE + i], x[EXPONENT + i] = x[NOW + C + i], x[POWER + i]
         _find_powers(x)
+    if x[GENERAL] + x[LOSES] > 0.0:
         for i in range(BOTH):
-            p, base = x[POWER + i], x[BASE + i]
-            base = math.sqrt(max(x[NOW + C + i], 0.0)) if p == 0.5 else base
-            x[F + i] = base if p > 0.0 else 1.0
-    if x[LOSES] > 0.0:
-        for i in range(BOTH):
-            c, a, b = x[NOW + C + i], x[A + i], x[B + i]
+            c, p, a, b = x[NOW + C + i], x[POWER + i], x[A + i], x[B + i]
+            base = math.sqrt(max(c, 0.0)) if p == 0.5 else x[BASE + i]
             gain = a + b * c + x[D + i] * x[NOW + R + i]
-            x[F + i] = x[PRESSING + i] * x[F + i] * gain * (b + a * c)
+            x[F + i] = x[PRESSING + i] * (base if p > 0.0 else 1.0) * gain * (b + a * c)
     else:
         for i in range(BOTH):
-            x[F + i] = x[PRESSING + i] * x[F + i] * x[NOW + C + i]
+            c = x[NOW + C + i]
+            root = math.sqrt(max(c, 0.0))
+            x[F + i] = x[PRESSING + i] * (root if x[POWER + i] > 0.0 else 1.0) * c
     if x[REMEMBERS] > 0.0:
         for i in range(BOTH):
             ratio, exponent = x[NOW + C + i] * x[OVER_PEAK + i], x[LOSS + i]
@@ -343,10 +338,10 @@ def _go_on(x: Floats) -> None:
     for i in range(LANES):
         exact = 1.0 if x[OVER_ERROR + i] >= 1.0 else 0.0
         mode, grow = x[MODE + i], x[GROW + i]
-        asks = x[DOUBT + i] + x[DOUBT + LANES + i] + x[SOON + i] + x[SOON + LANES + i]
-        asks = exact * asks + (1.0 if mode == EVENT else 0.0)
+        meets = exact * (x[DOUBT + i] + x[DOUBT + LANES + i]) + (1.0 if mode == EVENT else 0.0)
+        asks = meets + exact * (x[SOON + i] + x[SOON + LANES + i])
         asks += 1.0 if x[STEPS + i] > MOST_STEPS else 0.0
-        alone = 1.0 if asks == 0.0 else 0.0
+        alone = 1.0 if meets == 0.0 else 0.0
         taken = alone * exact
         turns = taken * mode  # 1 where a step by a root is taken: one up to an event is not
         stays = 1.0 - turns

@@ -89,8 +89,7 @@ def _run(drops: Drops, first: float, linear: bool, out: Outcomes, x: Floats) -> 
             if x[lane.STATUS + i] == 0.0 and x[lane.ASKS + i] > 0.0:
                 if linear:
                     look_after_series(x, i)
-                else:
-                    look_after(x, i)
+                elif look_after(x, i):
                     go_alone(x, i)
             while x[lane.STATUS + i] != 0.0:
                 done = int(x[lane.ROW + i])
