@@ -20,7 +20,7 @@ TOUCH, RELEASE, GAIN, RETURN = 0.0, 1.0, 2.0, 3.0
 
 _SLOW = 1e-5  # of the impact speed: it is not sure that slower contacts touch or open
 _TOGETHER = 1e-6  # of a time: it is not sure which of two contacts that are so close touches first
-_NEAR = 0.4  # of the next step by time: an event within it is aimed at
+_NEAR = 0.5  # of the next step by time: an event within it is aimed at
 _PART = 0.8  # of the way to a later event, or to one that a step could not be aimed at
 _STEADY = 0.4  # of the mean rate up to an event: the least rate at which a step is aimed at it
 _ODD = 0.1  # of a way: the least by which it is odd

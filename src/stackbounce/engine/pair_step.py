@@ -98,11 +98,11 @@ SLOTS = TOLERANCE + 9
 TIME, ROOT, EVENT = 0.0, 1.0, 2.0  # modes: by time, by a root from a touch on, up to an event
 
 MOST_STEPS = 2000.0  # of a drop: the general engine solves one that needs more
-_HALVED = 2.0  # allowed errors: where so much is not sure, a step may have half of its error
+_HALVED = 1.5  # allowed errors: where so much is not sure, a step may have half of its error
 _UNSURE = 3.0  # errors of the steps so far: an event that comes, or fails to, by less is not sure
 AHEAD = 1.2  # steps: an event within this is aimed at
 _TINY = 1e-150  # m/s: a step without an error is exact
-ONWARD = 1.7  # the first step by time, over the time of the last one by a root
+ONWARD = 2.2  # the first step by time, over the time of the last one by a root
 
 # fmt: off
 _TO_2 = (0.05260015195876773,)
@@ -265,8 +265,9 @@ def _find_errors(x: Floats) -> None:
     """Compare the error of each step with the allowed one (Hairer, Norsett and Wanner, eq. 10.17).
 
     The error is that of the rates and of the mean rates in the step. The square root in that
-    equation is left out. A large estimate of order 3 shows that none can be trusted. The less sure
-    the steps so far are, the smaller an error is allowed, since a long drop adds up many.
+    equation is left out. Where the estimate of order 3 is large, none can be trusted: its limit
+    counts as another error. The less sure the steps so far are, the smaller an error is allowed,
+    since a long drop adds up many.
     """
     tolerance, coarse = x[TOLERANCE], x[COARSE]
     for i in range(LANES):
@@ -278,15 +279,15 @@ def _find_errors(x: Floats) -> None:
         fifth += x[K4 + R + i] + x[K4 + R + LANES + i]
         unsure, most = x[UNSURE + i], speed * tolerance
         allowed = most / (1.0 + unsure / (_HALVED * most))
-        over = (fifth + 0.1 * third + _TINY) * allowed / (fifth * fifth + _TINY * _TINY)
-        over = over if third < coarse * speed and dt > 0.0 else 0.0
+        by_eighth = (fifth + 0.1 * third + _TINY) * allowed / (fifth * fifth + _TINY * _TINY)
+        by_third = coarse * speed / (third + _TINY)  # squared: an error of order 3 grows as h^4
+        over = min(by_eighth, by_third * by_third) if dt > 0.0 and by_third > 1e-3 else 0.0
         over = min(max(over, 1e-6), 1e6)
         root = math.sqrt(math.sqrt(math.sqrt(over)))
-        grow = min(max(0.9 * root, 0.2), 3.0)
+        grow = min(max(0.86 * root, 0.2), 2.4)
         x[OVER_ERROR + i], x[GROW + i] = over, grow
         x[DT + i] = x[DT + LANES + i] = dt
-        exact = 1.0 if over >= 1.0 else 0.0
-        unsure += exact * _UNSURE * allowed / over
+        unsure += _UNSURE * allowed / by_eighth if over >= 1.0 else 0.0
         x[UNSURE + i] = unsure
         x[MARGIN + i], x[WIDE + i] = unsure * dt, unsure * x[SPAN + i]
         x[MARGIN + LANES + i], x[WIDE + LANES + i] = unsure * dt, unsure * x[SPAN + LANES + i]

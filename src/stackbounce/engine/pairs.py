@@ -20,13 +20,14 @@ from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import Drops, Outcomes, Workspace
 from stackbounce.engine.work import LANE_STEP
 
-_STEP = 1.0  # the error allowed in one step, over rtol
-_FIRST = 0.9  # of the root of a typical compression: the first step by a root, for an error of 1
-_FIRST_ROOT = 24  # it falls with this root of the error
+_STEP = 1.3  # the error allowed in one step, over rtol
+_FIRST = 1.8  # of the root of a typical compression: the first step by a root, for an error of 1
+_FIRST_ROOT, _LONGEST = 8, 0.7  # it falls with this root of the error, and is at most so much
 _FIRST_UNSURE = 2.0  # allowed errors of a step: what is not sure from the beginning
 _LEVELS, _LEVELS_PER_BIT = 1.5, 0.2  # of a continued fraction, for an error of rtol/100
 _REACH = 0.5  # of a compression, for an error of 1: so far do three derivatives lead
-_COARSE = 1.5  # the largest estimate of order 3, for an error of 1; it falls with its cube root
+_COARSE = 2.0  # the largest estimate of order 3, for an error of 1
+_COARSE_POWER = 0.38  # it falls with this power of the error
 
 
 @kernel
@@ -47,10 +48,10 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
         Its ``floats`` are scratch space, of the size `records.SCRATCH`.
     """
     x = space.floats
-    x[lane.TOLERANCE], x[lane.COARSE] = _STEP * rtol, _COARSE * power(rtol, 1.0 / 3.0)
+    x[lane.TOLERANCE], x[lane.COARSE] = _STEP * rtol, _COARSE * power(rtol, _COARSE_POWER)
     x[lane.LEVELS] = _LEVELS - _LEVELS_PER_BIT * nearest_exponent(rtol)
     x[lane.REACH] = _REACH * near_root(rtol, 3)
-    _run(drops, _FIRST * near_root(rtol, _FIRST_ROOT), False, out, x)
+    _run(drops, min(_FIRST * near_root(rtol, _FIRST_ROOT), _LONGEST), False, out, x)
 
 
 @kernel
