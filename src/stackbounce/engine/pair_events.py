@@ -424,14 +424,14 @@ def apply_event(x: Floats, i: int) -> None:
     """Take a step that ends at an event, and apply that event."""
     k, kind = int(x[lane.CONTACT + i]), x[lane.KIND + i]
     accept(x, i)
-    r, back = x[lane.Y + lane.R + k], abs(x[lane.ACC_NEW + k])
-    if kind < GAIN and r * x[lane.ACC_NEW + k] < 0.0 and r * r < 2.0 * back * x[lane.WIDE + k]:
+    r, acc, turns = x[lane.Y + lane.R + k], x[lane.ACC_NEW + k], kind >= GAIN and _turns(x, k)
+    if not turns and r * acc < 0.0 and r * r < 2.0 * abs(acc) * x[lane.WIDE + k]:
         x[lane.STATUS + i] = ASK  # it would come back before it is sure that it was there
         return
     if kind == TOUCH:
         touch(x, i, k)
         return
-    if kind in (GAIN, RETURN) and _turns(x, k):
+    if turns:
         _turn_or_return(x, i, k, kind)
         return
     open_now(x, k)
