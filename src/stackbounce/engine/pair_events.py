@@ -210,10 +210,7 @@ def _fall(x: Floats, i: int) -> None:
 
 @kernel
 def look_after(x: Floats, i: int) -> bool:
-    """Decide how a lane goes on whose step meets an event, or may, or comes near one.
-
-    Return whether an event was applied.
-    """
+    """Decide how a lane goes on that meets or nears an event; return whether one was applied."""
     doubt = x[lane.DOUBT + i] + x[lane.DOUBT + LANES + i] > 0.0
     if x[lane.STEPS + i] > lane.MOST_STEPS:
         x[lane.STATUS + i] = ASK
@@ -286,11 +283,10 @@ def accept(x: Floats, i: int) -> None:
 def _take(x: Floats, i: int) -> None:
     """Take the step of a lane, and aim the next one at the event that is expected in it, if any."""
     accept(x, i)
-    grow = x[lane.GROW + i]
     if x[lane.MODE + i] == TIME:
-        x[lane.H + i] *= grow
+        x[lane.H + i] *= x[lane.GROW + i]
     else:
-        go_by(x, i, TIME, lane.ONWARD * x[lane.DT + i] * min(grow, 1.0))
+        go_by(x, i, TIME, lane.ONWARD * x[lane.DT + i] * min(x[lane.GROW + i], 1.0))
     x[lane.BY_TIME + i] = x[lane.H + i]
     x[lane.OWN + i] = x[lane.OWN + LANES + i] = 0.0
     _look_ahead(x, i)
@@ -427,19 +423,17 @@ def apply_event(x: Floats, i: int) -> None:
     r, acc, turns = x[lane.Y + lane.R + k], x[lane.ACC_NEW + k], kind >= GAIN and _turns(x, k)
     if not turns and r * acc < 0.0 and r * r < 2.0 * abs(acc) * x[lane.WIDE + k]:
         x[lane.STATUS + i] = ASK  # it would come back before it is sure that it was there
-        return
-    if kind == TOUCH:
+    elif kind == TOUCH:
         touch(x, i, k)
-        return
-    if turns:
+    elif turns:
         _turn_or_return(x, i, k, kind)
-        return
-    open_now(x, k)
-    if kind == GAIN:  # it is open, but compressed, and may press again
-        x[lane.GAIN_SIGN + k], x[lane.LEVEL + k] = -1.0, x[lane.Y + lane.C + k]
     else:
-        x[lane.Y + lane.C + k] = 0.0
-    go_apart(x, i, k)
+        open_now(x, k)
+        if kind == GAIN:  # it is open, but compressed, and may press again
+            x[lane.GAIN_SIGN + k], x[lane.LEVEL + k] = -1.0, x[lane.Y + lane.C + k]
+        else:
+            x[lane.Y + lane.C + k] = 0.0
+        go_apart(x, i, k)
 
 
 @kernel

@@ -22,7 +22,7 @@ from stackbounce.engine.work import LANE_STEP
 
 _STEP = 1.3  # the error allowed in one step, over rtol
 _FIRST = 1.8  # of the root of a typical compression: the first step by a root, for an error of 1
-_FIRST_ROOT, _LONGEST = 8, 0.7  # it falls with this root of the error, and is at most so much
+_FIRST_ROOT, _LONGEST = 8, 0.7  # it falls with this root of the error; at most so long
 _FIRST_UNSURE = 2.0  # allowed errors of a step: what is not sure from the beginning
 _LEVELS, _LEVELS_PER_BIT = 1.5, 0.2  # of a continued fraction, for an error of rtol/100
 _REACH = 0.5  # of a compression, for an error of 1: so far do three derivatives lead
@@ -147,7 +147,7 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
     k = LANES + i
     if x[lane.Y + lane.C + k] == 0.0:
         press(x, i, k)
-        x[lane.BY_TIME + i] = 2.0 * first * first * x[lane.SPAN + k]  # it may be much the stiffer
+        x[lane.BY_TIME + i] = 2.0 * first * first * x[lane.SPAN + k]  # the upper may be stiffer
     touch(x, i, i)
     if x[lane.PRESSING + k] > 0.0:  # from rest: it is compressed from now on
         x[lane.OWN + k] = 1.0
