@@ -78,7 +78,7 @@ def true_numbers(stack, model):
             for parameter in objective.parameters
         ]
     )
-    return np.concatenate([objective.predict(key, trial[None]) for key in HEIGHTS])
+    return np.concatenate(list(objective.predict(HEIGHTS, trial[None]).values()))
 
 
 def is_lost(name, compared):

@@ -1,12 +1,14 @@
 """`FitProblem`: what a fit needs, checked when it is made; a model until it has data."""
 
 from dataclasses import replace
+from unittest.mock import Mock
 
+import numpy as np
 import pytest
 
 import stackbounce as sb
 from stackbounce.errors import InvalidType
-from stackbounce.fitting import FitProblem
+from stackbounce.fitting import FitProblem, objective
 
 STIFFNESS = "contacts.0.stiffness"
 DROP = sb.Drop([sb.Ball(0.0567)], [sb.Spring(1e4)], height=0.3)
@@ -45,6 +47,23 @@ def test_several_drops_stay_several():
     problem = FitProblem(drops, dict.fromkeys(drops, DATA), [STIFFNESS])
     assert problem.drop == problem.drops == drops
     assert [one.drop for one in problem.fit(starts=4).residuals] == ["low", "high"]
+
+
+def test_drops_with_the_same_contacts_are_solved_together(monkeypatch):
+    stack = sb.Drop([sb.Ball(0.6), sb.Ball(0.06)], [sb.Hertz(1e5)] * 2, height=1.0, gaps=[1e-3])
+    heavy, springs = [sb.Ball(0.7), sb.Ball(0.06)], [sb.Spring(1e4)] * 2
+    changes = {"gaps": [0.0]}, {"contacts": springs}, {"height": 0.3}, {"balls": heavy}
+    drops = {f"d{k}": stack.replace(**change) for k, change in enumerate(changes)}
+    vary, trials = {"contacts.1.stiffness": (1e4, 1e6)}, np.linspace(9.5, 13.5, 7)[:, None]
+    data = {"rebound_ratios": [(0.4, 0.1), (2.0, 0.1)], "first_touch.1": (1e-3, 1e-4)}
+    together = FitProblem(drops, dict.fromkeys(drops, data), vary).objective
+    each = (FitProblem(drop, data, vary).objective for drop in drops.values())
+    alone = np.array([single.predict([""], trials)[""] for single in each])
+    solve = Mock(wraps=objective.solve_quantities)
+    monkeypatch.setattr(objective, "solve_quantities", solve)
+    found = together.predict(drops, trials)
+    assert [call.args[2] for call in solve.call_args_list] == [21, 7]
+    assert np.array([found[key] for key in drops]) == pytest.approx(alone, rel=1e-8)
 
 
 def test_bounds_around_a_number_stay_in_the_range_of_its_law():

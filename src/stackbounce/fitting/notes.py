@@ -129,7 +129,7 @@ def _describe_misfit(fit: "Fit") -> str:
 def _note_collisions(fit: "Fit") -> Iterator[str]:
     for key, measured in fit.objective.measured.items():
         if measured.counts:
-            fitted = fit.objective.solve(key, fit.x[None])["collisions"][0]
+            fitted = fit.objective.solve([key], fit.x[None])[key]["collisions"][0]
             for count in measured.counts:
                 if fitted[count.index] != count.seen:
                     name = f"{key}.{count.name}" if key else count.name

@@ -3,7 +3,7 @@
 import contextlib
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -163,24 +163,46 @@ class Objective:
             [parameter.slope(at) for parameter, at in zip(self.parameters, x, strict=True)]
         )
 
-    def rows(self, key: str, x: Array) -> Rows:
-        """Return the varied and tied numbers of one drop in trials (n, parameters), checked."""
-        drop, ties = self.drops[key], [tie for tie in self.ties if tie.drop == key]
-        values = self.values(x)
+    def _rows(self, key: str, x: Array) -> Rows:
+        """Return the varied and tied numbers of one drop in trials (n, parameters)."""
+        ties, values = [tie for tie in self.ties if tie.drop == key], self.values(x)
         named = {name: array for name, array in values.items() if self._owner[name] in (None, key)}
         found: dict[Number, Array] = {}
         for number, parameter in self._varied[key].items():
             found[number] = named[number.path] = named[parameter.name]
-        if not ties:
-            return found
-        follow = evaluate_ties(ties, self._given[key], named)
-        found |= {tie.number: follow[tie.number.path] for tie in ties}
-        try:
-            check(drop, found, lambda _: "")
-        except (InvalidValue, InvalidType) as error:
-            formulas = ", ".join(f"{tie.number.path} = {tie.text}" for tie in ties)
-            raise type(error)(f"tie: {formulas} gives no drop: {error}".rstrip()) from error
+        if ties:
+            follow = evaluate_ties(ties, self._given[key], named)
+            found |= {tie.number: follow[tie.number.path] for tie in ties}
         return found
+
+    def rows(self, key: str, x: Array) -> Rows:
+        """Return the varied and tied numbers of one drop in trials (n, parameters), checked."""
+        return self._checked([key], self._rows(key, x))
+
+    def _rows_of_all(self, keys: Sequence[str], x: Array) -> Rows:
+        """Return what varies in trials, or between drops of one kind, one drop after the other."""
+        varied = {key: self._rows(key, x) for key in keys}
+        numbers = dict.fromkeys(self._differ[self._kinds[keys[0]]])
+        for own in varied.values():
+            numbers |= dict.fromkeys(own)
+
+        def of(key: str, number: Number) -> Array:
+            alike = np.full(len(x), self._given[key][number.path])
+            return varied[key].get(number, alike)
+
+        found = {number: np.concatenate([of(key, number) for key in keys]) for number in numbers}
+        return self._checked(keys, found)
+
+    def _checked(self, keys: Sequence[str], rows: Rows) -> Rows:
+        """Return the rows of drops of one kind; raise an error if ties make one that is no drop."""
+        ties = {tie.number.path: tie.text for tie in self.ties if tie.drop in keys}
+        try:
+            if ties:
+                check(self.drops[keys[0]], rows, lambda _: "")
+        except (InvalidValue, InvalidType) as error:
+            formulas = ", ".join(f"{path} = {text}" for path, text in ties.items())
+            raise type(error)(f"tie: {formulas} gives no drop: {error}".rstrip()) from error
+        return rows
 
     @cached_property
     def _given(self) -> dict[str, dict[str, float]]:
@@ -231,20 +253,53 @@ class Objective:
         rows = self.rows(key, x[None])
         return drop_at(self.drops[key], {number: float(array[0]) for number, array in rows.items()})
 
-    def solve(self, key: str, x: Array) -> dict[str, Array]:
-        """Return all quantities of one drop in trials (n, parameters), (n, parts) each."""
-        drop = self.drops[key]
-        options = Options(math.inf, self.rtol, _EVENTS, _WORK * max(_FEW, len(drop.balls)))
-        solved = solve_quantities(drop, self.rows(key, x), len(x), options)
-        ended = solved.status.tolist()
-        self.unsolved.update(Status(code).name for code in ended if code not in _DONE)
-        return solved.tables
+    @cached_property
+    def _kinds(self) -> dict[str, str]:
+        """For each drop, the first with the same contacts, number of balls, and kind of start."""
+        found, firsts = {}, dict[str, str]()
+        for key, drop in self.drops.items():
+            laws = [law and law.to_mapping() for law in drop.contacts]
+            found[key] = firsts.setdefault(repr((list(numbers_of(drop)), laws)), key)
+        return found
 
-    def predict(self, key: str, x: Array) -> Array:
-        """Return what trials (n, parameters) predict for one drop's data: (n, data) in SI units."""
-        tables, data = self.solve(key, x), self.measured[key].data
-        columns = [tables[datum.quantity][:, datum.index] for datum in data]
-        return np.stack(columns, axis=1) if columns else np.empty((len(x), 0))
+    @cached_property
+    def _differ(self) -> dict[str, list[Number]]:
+        """The numbers that are not the same in all drops of a kind, by the first one's name."""
+        found = {}
+        for first in dict.fromkeys(self._kinds.values()):
+            given = [self._given[key] for key, other in self._kinds.items() if other == first]
+            numbers = numbers_of(self.drops[first]).items()
+            found[first] = [n for path, n in numbers if len({own[path] for own in given}) > 1]
+        return found
+
+    def solve(self, keys: Iterable[str], x: Array) -> dict[str, dict[str, Array]]:
+        """Return all quantities of some drops in trials (n, parameters), (n, parts) each.
+
+        Drops of one kind (`_kinds`) are solved together.
+        """
+        kinds: dict[str, list[str]] = {}
+        for key in keys:
+            kinds.setdefault(self._kinds[key], []).append(key)
+        found = {}
+        for first, same in kinds.items():
+            drop, count = self.drops[first], len(same) * len(x)
+            options = Options(math.inf, self.rtol, _EVENTS, _WORK * max(_FEW, len(drop.balls)))
+            solved = solve_quantities(drop, self._rows_of_all(same, x), count, options)
+            ended = solved.status.tolist()
+            self.unsolved.update(Status(code).name for code in ended if code not in _DONE)
+            for k, key in enumerate(same):
+                own = slice(k * len(x), (k + 1) * len(x))
+                found[key] = {name: table[own] for name, table in solved.tables.items()}
+        return found
+
+    def predict(self, keys: Iterable[str], x: Array) -> dict[str, Array]:
+        """Return what trials (n, parameters) predict for drops' data: (n, data) in SI units."""
+        found = {}
+        for key, tables in self.solve(keys, x).items():
+            data = self.measured[key].data
+            columns = [tables[datum.quantity][:, datum.index] for datum in data]
+            found[key] = np.stack(columns, axis=1)
+        return found
 
     def forces(self, key: str, x: Array) -> list[Array]:
         """Return the forces (n,) in N at the samples of each record of a drop, in one trial."""
@@ -265,11 +320,12 @@ class Objective:
         First come the data of each drop, then the priors, then the force records.
         """
         parts = [np.empty((len(x), 0))]
+        predicted = self.predict((key for key, own in self.measured.items() if own.data), x)
         for key, measured in self.measured.items():
             if measured.data:
                 value = np.array([datum.value for datum in measured.data])
                 error = np.array([datum.error for datum in measured.data])
-                parts.append((self.predict(key, x) - value) / error)
+                parts.append((predicted[key] - value) / error)
         values = self.values(x)
         for parameter, mean, known_to in self.priors:
             parts.append(((values[parameter.name] - mean) / known_to)[:, None])

@@ -84,10 +84,9 @@ class Record(NamedTuple):
 
 def list_residuals(objective: Objective, x: Array) -> list[Residual]:
     """Return the numbers that were measured, then the priors, beside those of a trial."""
-    found = []
-    for key, measured in objective.measured.items():
-        predicted = objective.predict(key, x[None])[0] if measured.data else []
-        for datum, value in zip(measured.data, predicted, strict=True):
+    found, measured = [], {key: own for key, own in objective.measured.items() if own.data}
+    for key, predicted in objective.predict(measured, x[None]).items():
+        for datum, value in zip(measured[key].data, predicted[0], strict=True):
             pull = (value - datum.value) / datum.error
             row = (datum.value, datum.error, float(value), float(pull), datum.unit)
             found.append(Residual(key, datum.name, *row))
