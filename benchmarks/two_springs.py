@@ -37,7 +37,7 @@ def job(count: int, seed: int = 1) -> tuple[Callable[[], None], Any]:
     )
     out = new_outcomes(count, 2)
     solve = native.compiled("run_two_springs")
-    given = Table(drops), _LIMIT, Table(out), Table(lane_workspace(compiled=True))
+    given = Table(drops), _LIMIT, Table(out), lane_workspace(compiled=True)
 
     def call() -> None:
         solve(*given)

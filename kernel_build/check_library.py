@@ -111,7 +111,7 @@ def springs_image(count: int) -> Image:
     numbers = Drops(mass, kind, stiffness, one, 0.0 * one, 0.0 * one, gap, -one, np.zeros(count))
     image = Image()
     drops, out = image.record(numbers), image.record(_outcomes(count, 2))
-    space = image.record(lane_workspace(compiled=True))
+    space = image.record(lane_workspace(compiled=True).record)
     image.call("run_two_springs", drops, _LIMIT, out, space)
     return image
 

@@ -32,16 +32,7 @@ from stackbounce.engine.stack import (
     new_samples,
     new_stack,
 )
-from stackbounce.engine.work import (
-    AGAIN,
-    AGAIN_WORK,
-    ASKED_RTOL,
-    EVENT_LIMIT,
-    LANE_EVENTS,
-    LANES_RTOL,
-    TURN_WORK,
-    WORK_LIMIT,
-)
+from stackbounce.engine.work import ASKED_RTOL, EVENT_LIMIT, LANE_EVENTS, WORK_LIMIT
 
 FILE = "layout.json"
 _LOG_ROWS = 512  # besides one for each ball
@@ -78,19 +69,17 @@ def layout() -> dict[str, Any]:
         },
         "after": {name: getattr(records, name) for name in ("UNIT", "END", "AFTER")},
         "counter": {"LOG_ROWS": slots.LOG_ROWS, "CAUSE": slots.CAUSE},
-        "limits": {"events": EVENT_LIMIT, "work": WORK_LIMIT, "lanes": LANE_EVENTS},
-        "closer": {
-            "factor": AGAIN,
-            "least": LANES_RTOL,
-            "work": AGAIN_WORK,
-            "turns": TURN_WORK,
+        "limits": {
+            "events": EVENT_LIMIT,
+            "work": WORK_LIMIT,
+            "lanes": LANE_EVENTS,
             "asked": ASKED_RTOL,
         },
         "log": _numbered(f"{_COLUMNS} IMPULSE PEAK_TIME"),
         "statuses": _numbered(_STATUSES),
         "causes": _numbered("ENDLESS STIFF EXTREME"),
         "events": _numbered(_EVENTS),
-        "forms": _numbered("ABSENT POWER HYSTERETIC"),
+        "forms": _numbered("ABSENT POWER"),
         "linear_forms": list(codes.LINEAR_FORMS),
         "pair_forms": list(codes.PAIR_FORMS),
     }

@@ -32,7 +32,8 @@ def swept(engine, drops, options):
 
 def in_lanes(entry, drops, limit):
     """Return the outcomes of two balls by an engine in lanes."""
-    out, space = _room(drops), Table(lane_workspace(compiled=True))
+    out, space = _room(drops), lane_workspace(compiled=True)
+    space.record.floats[:] = np.nan  # what is left of an earlier run has no effect
     native.compiled(entry)(Table(drops), limit, Table(out), space)
     return out
 
@@ -64,11 +65,8 @@ def pairs(count, seed, reach=3.0, gravity=False, forms=codes.PAIR_FORMS):
     exponent[(form == codes.DASHPOT) | (form == codes.RELAXING)] = 1.0
     depth = (mass * speed**2 / stiffness) ** (1.0 / (exponent + 1.0))
     # a loss in the unit of its form
-    unit = np.select(
-        [form == codes.DASHPOT, form == codes.VISCOELASTIC, form == codes.HUNT_CROSSLEY],
-        [np.sqrt(stiffness * mass), depth / speed, 1.0 / speed],
-        1.0,
-    )
+    lossy = (form == code for code in (codes.DASHPOT, codes.VISCOELASTIC, codes.HUNT_CROSSLEY))
+    unit = np.select(list(lossy), [np.sqrt(stiffness * mass), depth / speed, 1.0 / speed], 1.0)
     loss = unit * 10.0 ** random.uniform(-3.0, 0.0, (count, 2))
     loss[form == codes.RELAXING] *= 10.0
     loss[form == codes.HYSTERETIC] = (exponent + 10.0 * loss)[form == codes.HYSTERETIC]
@@ -89,9 +87,8 @@ def rigid_pairs(count, seed, reach=3.0, least=0.0):
     """
     random, drops = np.random.default_rng(seed), pairs(count, seed, reach)
     some = random.random(count) < 0.1
-    drops.mass[some, 1] = drops.mass[some, 0] * random.choice(
-        [1 / 3, 0.5, 1.0, 2.0, 3.0], some.sum()
-    )
+    ratio = random.choice([1 / 3, 0.5, 1.0, 2.0, 3.0], some.sum())
+    drops.mass[some, 1] = drops.mass[some, 0] * ratio
     e = np.where(random.random((count, 1)) < 0.2, 1.0, random.uniform(least, 1.0, (count, 2)))
     return drops._replace(form=np.full((count, 2), codes.RIGID), third=e)
 

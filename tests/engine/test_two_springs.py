@@ -28,17 +28,9 @@ NAMES = ("velocity", "collisions", "first_touch", "last_release", "status")
 
 def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
     n, table = len(gap), (len(gap), 2)
-    drops = Drops(
-        mass=np.array(mass, order="C"),
-        form=np.full(table, codes.POWER),
-        first=np.array(stiffness, order="C"),
-        second=np.ones(table),
-        third=np.zeros(table),
-        fourth=np.zeros(table),
-        gap=np.column_stack([np.zeros(n), gap]),
-        velocity=-np.column_stack([speed, speed]),
-        gravity=np.zeros(n),
-    )
+    law = np.array(stiffness, order="C"), np.ones(table), np.zeros(table), np.zeros(table)
+    motion = np.column_stack([np.zeros(n), gap]), -np.column_stack([speed, speed]), np.zeros(n)
+    drops = Drops(np.array(mass, order="C"), np.full(table, codes.POWER), *law, *motion)
     if plain:
         out = new_outcomes(n, 2)
         with np.errstate(all="ignore"):

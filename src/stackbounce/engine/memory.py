@@ -169,17 +169,21 @@ def memory(engine: Engine, balls: int, compiled: bool) -> Memory:
     return known
 
 
-def lane_workspace(compiled: bool) -> Workspace:
-    """Return scratch space for the engines in lanes.
+def lane_workspace(compiled: bool) -> Any:
+    """Return scratch space as an engine in lanes takes it: new for plain Python, else the thread's.
 
     It begins at a cache line: loading a vector that spans two lines takes longer. Plain Python
     needs an array, too: dividing numbers of numpy by 0 raises nothing.
     """
+    if compiled and hasattr(_local, "lanes"):
+        return _local.lanes
     room: Any = np.zeros(SCRATCH + _LINE)
     start = -(room.ctypes.data // room.itemsize) % _LINE
-    floats = room[start : start + SCRATCH]
-    space = Workspace([], [], [], [])
-    return (_arrays(space) if compiled else space)._replace(floats=floats)
+    space = Workspace([], [], [], [])._replace(floats=room[start : start + SCRATCH])
+    if not compiled:
+        return space
+    _local.lanes = Table(_arrays(space)._replace(floats=space.floats))
+    return _local.lanes
 
 
 def _new_memory(engine: Engine, balls: int, compiled: bool) -> Memory:

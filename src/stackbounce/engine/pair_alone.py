@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 from stackbounce.engine import pair_step as lane
 from stackbounce.engine.codes import ASK
-from stackbounce.engine.elementary import exp, log, power
+from stackbounce.engine.elementary import exp, power, quick_log
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.pair_events import go_apart, open_now, touch
 from stackbounce.engine.pair_step import LANES
@@ -46,31 +46,21 @@ class LoneMotion(NamedTuple):
 @kernel
 def go_alone(x: Floats, i: int) -> None:
     """Let a contact that presses alone move from event to event, as far as a formula says how."""
-    while x[lane.STATUS + i] == 0.0 and _has_formula(x, i) and _go(x, i):
-        pass
+    goes = True
+    while goes and x[lane.STATUS + i] == 0.0:
+        k = i if x[lane.PRESSING + i] > 0.0 else LANES + i
+        other = 2 * i + LANES - k
+        alone = x[lane.PRESSING + k] > 0.0 and x[lane.PRESSING + other] == 0.0
+        alone = alone and x[lane.LEVEL + other] == 0.0
+        lossless = x[lane.D + k] == 0.0 and x[lane.LOSS + k] == 0.0
+        has_formula = alone and lossless and x[lane.GRAVITY + i] == 0.0
+        goes = has_formula and _go(x, i, k)
 
 
 @kernel
-def _pressing(x: Floats, i: int) -> int:
-    """Return the contact of lane i that presses, if one does."""
-    return i if x[lane.PRESSING + i] > 0.0 else LANES + i
-
-
-@kernel
-def _has_formula(x: Floats, i: int) -> bool:
-    """Return whether one contact presses alone, with a power of its compression and no gravity."""
-    k = _pressing(x, i)
-    other = 2 * i + LANES - k
-    alone = x[lane.PRESSING + k] > 0.0 and x[lane.PRESSING + other] == 0.0
-    alone = alone and x[lane.LEVEL + other] == 0.0
-    lossless = x[lane.D + k] == 0.0 and x[lane.LOSS + k] == 0.0
-    return alone and lossless and x[lane.GRAVITY + i] == 0.0
-
-
-@kernel
-def _time(x: Floats, c: float, speed: float, s: float, y: float) -> float:
+def _time(x: Floats, i: int, c: float, speed: float, s: float, y: float) -> float:
     """Return the time since the touch, for y up to 1/2."""
-    levels = int(x[lane.LEVELS])
+    levels = int(x[lane.LEVELS + i])
     upper, lower = s + 2.0 * levels, 1.0
     for j in range(levels - 1, -1, -1):
         upper, lower = (s + 2.0 * j + 1.0) * upper - (j + 1) * (j + 1 - s) * y * lower, upper
@@ -90,19 +80,18 @@ def _motion(x: Floats, i: int, k: int) -> LoneMotion:
     square = 2.0 * s * kappa * c * c * power(c, less)
     speed = max(math.sqrt(r * r + square), _SMALL)
     y, largest, half = square / (2.0 * speed * (speed + abs(r))), 0.0, 0.0
-    time = _time(x, c, speed, s, y) if c > 0.0 else 0.0
+    time = _time(x, i, c, speed, s, y) if c > 0.0 else 0.0
     if not r < 0.0:
-        largest = exp(s * log(speed * speed / (2.0 * s * kappa)))
-        half = _time(x, largest, speed, s, 0.5)
+        largest = exp(s * quick_log(speed * speed / (2.0 * s * kappa)))
+        half = _time(x, i, largest, speed, s, 0.5)
     start = x[lane.Y + lane.C + other] + share * c
     rate = x[lane.Y + lane.R + other] + share * r
     return LoneMotion(s, speed, y, time, largest, half, share, start, rate)
 
 
 @kernel
-def _go(x: Floats, i: int) -> bool:
-    """Let the contact that presses move up to the next event; return whether it is sure which."""
-    k = _pressing(x, i)
+def _go(x: Floats, i: int, k: int) -> bool:
+    """Let contact k, which presses, move up to the next event; return whether it is sure which."""
     other, m, inward = 2 * i + LANES - k, _motion(x, i, k), not x[lane.Y + lane.R + k] < 0.0
     left = 2.0 * m.half - m.time if inward else m.time
     c_other, r_other = m.start + m.rate * left, m.rate + m.share * m.speed
@@ -140,7 +129,7 @@ def _meet(x: Floats, i: int, k: int, m: LoneMotion) -> bool:
         if square > 0.0:
             wait = -2.0 * above / (slope + math.sqrt(square))
             slower = wait * (push + 0.5 * wait * change)
-            if abs(wait) * m.speed < x[lane.REACH] * c:
+            if abs(wait) * m.speed < x[lane.REACH + i] * c:
                 x[lane.Y + lane.C + k] = c + wait * (r - wait * (0.5 * push + wait * change / 6.0))
                 x[lane.Y + lane.R + k] = r - slower
                 x[lane.Y + lane.R + 2 * i + LANES - k] = m.rate - m.share * (r - slower)
@@ -152,7 +141,7 @@ def _meet(x: Floats, i: int, k: int, m: LoneMotion) -> bool:
         if not low < y < high:
             y = 0.5 * (low + high)
         nearer = min(y, 1.0 - y)
-        c = m.largest * exp(m.s * log(4.0 * nearer * (1.0 - nearer)))
-        time = _time(x, c, m.speed, m.s, nearer)
+        c = m.largest * exp(m.s * quick_log(4.0 * nearer * (1.0 - nearer)))
+        time = _time(x, i, c, m.speed, m.s, nearer)
         time = 2.0 * m.half - time if y > 0.5 else time
     return False

@@ -37,17 +37,15 @@ def go_by(x: Floats, i: int, mode: float, h: float) -> None:
 
 
 @kernel
-def _go_by_contact(x: Floats, i: int, k: int, mode: float, h: float) -> None:
-    """Let the next step of a lane go by the compression of contact k."""
+def _go_by_contact(x: Floats, i: int, k: int, mode: float, n: float, h: float) -> None:
+    """Let the next step of a lane go by the compression of contact k; if n is 1, by its root.
+
+    One by the root with h below 0 ends where the contact opens.
+    """
     go_by(x, i, mode, h)
-    x[lane.Q + i], x[lane.OWN + k], x[lane.BY_R + k] = 0.0, 1.0, 1.0
-
-
-@kernel
-def _go_by_root(x: Floats, i: int, k: int, mode: float, start: float, h: float) -> None:
-    """Let the next step of a lane go by the root of the compression of contact k."""
-    _go_by_contact(x, i, k, mode, h)
-    x[lane.START + i], x[lane.M + i], x[lane.N + i] = start, 0.0, 1.0
+    x[lane.START + i] = n * max(-h, 0.0)
+    x[lane.M + i], x[lane.N + i], x[lane.Q + i] = 1.0 - n, n, 0.0
+    x[lane.OWN + k], x[lane.BY_R + k] = 1.0, 1.0
 
 
 @kernel
@@ -73,13 +71,6 @@ def open_now(x: Floats, k: int) -> None:
     """Let contact k be open from now on."""
     x[lane.PRESSING + k], x[lane.SIGN + k], x[lane.GAIN_SIGN + k] = 0.0, -1.0, 0.0
     x[lane.MU_NOW + k], x[lane.LEVEL + k] = 0.0, 0.0
-
-
-@kernel
-def begin_open(x: Floats, k: int) -> None:
-    """Let contact k be open, and remember nothing."""
-    open_now(x, k)
-    forget(x, k)
 
 
 @kernel
@@ -122,7 +113,8 @@ def touch(x: Floats, i: int, k: int) -> None:
     press(x, i, k)
     root = x[lane.SCALE + k] * math.sqrt(rate / x[lane.V0 + i])
     if x[lane.POWER + k] > 0.0:
-        _go_by_root(x, i, k, ROOT, 0.0, min(root, 2.0 * math.sqrt(rate * x[lane.BY_TIME + i])))
+        longest = 2.0 * math.sqrt(rate * x[lane.BY_TIME + i])
+        _go_by_contact(x, i, k, ROOT, 1.0, min(root, longest))
     else:
         go_by(x, i, TIME, min(2.0 * root * root / rate, x[lane.BY_TIME + i]))
 
@@ -217,8 +209,7 @@ def look_after(x: Floats, i: int) -> bool:
     elif x[lane.TAKEN + i] > 0.0:
         _look_ahead(x, i)
     elif x[lane.MODE + i] != EVENT:
-        if not _retry(x, i):
-            _take(x, i)
+        _retry(x, i)
     elif doubt or x[lane.OVER_ERROR + i] < 1.0 or not _is_steady(x, i):
         go_by(x, i, TIME, _PART * x[lane.WAIT + i])
     else:
@@ -247,16 +238,11 @@ def _is_steady(x: Floats, i: int) -> bool:
 
 
 @kernel
-def _gain(x: Floats, state: int, k: int) -> float:
-    """Return the watched gain of contact k in one of the states Y and NEW."""
-    c, r = x[state + lane.C + k], x[state + lane.R + k]
-    return x[lane.END_A + k] + x[lane.END_B + k] * c + x[lane.END_D + k] * r
-
-
-@kernel
-def _slope(x: Floats, state: int, acc: int, k: int) -> float:
-    """Return the rate of the watched gain; ``acc`` is the slot of that state's acceleration."""
-    return x[lane.END_B + k] * x[state + lane.R + k] + x[lane.END_D + k] * x[acc + k]
+def _gain(x: Floats, k: int, acc: int) -> tuple[float, float]:
+    """Return the watched gain of contact k, and its rate; ``acc``: as for `_find_next_event`."""
+    a, b, d = x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k]
+    r = x[lane.Y + lane.R + k]
+    return a + b * x[lane.Y + lane.C + k] + d * r, b * r + d * x[acc + k]
 
 
 @kernel
@@ -280,34 +266,49 @@ def accept(x: Floats, i: int) -> None:
 
 
 @kernel
-def _take(x: Floats, i: int) -> None:
-    """Take the step of a lane, and aim the next one at the event that is expected in it, if any."""
-    accept(x, i)
-    if x[lane.MODE + i] == TIME:
-        x[lane.H + i] *= x[lane.GROW + i]
-    else:
-        go_by(x, i, TIME, lane.ONWARD * x[lane.DT + i] * min(x[lane.GROW + i], 1.0))
-    x[lane.BY_TIME + i] = x[lane.H + i]
-    x[lane.OWN + i] = x[lane.OWN + LANES + i] = 0.0
-    _look_ahead(x, i)
+def _find_next_event(x: Floats, i: int, acc: int) -> float:
+    """Find the next event of a lane that the derivatives tell; return the time to it, or infinity.
+
+    ``acc`` is the slot of the present acceleration.
+    """
+    first, contact, kind = math.inf, -1, TOUCH
+    for k in (i, LANES + i):
+        left = x[lane.Y + lane.C + k] - x[lane.LEVEL + k]
+        wait = _wait(left, x[lane.Y + lane.R + k], x[acc + k])
+        if wait < first:
+            first, contact, kind = wait, k, _kind(x, k)
+        (gain, slope), sign = _gain(x, k, acc), x[lane.GAIN_SIGN + k]
+        if (sign > 0.0 or _turns(x, k)) and sign * gain < -sign * slope * first:
+            first, contact, kind = -gain / slope, k, GAIN
+    x[lane.CONTACT + i], x[lane.KIND + i], x[lane.WAIT + i] = contact, kind, first
+    return first
 
 
 @kernel
 def _look_ahead(x: Floats, i: int) -> None:
     """Aim the next step of a lane, which goes by time, at the event expected in it, if any."""
-    first, contact, kind = math.inf, -1, TOUCH
-    for k in (i, LANES + i):
-        left = x[lane.Y + lane.C + k] - x[lane.LEVEL + k]
-        wait = _wait(left, x[lane.Y + lane.R + k], x[lane.ACC_NEW + k])
-        if wait < first:
-            first, contact, kind = wait, k, _kind(x, k)
-        gain, slope = _gain(x, lane.Y, k), _slope(x, lane.Y, lane.ACC_NEW, k)
-        sign = x[lane.GAIN_SIGN + k]
-        if (sign > 0.0 or _turns(x, k)) and sign * gain < -sign * slope * first:
-            first, contact, kind = -gain / slope, k, GAIN
+    first = _find_next_event(x, i, lane.ACC_NEW)
     ahead = first / (lane.AHEAD * x[lane.H + i])
-    if ahead < 1.5 and not (ahead < _NEAR and _aim(x, i, contact, kind, first, lane.ACC_NEW)):
+    if ahead < 1.5 and not (ahead < _NEAR and _aim(x, i, lane.ACC_NEW)):
         x[lane.H + i] = min(x[lane.H + i], _PART * first)
+
+
+@kernel
+def _retry(x: Floats, i: int) -> None:
+    """Let a lane repeat a step in which an event may come: up to it, or shorter.
+
+    If the balls move less in the step than what is not sure, it is left to the caller.
+    """
+    first, dt = _find_next_event(x, i, lane.ACC), x[lane.DT + i]
+    span = min(x[lane.SPAN + i], x[lane.SPAN + LANES + i])
+    if dt * x[lane.V0 + i] < x[lane.UNSURE + i] * span:
+        x[lane.STATUS + i] = ASK
+    elif x[lane.MODE + i] == ROOT:
+        x[lane.H + i] *= math.sqrt(min(0.6 * first / dt, 0.5))
+    elif not first < dt:
+        x[lane.H + i] *= 0.5
+    elif not _aim(x, i, lane.ACC):
+        x[lane.H + i] = _PART * first
 
 
 @kernel
@@ -328,91 +329,21 @@ def _turns(x: Floats, k: int) -> bool:
 
 
 @kernel
-def _aim(x: Floats, i: int, k: int, kind: float, wait: float, acc: int) -> bool:
-    """Let the next step of a lane end at an event of contact k; return whether it can.
-
-    It can where the way to the event is steady. ``acc`` is the slot of the present acceleration.
-    """
+def _aim(x: Floats, i: int, acc: int) -> bool:
+    """Let the next step of a lane end at the next event; return whether the way to it is steady."""
+    k, kind, wait = int(x[lane.CONTACT + i]), x[lane.KIND + i], x[lane.WAIT + i]
     left, slope = x[lane.Y + lane.C + k] - x[lane.LEVEL + k], x[lane.Y + lane.R + k]
     if kind == GAIN:
-        left, slope = _gain(x, lane.Y, k), _slope(x, lane.Y, acc, k)
+        left, slope = _gain(x, k, acc)
     if not (left * slope < 0.0 and abs(slope) * wait > _STEADY * abs(left)):
         return False
-    x[lane.CONTACT + i], x[lane.KIND + i], x[lane.WAIT + i] = k, kind, wait
     if kind == RELEASE:
-        root = math.sqrt(left)
-        _go_by_root(x, i, k, EVENT, root, -root)
+        _go_by_contact(x, i, k, EVENT, 1.0, -math.sqrt(left))
     else:
-        _go_by_contact(x, i, k, EVENT, -left)
-        if kind == GAIN:
-            x[lane.BY_R + k], x[lane.BY_A + k] = x[lane.END_B + k], x[lane.END_D + k]
+        _go_by_contact(x, i, k, EVENT, 0.0, -left)
+    if kind == GAIN:
+        x[lane.BY_R + k], x[lane.BY_A + k] = x[lane.END_B + k], x[lane.END_D + k]
     return True
-
-
-@kernel
-def _retry(x: Floats, i: int) -> bool:
-    """Let a lane repeat a step in which an event comes, so that it ends there; return whether."""
-    first, contact, kind, dt = math.inf, -1, TOUCH, x[lane.DT + i]
-    for k in (i, LANES + i):
-        if x[lane.OWN + k] > 0.0:
-            continue
-        changes = _changes(x, i, k)
-        if changes > 1:
-            x[lane.H + i] *= 0.5
-            return True
-        if changes == 1:
-            left = x[lane.Y + lane.C + k] - x[lane.LEVEL + k]
-            wait = min(_wait(left, x[lane.Y + lane.R + k], x[lane.ACC + k]), 0.9 * dt)
-            if wait < first:
-                first, contact, kind = wait, k, _kind(x, k)
-        sign = x[lane.GAIN_SIGN + k]
-        gain, gain_new = sign * _gain(x, lane.Y, k), sign * _gain(x, lane.NEW, k)
-        inner = gain + sign * dt * _slope(x, lane.Y, lane.ACC, k) / 3.0
-        inner_new = gain_new - sign * dt * _slope(x, lane.NEW, lane.ACC_NEW, k) / 3.0
-        if gain_new < 0.0:
-            if sign < 0.0 and not _turns(x, k):
-                if x[lane.Y + lane.C + k] + 0.5 * dt * x[lane.Y + lane.R + k] < 0.0:
-                    x[lane.H + i] *= 0.5  # it opens before
-                    return True
-                x[lane.STATUS + i] = ASK  # it would press again
-            wait = dt * gain / (gain - gain_new) if gain > 0.0 else 0.9 * dt
-            if wait < first:
-                first, contact, kind = wait, k, GAIN
-        elif min(inner, inner_new) < 0.0:
-            x[lane.H + i] *= 0.5  # it may change its sign twice
-            return True
-    if contact < 0:
-        return x[lane.STATUS + i] != 0.0
-    if x[lane.MODE + i] == ROOT:
-        x[lane.H + i] *= math.sqrt(min(0.6 * first / dt, 0.5))
-    elif not _aim(x, i, contact, kind, first, lane.ACC):
-        go_by(x, i, TIME, _PART * first)
-    return True
-
-
-@kernel
-def _changes(x: Floats, i: int, k: int) -> int:
-    """Return how often the compression of contact k changes its sign in a step, at most.
-
-    That is the number of sign changes of its Bernstein coefficients, see `pair_step`. If it only
-    comes so near 0 that this is not sure, the lane ends with the status ASK. With hysteresis such a
-    turn is an event of its own.
-    """
-    dt, sign = x[lane.DT + i], x[lane.SIGN + k]
-    c, r, acc = x[lane.Y + lane.C + k] - x[lane.LEVEL + k], x[lane.Y + lane.R + k], x[lane.ACC + k]
-    c_new, r_new = x[lane.NEW + lane.C + k] - x[lane.LEVEL + k], x[lane.NEW + lane.R + k]
-    fifth, bend = 0.2 * dt, 0.05 * dt * dt
-    second = c + 2.0 * fifth * r + bend * acc
-    third = c_new - 2.0 * fifth * r_new + bend * x[lane.ACC_NEW + k]
-    present, changes = sign, 0
-    for value in (c + fifth * r, second, third, c_new - fifth * r_new, c_new):
-        if value * present < 0.0:
-            present, changes = -present, changes + 1
-    if changes == 0 and sign * r < 0.0 and sign * r_new > 0.0 and not _turns(x, k):
-        turn = c - 0.5 * r * r / acc if acc != 0.0 else 0.0
-        if min(sign * turn, abs(c), abs(c_new)) < max(x[lane.MARGIN + k], x[lane.WIDE + k]):
-            x[lane.STATUS + i] = ASK
-    return changes
 
 
 @kernel

@@ -32,7 +32,7 @@ _REACH = 3.0  # the longest step, times the largest rate: the last term is then 
 _FLIGHT = 1e30  # s: the longest step of balls that no force acts on
 _ROUNDS = 3  # to find a root: what the last one changes is then small
 _NEAR = 1e-5  # of a step: a change so small leaves an error below round-off
-_ERROR = 1e-13  # of a step, over the impact speed
+ERROR = 1e-13  # of a step, over the impact speed
 _STEPS = 200.0  # longer runs accumulate round-off
 
 # Terms of the series in parts of a step, a slot for each contact: compression and its surface's;
@@ -61,7 +61,7 @@ _MASK = 31  # no change: it shows a compiler the range of a term's number
 @kernel
 def begin_series(x: Floats, event_limit: float) -> None:
     """Set the numbers that hold for all lanes."""
-    x[lane.TOLERANCE], x[COUNT_OF_TERMS], x[LIMIT] = _ERROR, ORDER, min(event_limit, _STEPS)
+    x[COUNT_OF_TERMS], x[LIMIT] = ORDER, min(event_limit, _STEPS)
 
 
 @kernel
@@ -115,14 +115,14 @@ def _choose_lengths(x: Floats) -> None:
         dashpots, creep = k0 * x[lane.D + i] + k1 * x[lane.D + k], max(x[CREEP + i], x[CREEP + k])
         rate = math.sqrt(springs + dashpots * dashpots + creep * creep)
         x[LENGTH + i] = x[LENGTH + k] = _REACH / max(rate, _REACH / _FLIGHT)
-        x[lane.MARGIN + i] = x[lane.MARGIN + k] = x[lane.UNSURE + i]
+        x[lane.WIDE + i] = x[lane.WIDE + k] = x[lane.UNSURE + i]
     for i in range(BOTH):
         pressing, compressed = x[lane.PRESSING + i], x[lane.LEVEL + i]
         side, over = 1.0 if pressing > 0.0 else -1.0, 1.0 / x[LENGTH + i]
         damp = side * x[lane.D + i] * over
         x[SIDE + i], x[OVER_LENGTH + i] = side, over
         x[DAMP + i] = damp if pressing + compressed > 0.0 else 0.0
-        x[lane.MARGIN + i] *= x[lane.SPAN + i]
+        x[lane.WIDE + i] *= x[lane.SPAN + i]
 
 
 @kernel
@@ -170,7 +170,7 @@ def _find_safe_times(x: Floats, order: int) -> None:
     for i in range(BOTH):
         c, c1, c2 = x[C_TERMS + i], x[C_TERMS + BOTH + i], x[C_TERMS + 2 * BOTH + i]
         p0, p1 = x[SIDE + i] * c + x[DAMP + i] * c1, x[SIDE + i] * c1 + 2.0 * x[DAMP + i] * c2
-        margin = x[lane.MARGIN + i]
+        margin = x[lane.WIDE + i]
         x[SAFE + i] = time_above(p0 - margin if p0 > margin else 0.0, p1, x[BOUND + i], 1.0)
 
 
@@ -223,10 +223,10 @@ def _improve_root(x: Floats, order: int) -> None:
 @kernel
 def _choose_steps(x: Floats) -> None:
     """Let each lane step to the event if it is sure, else to the end of the safe time."""
-    limit, error = x[LIMIT], x[lane.TOLERANCE]
+    limit = x[LIMIT]
     for i in range(LANES):
         u, unsure, steps = x[PART + i], x[lane.UNSURE + i], x[lane.STEPS + i] + 1.0
-        sure = x[SURE + i] > -error * x[lane.V0 + i] * x[LENGTH + i]
+        sure = x[SURE + i] > -ERROR * x[lane.V0 + i] * x[LENGTH + i]
         sure = sure and x[SLOPE + i] < -unsure * x[LENGTH + i]
         sure = sure and 0.0 < u <= min(x[ONE_SAFE + i], 1.0)
         lands = x[LANDS + i] if sure else 0.0
@@ -234,7 +234,7 @@ def _choose_steps(x: Floats) -> None:
         stuck = 1.0 if u <= 0.0 or steps > limit else 0.0
         x[LANDS + i], x[lane.DOUBT + i], x[lane.STEPS + i] = lands, stuck, steps
         x[PART + i] = x[PART + LANES + i] = u
-        x[lane.UNSURE + i] = unsure + error * x[lane.V0 + i]
+        x[lane.UNSURE + i] = unsure + ERROR * x[lane.V0 + i]
         x[lane.NEW + lane.T + i] = x[lane.Y + lane.T + i] + u * x[LENGTH + i]
         holds = x[lane.PRESSING + i] + x[lane.PRESSING + LANES + i] + x[lane.GRAVITY + i]
         x[lane.ASKS + i] = lands + stuck + (1.0 if holds == 0.0 else 0.0)
@@ -270,7 +270,7 @@ def _recover(x: Floats) -> None:
     """Let surfaces have recovered but for less than what is not sure; take their steps."""
     for i in range(BOTH):
         s, s_new = x[lane.S + i], x[lane.S_NEW + i]
-        rest = s_new if x[lane.PRESSING + i] > 0.0 or s_new > x[lane.MARGIN + i] else 0.0
+        rest = s_new if x[lane.PRESSING + i] > 0.0 or s_new > x[lane.WIDE + i] else 0.0
         x[lane.NEW + lane.R + i] += x[lane.NU + i] * (rest - s_new)
         x[lane.S_NEW + i] = rest
         x[lane.S + i] = rest if x[lane.TAKEN + i] > 0.0 else s

@@ -58,24 +58,23 @@ NOW, OUT, K1, K3, K4, K5, K6, K7, K8, K9, K10, K11 = (2 * STATE + k * T for k in
 _EACH = 2 * STATE + 12 * T
 F, ACC, ACC_NEW, PRESSING, STIFFNESS, POWER = (_EACH + k * BOTH for k in range(6))
 A, B, D, SIGN, GAIN_SIGN, OWN, BY_R, BY_A = (_EACH + k * BOTH for k in range(6, 14))
-# The root of a typical compression; intervals so far, first touch, last release; and what
-# `judge_step` finds: 1 if an event comes, or may come, in the step, and 1 if one is expected in the
-# next.
+# The root of a typical compression; intervals so far, first touch, last release; and what is found
+# of a step: 1 if an event comes, or may come, in it, and 1 if one is expected in the next.
 SCALE, COUNT, FIRST, LAST, DOUBT, SOON = (_EACH + k * BOTH for k in range(14, 20))
-DT, MARGIN, NEXT, TAKEN = (_EACH + k * BOTH for k in range(20, 24))  # the same for both contacts
+DT, NEXT, TAKEN = (_EACH + k * BOTH for k in range(20, 23))  # the same for both contacts
 # a, b, d of the gain that is watched, and the compression that is.
-END_A, END_B, END_D, LEVEL = (_EACH + k * BOTH for k in range(24, 28))
+END_A, END_B, END_D, LEVEL = (_EACH + k * BOTH for k in range(23, 27))
 # Of a contact that creeps, see `pair_series`: the rates mu and nu of its surface, mu while it
 # presses; the surface's compression, now and at the end of the step.
-MU, NU, MU_NOW, S, S_NEW = (_EACH + k * BOTH for k in range(28, 33))
+MU, NU, MU_NOW, S, S_NEW = (_EACH + k * BOTH for k in range(27, 32))
 # Of hysteresis: M, 0 without; 1/C; the four numbers of the force; 1 on the way out, and the peak of
 # that; how many cycles are remembered, and numbers to be raised to a power.
-LOSS, OVER_PEAK, ADDED, KEPT, HELD, OFFSET = (_EACH + k * BOTH for k in range(33, 39))
-OUTWARD, TOP, DEPTH, BASE, EXPONENT = (_EACH + k * BOTH for k in range(39, 44))
+LOSS, OVER_PEAK, ADDED, KEPT, HELD, OFFSET = (_EACH + k * BOTH for k in range(32, 38))
+OUTWARD, TOP, DEPTH, BASE, EXPONENT = (_EACH + k * BOTH for k in range(38, 43))
 # A typical compression over the impact speed, and how near 0 a turn of the compression is not sure.
-SPAN, WIDE = _EACH + 44 * BOTH, _EACH + 45 * BOTH
+SPAN, WIDE = _EACH + 43 * BOTH, _EACH + 44 * BOTH
 # The peaks and the turning points below them of the cycles that are remembered.
-HIGHS, LOWS = _EACH + 46 * BOTH, _EACH + (46 + CYCLES) * BOTH
+HIGHS, LOWS = _EACH + 45 * BOTH, _EACH + (45 + CYCLES) * BOTH
 # Slots for each lane: 1/m1, 1/m2; the step in s, s where it begins, and the weights m, n, q; how
 # the step goes; impact speed, row, status; 1 if `pairs` must decide how the lane goes on; steps so
 # far; the allowed error over that of the step, and the factor for the next step; the last step by
@@ -86,14 +85,15 @@ V0, ROW, STATUS, ASKS, STEPS, OVER_ERROR, GROW, BY_TIME = (_LANE + k * LANES for
 # The event that a step is to end at: its contact, its kind, and the time to it; the velocity by
 # which an event may come too early or too late; gravity.
 CONTACT, KIND, WAIT, UNSURE, GRAVITY = (_LANE + k * LANES for k in range(16, 21))
-TOLERANCE = _LANE + 21 * LANES  # the error allowed in a step, over the impact speed
-COARSE = TOLERANCE + 1  # the largest estimate of order 3 with which the others can be trusted
-GENERAL = TOLERANCE + 2  # 1 if some exponent is neither 1 nor 1.5
-# 1 if some contact creeps, has hysteresis, has a gain that changes, or one that is watched
-CREEPS, REMEMBERS, LOSES, WATCHES = (TOLERANCE + k for k in range(3, 7))
-# Of `pair_alone`: half the levels of a continued fraction; how far derivatives lead, over c.
-LEVELS, REACH = TOLERANCE + 7, TOLERANCE + 8
-SLOTS = TOLERANCE + 9
+# How exactly a drop is solved: the error allowed in a step, over the impact speed; the largest
+# estimate of order 3 with which the others can be trusted; and, of `pair_alone`, half the levels of
+# a continued fraction, and how far derivatives lead, over c.
+ALLOWED, COARSE, LEVELS, REACH = (_LANE + k * LANES for k in range(21, 25))
+# 1 if some exponent is neither 1 nor 1.5; if some contact creeps, has hysteresis, has a gain that
+# changes, or one that is watched.
+_ALL = _LANE + 25 * LANES
+GENERAL, CREEPS, REMEMBERS, LOSES, WATCHES = (_ALL + k for k in range(5))
+SLOTS = _ALL + 5
 
 TIME, ROOT, EVENT = 0.0, 1.0, 2.0  # modes: by time, by a root from a touch on, up to an event
 
@@ -191,7 +191,7 @@ def _find_powers(x: Floats) -> None:
 
 
 @kernel
-def take_step(x: Floats) -> None:
+def _try_step(x: Floats) -> None:
     """Compute the state of each lane at the end of its step, and two estimates of the error.
 
     Those of orders 3 and 5, without signs, are left in K3 and K4.
@@ -203,28 +203,17 @@ def take_step(x: Floats) -> None:
     _find_rates(x, 0.0, _END[0])
     for i in range(BOTH):
         x[ACC + i] = x[ACC_NEW + i]
-    _go_to(x, K1, _TO_2, (K1,))
-    _find_rates(x, 0.05260015195876773, 0.0)
-    _go_to(x, K3, _TO_3, (K1, K3))
-    _find_rates(x, 0.0789002279381516, 0.0)
-    _go_to(x, K3, _TO_4, (K1, K3))
-    _find_rates(x, 0.1183503419072274, 0.0)
-    _go_to(x, K4, _TO_5, (K1, K3, K4))
-    _find_rates(x, 0.2816496580927726, 0.0)
-    _go_to(x, K5, _TO_6, (K1, K4, K5))
-    _find_rates(x, 0.3333333333333333, _END[1])
-    _go_to(x, K6, _TO_7, (K1, K4, K5, K6))
-    _find_rates(x, 0.25, _END[2])
-    _go_to(x, K7, _TO_8, (K1, K4, K5, K6, K7))
-    _find_rates(x, 0.3076923076923077, _END[3])
-    _go_to(x, K8, _TO_9, (K1, K4, K5, K6, K7, K8))
-    _find_rates(x, 0.6512820512820513, _END[4])
-    _go_to(x, K9, _TO_10, (K1, K4, K5, K6, K7, K8, K9))
-    _find_rates(x, 0.6, _END[5])
-    _go_to(x, K10, _TO_11, (K1, K4, K5, K6, K7, K8, K9, K10))
-    _find_rates(x, 0.8571428571428571, _END[6])
-    _go_to(x, K11, _TO_12, (K1, K4, K5, K6, K7, K8, K9, K10, K11))
-    _find_rates(x, 1.0, _END[7])
+    _next_stage(x, K1, _TO_2, (K1,), 0.05260015195876773, 0.0)
+    _next_stage(x, K3, _TO_3, (K1, K3), 0.0789002279381516, 0.0)
+    _next_stage(x, K3, _TO_4, (K1, K3), 0.1183503419072274, 0.0)
+    _next_stage(x, K4, _TO_5, (K1, K3, K4), 0.2816496580927726, 0.0)
+    _next_stage(x, K5, _TO_6, (K1, K4, K5), 0.3333333333333333, _END[1])
+    _next_stage(x, K6, _TO_7, (K1, K4, K5, K6), 0.25, _END[2])
+    _next_stage(x, K7, _TO_8, (K1, K4, K5, K6, K7), 0.3076923076923077, _END[3])
+    _next_stage(x, K8, _TO_9, (K1, K4, K5, K6, K7, K8), 0.6512820512820513, _END[4])
+    _next_stage(x, K9, _TO_10, (K1, K4, K5, K6, K7, K8, K9), 0.6, _END[5])
+    _next_stage(x, K10, _TO_11, (K1, K4, K5, K6, K7, K8, K9, K10), 0.8571428571428571, _END[6])
+    _next_stage(x, K11, _TO_12, (K1, K4, K5, K6, K7, K8, K9, K10, K11), 1.0, _END[7])
     for i in range(T):
         x[NEW + i] = x[Y + i] + _weighted(x, i, _END)
         third, fifth = _weighted(x, i, _THIRD), _weighted(x, i, _FIFTH)
@@ -232,14 +221,17 @@ def take_step(x: Floats) -> None:
 
 
 @kernel
-def _go_to(x: Floats, own: int, a: Sequence[float], earlier: Sequence[int]) -> None:
-    """Keep the rates of a stage in a slot, and make the state of the next one from earlier ones."""
+def _next_stage(
+    x: Floats, own: int, a: Sequence[float], earlier: Sequence[int], node: float, weight: float
+) -> None:
+    """Keep the rates of a stage in a slot, and find those of the next one from earlier ones."""
     for i in range(T):
         x[own + i] = x[OUT + i]
         way = a[0] * x[earlier[0] + i]
         for j in range(1, len(a)):
             way += a[j] * x[earlier[j] + i]
         x[NOW + i] = x[Y + i] + way
+    _find_rates(x, node, weight)
 
 
 @kernel
@@ -250,11 +242,9 @@ def _weighted(x: Floats, i: int, a: Sequence[float]) -> float:
 
 
 @kernel
-def judge_step(x: Floats) -> None:
-    """Judge the step of each lane: take it, or try a shorter one, or let `pairs` decide.
-
-    Each lane also gets the length of its next step.
-    """
+def step_by_runge_kutta(x: Floats) -> None:
+    """Move each lane on, or try a shorter step next, or let `look_after` decide."""
+    _try_step(x)
     _find_errors(x)
     _look_for_events(x)
     _go_on(x)
@@ -269,7 +259,6 @@ def _find_errors(x: Floats) -> None:
     counts as another error. The less sure the steps so far are, the smaller an error is allowed,
     since a long drop adds up many.
     """
-    tolerance, coarse = x[TOLERANCE], x[COARSE]
     for i in range(LANES):
         dt, speed = x[NEW + T + i] - x[Y + T + i], x[V0 + i]
         per_time = 1.0 / dt
@@ -277,10 +266,12 @@ def _find_errors(x: Floats) -> None:
         third += x[K3 + R + i] + x[K3 + R + LANES + i]
         fifth = (x[K4 + C + i] + x[K4 + C + LANES + i]) * per_time
         fifth += x[K4 + R + i] + x[K4 + R + LANES + i]
-        unsure, most = x[UNSURE + i], speed * tolerance
+        unsure, most = x[UNSURE + i], speed * x[ALLOWED + i]
         allowed = most / (1.0 + unsure / (_HALVED * most))
         by_eighth = (fifth + 0.1 * third + _TINY) * allowed / (fifth * fifth + _TINY * _TINY)
-        by_third = coarse * speed / (third + _TINY)  # squared: an error of order 3 grows as h^4
+        by_third = (
+            x[COARSE + i] * speed / (third + _TINY)
+        )  # squared: an error of order 3 grows as h^4
         over = min(by_eighth, by_third * by_third) if dt > 0.0 and by_third > 1e-3 else 0.0
         over = min(max(over, 1e-6), 1e6)
         root = math.sqrt(math.sqrt(math.sqrt(over)))
@@ -289,8 +280,8 @@ def _find_errors(x: Floats) -> None:
         x[DT + i] = x[DT + LANES + i] = dt
         unsure += _UNSURE * allowed / by_eighth if over >= 1.0 else 0.0
         x[UNSURE + i] = unsure
-        x[MARGIN + i], x[WIDE + i] = unsure * dt, unsure * x[SPAN + i]
-        x[MARGIN + LANES + i], x[WIDE + LANES + i] = unsure * dt, unsure * x[SPAN + LANES + i]
+        x[WIDE + i] = unsure * max(dt, x[SPAN + i])
+        x[WIDE + LANES + i] = unsure * max(dt, x[SPAN + LANES + i])
         x[NEXT + i] = x[NEXT + LANES + i] = AHEAD * dt * grow
 
 
@@ -301,6 +292,7 @@ def _look_for_events(x: Floats) -> None:
     The compression is taken as the polynomial of degree 5, and the gain as that of degree 3, with
     the values and derivatives at both ends. Where its Bernstein coefficients have one sign, so has
     the polynomial. The first coefficient of the compression is left out: it is 0 after an event.
+    A compression that turns must stay further from 0 than is not sure.
     """
     for i in range(BOTH):
         dt, sign, level, ahead = x[DT + i], x[SIGN + i], x[LEVEL + i], x[NEXT + i]
@@ -311,9 +303,8 @@ def _look_for_events(x: Floats) -> None:
         low = min(low, sign * (c_new - 2.0 * fifth * r_new + bend * acc_new))
         low = min(low, sign * (c_new - fifth * r_new))
         low = min(low, sign * c_new)
-        margin, wide = x[MARGIN + i], x[WIDE + i]
-        margin = max(margin, wide) if r * r_new < 0.0 else margin
-        x[DOUBT + i] = 1.0 - x[OWN + i] if low < margin else 0.0
+        near = x[WIDE + i] if r * r_new < 0.0 else 0.0
+        x[DOUBT + i] = 1.0 - x[OWN + i] if low < near else 0.0
         low = sign * (c_new + ahead * (r_new + 0.5 * ahead * acc_new))
         x[SOON + i] = 1.0 if low < 0.0 else 0.0
     if x[WATCHES] > 0.0:

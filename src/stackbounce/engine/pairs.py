@@ -3,22 +3,25 @@
 All lanes step together: by a Runge-Kutta method (`pair_step`), or where all contacts are linear by
 power series (`pair_series`). Between steps, lanes that meet an event are looked after one by one
 (`pair_events`). A nonlinear contact that presses alone needs no steps under some laws
-(`pair_alone`). A lane whose drop has ended takes the next one. No lane affects another.
+(`pair_alone`). A lane whose drop has ended takes the next one. One whose drop is not sure, or takes
+long, starts it again with a smaller tolerance. No lane affects another.
 """
 
 import math
+from typing import NamedTuple
 
 from stackbounce.engine import codes
 from stackbounce.engine import pair_step as lane
 from stackbounce.engine.elementary import near_root, nearest_exponent, power
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.pair_alone import go_alone
-from stackbounce.engine.pair_events import begin_open, free_rate, go_by, look_after, press, touch
-from stackbounce.engine.pair_series import begin_series, look_after_series, step_by_series
-from stackbounce.engine.pair_step import LANES, TIME, judge_step, take_step
+from stackbounce.engine.pair_cycles import forget
+from stackbounce.engine.pair_events import free_rate, go_by, look_after, open_now, press, touch
+from stackbounce.engine.pair_series import ERROR, begin_series, look_after_series, step_by_series
+from stackbounce.engine.pair_step import LANES, TIME, step_by_runge_kutta
 from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import Drops, Outcomes, Workspace
-from stackbounce.engine.work import LANE_STEP
+from stackbounce.engine.work import LANE_STEP, LANES_RTOL
 
 _STEP = 1.3  # the error allowed in one step, over rtol
 _FIRST = 1.8  # of the root of a typical compression: the first step by a root, for an error of 1
@@ -28,6 +31,21 @@ _LEVELS, _LEVELS_PER_BIT = 1.5, 0.2  # of a continued fraction, for an error of 
 _REACH = 0.5  # of a compression, for an error of 1: so far do three derivatives lead
 _COARSE = 2.0  # the largest estimate of order 3, for an error of 1
 _COARSE_POWER = 0.38  # it falls with this power of the error
+_AGAIN = 1e-3  # of rtol: the tolerance of a drop that is solved again
+# Steps of a drop, for an error of 1: one that takes more has many contacts, or oscillations, in
+# which errors accumulate. With hysteresis steps also end where a compression turns.
+_LONG, _TURNS = 12.0, 36.0
+
+
+class Accuracy(NamedTuple):
+    """How exactly drops are solved."""
+
+    allowed: float  # see `pair_step`
+    coarse: float
+    levels: float
+    reach: float
+    first: float  # the first step by a root after a touch, over the root of a typical compression
+    most: float  # steps, after which a drop is solved again
 
 
 @kernel
@@ -40,18 +58,16 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
         The parameters of n drops, of the forms `codes.PAIR_FORMS`. Both balls come with the lower
         one's velocity.
     rtol : float
-        The error of the velocities that is aimed at, over the impact speed.
+        The error of the velocities that is aimed at, over the impact speed. Drops that the lanes
+        are not sure of, and long ones, are solved again with a smaller one.
     out : Outcomes
         Gets the velocities, ratios, numbers of collisions, times and work. The status is FINISHED,
-        or ASK where another run must solve the drop; its other results are then meaningless.
+        or ASK where the general engine must solve the drop; its other results are then meaningless.
     space : Workspace
         Its ``floats`` are scratch space, of the size `records.SCRATCH`.
     """
-    x = space.floats
-    x[lane.TOLERANCE], x[lane.COARSE] = _STEP * rtol, _COARSE * power(rtol, _COARSE_POWER)
-    x[lane.LEVELS] = _LEVELS - _LEVELS_PER_BIT * nearest_exponent(rtol)
-    x[lane.REACH] = _REACH * near_root(rtol, 3)
-    _run(drops, min(_FIRST * near_root(rtol, _FIRST_ROOT), _LONGEST), False, out, x)
+    closer = min(max(_AGAIN * rtol, LANES_RTOL), rtol)
+    _run(drops, _accuracy(rtol), _accuracy(closer), False, out, space.floats)
 
 
 @kernel
@@ -69,22 +85,30 @@ def run_linear(drops: Drops, event_limit: int, out: Outcomes, space: Workspace) 
     out, space
         As for `run_pairs`.
     """
-    x = space.floats
-    begin_series(x, float(event_limit))
-    _run(drops, 1.0, True, out, x)
+    begin_series(space.floats, float(event_limit))
+    exact = Accuracy(ERROR, 0.0, 0.0, 0.0, 1.0, math.inf)
+    _run(drops, exact, exact, True, out, space.floats)
 
 
 @kernel
-def _run(drops: Drops, first: float, linear: bool, out: Outcomes, x: Floats) -> None:
-    """Let all drops pass through the lanes.
+def _accuracy(rtol: float) -> Accuracy:
+    """Return how exactly drops are solved with a tolerance."""
+    coarse = _COARSE * power(rtol, _COARSE_POWER)
+    levels, reach = _LEVELS - _LEVELS_PER_BIT * nearest_exponent(rtol), _REACH * near_root(rtol, 3)
+    first = min(_FIRST * near_root(rtol, _FIRST_ROOT), _LONGEST)
+    return Accuracy(_STEP * rtol, coarse, levels, reach, first, _LONG * power(rtol, -0.125))
 
-    ``first`` is the first step by a root after a touch, over the root of a typical compression.
-    """
+
+@kernel
+def _run(
+    drops: Drops, usual: Accuracy, closer: Accuracy, linear: bool, out: Outcomes, x: Floats
+) -> None:
+    """Let all drops pass through the lanes, and some once more."""
     x[lane.GENERAL] = x[lane.CREEPS] = x[lane.REMEMBERS] = x[lane.LOSES] = x[lane.WATCHES] = 0.0
     rows = len(out.status)
     left, row = rows, 0
     for i in range(LANES):
-        _idle(x, i)
+        _idle(x, i, usual)
     while left > 0:
         for i in range(LANES):
             if x[lane.STATUS + i] == 0.0 and x[lane.ASKS + i] > 0.0:
@@ -94,42 +118,54 @@ def _run(drops: Drops, first: float, linear: bool, out: Outcomes, x: Floats) -> 
                     go_alone(x, i)
             while x[lane.STATUS + i] != 0.0:
                 done = int(x[lane.ROW + i])
-                if done >= 0:
-                    _write_outcome(drops, out, x, i, done)
-                    left -= 1
-                if row == rows:
-                    _idle(x, i)
-                    break
-                _begin(drops, x, i, row, first)
+                if done >= 0 and x[lane.ALLOWED + i] > closer.allowed and _is_unsure(x, i, usual):
+                    _begin(drops, x, i, done, closer)
+                else:
+                    if done >= 0:
+                        _write_outcome(drops, out, x, i, done)
+                        left -= 1
+                    if row == rows:
+                        _idle(x, i, usual)
+                        break
+                    _begin(drops, x, i, row, usual)
+                    row += 1
                 if not linear:
                     go_alone(x, i)
-                row += 1
         if linear:
             step_by_series(x)
         else:
-            take_step(x)
-            judge_step(x)
+            step_by_runge_kutta(x)
 
 
 @kernel
-def _idle(x: Floats, i: int) -> None:
+def _is_unsure(x: Floats, i: int, accuracy: Accuracy) -> bool:
+    """Return whether the drop that has ended in lane i is to be solved again."""
+    more = _TURNS if x[lane.LOSS + i] + x[lane.LOSS + LANES + i] > 0.0 else 0.0
+    return x[lane.STATUS + i] == codes.ASK or x[lane.STEPS + i] > accuracy.most + more
+
+
+@kernel
+def _idle(x: Floats, i: int, accuracy: Accuracy) -> None:
     """Let a lane fly without a drop."""
-    for slot in range(i, lane.TOLERANCE, LANES):
+    for slot in range(i, lane.GENERAL, LANES):
         x[slot] = 0.0
     x[lane.STATUS + i], x[lane.ROW + i], x[lane.V0 + i] = codes.ASK, -1.0, 1.0
+    x[lane.ALLOWED + i], x[lane.COARSE + i] = accuracy.allowed, accuracy.coarse
     x[lane.Y + lane.C + i], x[lane.Y + lane.C + LANES + i] = -1.0, -1.0
     go_by(x, i, TIME, 1.0)
 
 
 @kernel
-def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
+def _begin(drops: Drops, x: Floats, i: int, row: int, accuracy: Accuracy) -> None:
     """Start a drop in lane i, at t = 0."""
-    speed = -drops.velocity[row, 0]
+    speed, first = -drops.velocity[row, 0], accuracy.first
+    x[lane.ALLOWED + i], x[lane.COARSE + i] = accuracy.allowed, accuracy.coarse
+    x[lane.LEVELS + i], x[lane.REACH + i] = accuracy.levels, accuracy.reach
     x[lane.ROW + i], x[lane.STATUS + i], x[lane.V0 + i], x[lane.STEPS + i] = row, 0.0, speed, 0.0
     x[lane.OVER_1 + i], x[lane.OVER_2 + i] = 1.0 / drops.mass[row, 0], 1.0 / drops.mass[row, 1]
     x[lane.Y + lane.T + i], x[lane.BY_TIME + i] = 0.0, math.inf
     x[lane.GRAVITY + i] = drops.gravity[row]
-    x[lane.UNSURE + i] = _FIRST_UNSURE * x[lane.TOLERANCE] * speed
+    x[lane.UNSURE + i] = _FIRST_UNSURE * accuracy.allowed * speed
     over_mass = 0.0
     for b in range(2):
         k = b * LANES + i
@@ -137,7 +173,8 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, first: float) -> None:
         x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = -drops.gap[row, b], 0.0
         x[lane.S + k], x[lane.S_NEW + k] = 0.0, 0.0
         x[lane.COUNT + k], x[lane.FIRST + k], x[lane.LAST + k] = 0.0, math.nan, math.nan
-        begin_open(x, k)
+        open_now(x, k)
+        forget(x, k)
         # k c^(p + 1) is about m v^2
         over_mass += x[lane.OVER_1 + b * LANES + i]
         energy = speed * speed / (x[lane.STIFFNESS + k] * over_mass)

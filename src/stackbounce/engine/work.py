@@ -17,23 +17,11 @@ LANE_EVENTS = 10_000
 LANES_RTOL = 1e-13
 """The least tolerance of pairs in lanes: round-off accumulates over some 100 steps."""
 
-AGAIN = 1e-3
-"""The tolerance of a drop that is solved in lanes again, because `pairs` is not sure, over rtol."""
-
-ASKED_RTOL = 1e-12
+ASKED_RTOL = 1e-13
 """The tolerance of a drop that an engine in lanes leaves to the general one, or a smaller one.
 
 Such a drop is close to another number of contacts, which a larger tolerance might give it.
 """
-
-AGAIN_WORK = 96
-"""The work after which a drop of `pairs` is solved in lanes again, over rtol^(-1/8).
-
-A drop that takes so many steps has many contacts, or oscillations, in which errors accumulate.
-"""
-
-TURN_WORK = 288
-"""How much more a drop with hysteresis may take, whose steps end where a compression turns."""
 
 SLICE = 2**17
 """The work after which a kernel returns to its caller, who may stop it: some milliseconds."""

@@ -31,14 +31,7 @@ from stackbounce.engine.memory import (
 )
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
-from stackbounce.engine.work import (
-    AGAIN,
-    AGAIN_WORK,
-    ASKED_RTOL,
-    LANE_EVENTS,
-    LANES_RTOL,
-    TURN_WORK,
-)
+from stackbounce.engine.work import ASKED_RTOL, LANE_EVENTS
 from stackbounce.model import Drop
 from stackbounce.run.engines import choose_compiled, choose_engine, choose_lanes
 from stackbounce.run.options import Options, check_room
@@ -188,44 +181,24 @@ def new_outcomes(count: int, balls: int) -> Outcomes:
 
 
 def run_lanes(
-    lanes: str,
-    drops: Drops,
-    out: Outcomes,
-    options: Options,
-    compiled: bool,
-    pause: _Pause,
-    again: bool = True,
+    lanes: str, drops: Drops, out: Outcomes, options: Options, compiled: bool, pause: _Pause
 ) -> None:
-    """Run drops by an engine in lanes, and those that it is not sure of more closely.
-
-    These are drops with the status ASK and long ones, which run ``again`` in lanes, with a smaller
-    tolerance, and then those that still have the status ASK, which the general engine solves.
-    """
+    """Run drops by an engine in lanes, and those that it is not sure of by the general engine."""
     space, run = lane_workspace(compiled), kernel_named(lanes, compiled)
     rtol = options.rtol if lanes == "run_pairs" else LANE_EVENTS
     if compiled:
-        run(Table(drops), rtol, Table(out), Table(space))
+        run(Table(drops), rtol, Table(out), space)
     else:
         with np.errstate(all="ignore"):
             run(drops, rtol, out, space)
     pause()
-    unsure, closer = out.status == codes.ASK, max(AGAIN * rtol, LANES_RTOL)
-    again = again and lanes == "run_pairs" and closer < rtol
-    if again:
-        turns = np.logical_or(*(drops.form.T == codes.HYSTERETIC))
-        unsure |= out.work > AGAIN_WORK * rtol**-0.125 + TURN_WORK * turns
-    else:
-        closer = min(options.rtol, ASKED_RTOL)
-    rows = np.flatnonzero(unsure)
+    rows = np.flatnonzero(out.status == codes.ASK)
     if len(rows):
         some = Drops._make(array[rows] for array in drops)
         answers = Outcomes._make(array[rows] for array in out)
-        near = options._replace(rtol=closer)
-        if again:
-            run_lanes(lanes, some, answers, near, compiled, pause, again=False)
-        else:
-            engine = RIGID if lanes == "run_two_rigid" else FINITE
-            _run_rows(engine, (), some, answers, near, compiled, pause)
+        near = options._replace(rtol=min(options.rtol, ASKED_RTOL))
+        engine = RIGID if lanes == "run_two_rigid" else FINITE
+        _run_rows(engine, (), some, answers, near, compiled, pause)
         for array, answer in zip(out, answers, strict=True):
             array[rows] = answer
 

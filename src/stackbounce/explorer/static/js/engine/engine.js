@@ -65,7 +65,7 @@ class Engine {
    * `lanes` names the kernel of an engine that is many times faster, where there is one: for two balls without gravity
    * that come at one speed and are run to their end.
    */
-  sweep(drops, { rtol = 1e-12, until = Infinity, eventLimit = 1e6, lanes = null, again = true } = {}) {
+  sweep(drops, { rtol = 1e-12, until = Infinity, eventLimit = 1e6, lanes = null } = {}) {
     const count = drops.gravity.length;
     const balls = count ? drops.mass.length / count : 1;
     const { stack, space, none } = lanes ? {} : this.stack(drops.rigid, balls);
@@ -85,27 +85,23 @@ class Engine {
       }
       return room.readAll(out);
     });
-    if (lanes) this.answer(drops, outcomes, { rtol, until, eventLimit, lanes, again });
+    if (lanes) this.answer(drops, outcomes, { rtol, until, eventLimit });
     return outcomes;
   }
 
-  /** Run the drops that an engine in lanes is not sure of more closely, by the rule of `run/batch.py`. */
-  answer(drops, outcomes, { rtol, again, lanes, ...options }) {
-    const { closer, forms, statuses } = this.layout;
-    const near = Math.max(closer.factor * rtol, closer.least);
-    const repeats = again && lanes === "run_pairs" && near < rtol;
-    const turns = (row) => (drops.form.slice(2 * row, 2 * row + 2).includes(forms.HYSTERETIC) ? closer.turns : 0);
-    const long = (row) => repeats && outcomes.work[row] > closer.work * rtol ** -0.125 + turns(row);
-    const rows = [...outcomes.status.keys()].filter((row) => outcomes.status[row] === statuses.ASK || long(row));
+  /** Run the drops that an engine in lanes is not sure of by the general engine. */
+  answer(drops, outcomes, options) {
+    const { limits, statuses } = this.layout;
+    const rows = [...outcomes.status.keys()].filter((row) => outcomes.status[row] === statuses.ASK);
     if (!rows.length) return;
-    Object.assign(options, repeats ? { rtol: near, lanes, again: false } : { rtol: Math.min(rtol, closer.asked) });
+    const near = { ...options, rtol: Math.min(options.rtol, limits.asked) };
     const width = (values) => values.length / outcomes.status.length;
     const some = { rigid: false };
     for (const { name } of this.layout.records.Drops) {
       const each = width(drops[name]);
       some[name] = rows.flatMap((row) => Array.from(drops[name].slice(row * each, (row + 1) * each)));
     }
-    for (const [name, values] of Object.entries(this.sweep(some, options))) {
+    for (const [name, values] of Object.entries(this.sweep(some, near))) {
       const each = values.length / rows.length;
       rows.forEach((row, k) => outcomes[name].set(values.subarray(k * each, (k + 1) * each), row * each));
     }
