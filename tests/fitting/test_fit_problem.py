@@ -63,7 +63,7 @@ def test_drops_with_the_same_contacts_are_solved_together(monkeypatch):
     monkeypatch.setattr(objective, "solve_quantities", solve)
     found = together.predict(drops, trials)
     assert [call.args[2] for call in solve.call_args_list] == [21, 7]
-    assert np.array([found[key] for key in drops]) == pytest.approx(alone, rel=1e-8)
+    assert np.array(list(found.values())) == pytest.approx(alone, rel=1e-8)
 
 
 def test_bounds_around_a_number_stay_in_the_range_of_its_law():

@@ -269,9 +269,8 @@ def _find_errors(x: Floats) -> None:
         unsure, most = x[UNSURE + i], speed * x[ALLOWED + i]
         allowed = most / (1.0 + unsure / (_HALVED * most))
         by_eighth = (fifth + 0.1 * third + _TINY) * allowed / (fifth * fifth + _TINY * _TINY)
-        by_third = (
-            x[COARSE + i] * speed / (third + _TINY)
-        )  # squared: an error of order 3 grows as h^4
+        # squared: an error of order 3 grows as h^4
+        by_third = x[COARSE + i] * speed / (third + _TINY)
         over = min(by_eighth, by_third * by_third) if dt > 0.0 and by_third > 1e-3 else 0.0
         over = min(max(over, 1e-6), 1e6)
         root = math.sqrt(math.sqrt(math.sqrt(over)))

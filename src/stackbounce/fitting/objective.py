@@ -3,7 +3,7 @@
 import contextlib
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -272,7 +272,7 @@ class Objective:
             found[first] = [n for path, n in numbers if len({own[path] for own in given}) > 1]
         return found
 
-    def solve(self, keys: Iterable[str], x: Array) -> dict[str, dict[str, Array]]:
+    def solve(self, keys: Collection[str], x: Array) -> dict[str, dict[str, Array]]:
         """Return all quantities of some drops in trials (n, parameters), (n, parts) each.
 
         Drops of one kind (`_kinds`) are solved together.
@@ -290,9 +290,9 @@ class Objective:
             for k, key in enumerate(same):
                 own = slice(k * len(x), (k + 1) * len(x))
                 found[key] = {name: table[own] for name, table in solved.tables.items()}
-        return found
+        return {key: found[key] for key in keys}
 
-    def predict(self, keys: Iterable[str], x: Array) -> dict[str, Array]:
+    def predict(self, keys: Collection[str], x: Array) -> dict[str, Array]:
         """Return what trials (n, parameters) predict for drops' data: (n, data) in SI units."""
         found = {}
         for key, tables in self.solve(keys, x).items():
@@ -320,7 +320,7 @@ class Objective:
         First come the data of each drop, then the priors, then the force records.
         """
         parts = [np.empty((len(x), 0))]
-        predicted = self.predict((key for key, own in self.measured.items() if own.data), x)
+        predicted = self.predict([key for key, own in self.measured.items() if own.data], x)
         for key, measured in self.measured.items():
             if measured.data:
                 value = np.array([datum.value for datum in measured.data])
