@@ -30,21 +30,16 @@ from stackbounce.engine.pair_step import BOTH, LANES, take_steps
 ORDER = 25  # of the series
 _REACH = 3.0  # the longest step, times the largest rate: the last term is then below 1e-12
 _FLIGHT = 1e30  # s: the longest step of balls that no force acts on
-_ROUNDS = 3  # to find a root: what the last one changes is then small
+_ROUGH = 8  # terms fewer: near enough for the first rounds to find a root
 _NEAR = 1e-5  # of a step: a change so small leaves an error below round-off
 ERROR = 1e-13  # of a step, over the impact speed
 _STEPS = 200.0  # longer runs accumulate round-off
 
-# Terms of the series in parts of a step, a slot for each contact: compression and its surface's;
-# and, a slot for each lane, of what the contact waits for that may end the step.
-C_TERMS = lane.SLOTS + -lane.SLOTS % LANES  # a row begins at a cache line
-S_TERMS = C_TERMS + (ORDER + 1) * BOTH
-TERMS = S_TERMS + (ORDER + 1) * BOTH
 # Slots for each contact: a term of its free closing rate; the rate at which its surface follows;
-# the weights of c and c' in what it waits for, which is positive; the bound, and the time until
-# which it is safe. The same for both contacts: the longest step, its inverse, and the part of it
-# that is made.
-_EACH = TERMS + ORDER * LANES
+# the sign of what it waits for, and the weight of v in it; the bound, and the time until which it
+# is safe. The same for both contacts: the longest step, its inverse, and the part of it that is
+# made.
+_EACH = lane.SLOTS + -lane.SLOTS % LANES  # a row begins at a cache line
 V, CREEP, SIDE, DAMP, BOUND, SAFE, LENGTH, OVER_LENGTH, PART = (_EACH + k * BOTH for k in range(9))
 # Slots for each lane: 1 if an event ends the step, and 1 if that is the floor's; the times until
 # which one contact is safe, and both are; what the contact waits for, its slope, half its second
@@ -54,7 +49,13 @@ LANDS, FLOOR, ONE_SAFE, BOTH_SAFE, VALUE, SLOPE, BEND, SURE = (_LANE + k * LANES
 # The order: in a slot, so that a compiler does not unroll the loops. The most steps of a drop.
 COUNT_OF_TERMS = _LANE + 8 * LANES
 LIMIT = COUNT_OF_TERMS + 1
-SLOTS = LIMIT + 1
+# Terms of the series in parts of a step, a slot for each contact: compression, its surface's, and
+# what it waits for, which is positive; in the first half later that which may end the step. They
+# come last, so that a compiler sees that no other slot is among them.
+C_TERMS = LIMIT + LANES - 1
+S_TERMS = C_TERMS + (ORDER + 1) * BOTH
+WAITS = S_TERMS + (ORDER + 1) * BOTH
+SLOTS = WAITS + ORDER * BOTH
 _MASK = 31  # no change: it shows a compiler the range of a term's number
 
 
@@ -72,8 +73,8 @@ def step_by_series(x: Floats) -> None:
     _expand(x, order)
     _find_safe_times(x, order)
     _choose_contact(x, order)
-    for _ in range(_ROUNDS):
-        _improve_root(x, order)
+    for terms in (order - _ROUGH, order - _ROUGH, order):
+        _improve_root(x, terms)
     _choose_steps(x)
     _move(x, order)
     take_steps(x)
@@ -101,8 +102,9 @@ def look_after_series(x: Floats, i: int) -> None:
 def _choose_lengths(x: Floats) -> None:
     """Choose the longest step of each lane, and what each contact waits for.
 
-    The squares of the largest rates of undamped balls, of dashpots and of surfaces add up to a
-    bound of the square of the largest rate.
+    No rate (the size of an eigenvalue) in the motion exceeds both the largest frequency of undamped
+    balls and the sum of the largest rates of dashpots and of surfaces. This is strict for dashpots
+    or surfaces alone. For both, the frequency is taken larger, as random ones show to be enough.
     """
     for i in range(BOTH):
         pressing, surface = x[lane.PRESSING + i], x[lane.S + i]
@@ -113,45 +115,42 @@ def _choose_lengths(x: Floats) -> None:
         both = x[lane.PRESSING + i] * x[lane.PRESSING + k] * (one * one)
         springs = 0.5 * (k0 + k1 + math.sqrt((k0 - k1) * (k0 - k1) + 4.0 * both))
         dashpots, creep = k0 * x[lane.D + i] + k1 * x[lane.D + k], max(x[CREEP + i], x[CREEP + k])
-        rate = math.sqrt(springs + dashpots * dashpots + creep * creep)
+        slow = dashpots + creep
+        rate = math.sqrt(max(springs + dashpots * creep, slow * slow))
         x[LENGTH + i] = x[LENGTH + k] = _REACH / max(rate, _REACH / _FLIGHT)
         x[lane.WIDE + i] = x[lane.WIDE + k] = x[lane.UNSURE + i]
     for i in range(BOTH):
         pressing, compressed = x[lane.PRESSING + i], x[lane.LEVEL + i]
-        side, over = 1.0 if pressing > 0.0 else -1.0, 1.0 / x[LENGTH + i]
-        damp = side * x[lane.D + i] * over
-        x[SIDE + i], x[OVER_LENGTH + i] = side, over
-        x[DAMP + i] = damp if pressing + compressed > 0.0 else 0.0
+        x[SIDE + i], x[OVER_LENGTH + i] = 1.0 if pressing > 0.0 else -1.0, 1.0 / x[LENGTH + i]
+        x[DAMP + i] = x[lane.D + i] if pressing + compressed > 0.0 else 0.0
         x[lane.WIDE + i] *= x[lane.SPAN + i]
 
 
 @kernel
 def _expand(x: Floats, order: int) -> None:
     """Compute the terms of the series, see the head of this module."""
-    creeps = x[lane.CREEPS] > 0.0
     for i in range(BOTH):
         c, r, s = x[lane.Y + lane.C + i], x[lane.Y + lane.R + i], x[lane.S + i]
         x[C_TERMS + i], x[S_TERMS + i] = c, s
         x[V + i] = r + (x[lane.MU_NOW + i] * c - x[lane.NU + i] * s)
     for j in range(order):
-        c, s = C_TERMS + (j & _MASK) * BOTH, S_TERMS + (j & _MASK) * BOTH
-        over = 1.0 / (j + 1.0)
+        now, over = (j & _MASK) * BOTH, 1.0 / (j + 1.0)
         for i in range(LANES):
-            k, h, v0, v1 = LANES + i, x[LENGTH + i] * over, x[V + i], x[V + LANES + i]
-            floor = x[lane.PRESSING + i] * (x[c + i] + x[lane.D + i] * v0)
-            balls = x[lane.PRESSING + k] * (x[c + k] + x[lane.D + k] * v1)
-            push = (balls - floor) * x[lane.OVER_1 + i]
-            x[V + i], x[V + k] = h * push, -h * (push + balls * x[lane.OVER_2 + i])
-            x[c + BOTH + i], x[c + BOTH + k] = h * v0, h * v1
+            k, h = LANES + i, x[LENGTH + i] * over
+            v0, v1, c0, c1 = x[V + i], x[V + k], x[C_TERMS + now + i], x[C_TERMS + now + k]
+            wait0, wait1 = c0 + x[DAMP + i] * v0, c1 + x[DAMP + k] * v1
+            floor, balls = x[lane.PRESSING + i] * wait0, x[lane.PRESSING + k] * wait1
+            creep0 = x[lane.MU_NOW + i] * c0 - x[lane.NU + i] * x[S_TERMS + now + i]
+            creep1 = x[lane.MU_NOW + k] * c1 - x[lane.NU + k] * x[S_TERMS + now + k]
+            push = h * x[lane.OVER_1 + i] * (balls - floor)
+            x[V + i], x[V + k] = push, -push - h * x[lane.OVER_2 + i] * balls
+            x[WAITS + now + i], x[WAITS + now + k] = x[SIDE + i] * wait0, x[SIDE + k] * wait1
+            x[C_TERMS + now + BOTH + i] = h * (v0 - creep0)
+            x[C_TERMS + now + BOTH + k] = h * (v1 - creep1)
+            x[S_TERMS + now + BOTH + i], x[S_TERMS + now + BOTH + k] = h * creep0, h * creep1
         if j == 0:
             for i in range(LANES):
                 x[V + i] += x[LENGTH + i] * x[lane.GRAVITY + i]
-        if creeps:
-            for i in range(BOTH):
-                rate = x[lane.MU_NOW + i] * x[c + i] - x[lane.NU + i] * x[s + i]
-                follows = x[LENGTH + i] * over * rate
-                x[s + BOTH + i] = follows
-                x[c + BOTH + i] -= follows
 
 
 @kernel
@@ -163,32 +162,27 @@ def _find_safe_times(x: Floats, order: int) -> None:
     for i in range(BOTH):
         x[BOUND + i] = 0.0
     for j in range(order - 1, 1, -1):
-        now = C_TERMS + (j & _MASK) * BOTH
+        term = WAITS + (j & _MASK) * BOTH
         for i in range(BOTH):
-            term = x[SIDE + i] * x[now + i] + (j + 1.0) * x[DAMP + i] * x[now + BOTH + i]
-            x[BOUND + i] = term + min(0.0, x[BOUND + i])
+            x[BOUND + i] = x[term + i] + min(0.0, x[BOUND + i])
     for i in range(BOTH):
-        c, c1, c2 = x[C_TERMS + i], x[C_TERMS + BOTH + i], x[C_TERMS + 2 * BOTH + i]
-        p0, p1 = x[SIDE + i] * c + x[DAMP + i] * c1, x[SIDE + i] * c1 + 2.0 * x[DAMP + i] * c2
-        margin = x[lane.WIDE + i]
+        p0, p1, margin = x[WAITS + i], x[WAITS + BOTH + i], x[lane.WIDE + i]
         x[SAFE + i] = time_above(p0 - margin if p0 > margin else 0.0, p1, x[BOUND + i], 1.0)
 
 
 @kernel
 def _choose_contact(x: Floats, order: int) -> None:
-    """Choose the contact that is safe for the shorter time, and make the series of its wait."""
+    """Choose the contact that is safe for the shorter time, and let its terms be the first ones."""
     for i in range(LANES):
         one, other = x[SAFE + i], x[SAFE + LANES + i]
         x[FLOOR + i], x[PART + i] = 1.0 if one <= other else 0.0, min(one, other)
         x[ONE_SAFE + i], x[BOTH_SAFE + i] = max(one, other), min(one, other)
     for j in range(order):
-        c = C_TERMS + (j & _MASK) * BOTH
+        wait = WAITS + (j & _MASK) * BOTH
         for i in range(LANES):
-            k, floor = LANES + i, x[FLOOR + i]
-            one = x[SIDE + i] * x[c + i] + (j + 1.0) * x[DAMP + i] * x[c + BOTH + i]
-            other = x[SIDE + k] * x[c + k] + (j + 1.0) * x[DAMP + k] * x[c + BOTH + k]
             # a sum: a choice between two slots would be compiled to a slow choice between addresses
-            x[TERMS + (j & _MASK) * LANES + i] = floor * one + (1.0 - floor) * other
+            one, other, floor = x[wait + i], x[wait + LANES + i], x[FLOOR + i]
+            x[wait + i] = floor * one + (1.0 - floor) * other
 
 
 @kernel
@@ -199,10 +193,10 @@ def _improve_root(x: Floats, order: int) -> None:
     divided out, of which a lower bound shows whether there is another root before.
     """
     for i in range(LANES):
-        x[VALUE + i] = x[TERMS + ((order - 1) & _MASK) * LANES + i]
+        x[VALUE + i] = x[WAITS + ((order - 1) & _MASK) * BOTH + i]
         x[SLOPE + i], x[BEND + i], x[SURE + i] = 0.0, 0.0, 0.0
     for j in range(order - 2, -1, -1):
-        term = TERMS + (j & _MASK) * LANES
+        term = WAITS + (j & _MASK) * BOTH
         for i in range(LANES):
             u, f, g = x[PART + i], x[VALUE + i], x[SLOPE + i]
             x[BEND + i] = x[BEND + i] * u + g

@@ -52,5 +52,5 @@ class Workspace(NamedTuple):
 
 
 CONTINUE, BEGIN, BEGIN_WITH_PEAKS = 0, 1, 2  # stages: the latter records peaks and impulses
-SCRATCH = 5600
+SCRATCH = 6144
 UNIT, END, AFTER = 0, 1, 2  # slots of `Workspace.after`; AFTER is that of the lowest ball
