@@ -9,7 +9,6 @@ import math
 
 from stackbounce.engine import pair_step as lane
 from stackbounce.engine.codes import ASK, FINISHED
-from stackbounce.engine.elementary import exp
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.pair_cycles import follow, forget
 from stackbounce.engine.pair_step import BOTH, EVENT, LANES, ROOT, TIME
@@ -24,7 +23,6 @@ _NEAR = 0.5  # of the next step by time: an event within it is aimed at
 _PART = 0.8  # of the way to a later event, or to one that a step could not be aimed at
 _STEADY = 0.4  # of the mean rate up to an event: the least rate at which a step is aimed at it
 _ODD = 0.1  # of a way: the least by which it is odd
-_ROUNDS = 12  # of Newton's method
 
 
 @kernel
@@ -126,57 +124,33 @@ def free_rate(x: Floats, k: int) -> float:
 
 
 @kernel
-def _advance(x: Floats, k: int, wait: float) -> None:
-    """Let both sides of contact k fly freely for a time, while its surface recovers."""
-    r, surface = free_rate(x, k), x[lane.S + k]
-    x[lane.Y + lane.C + k] += wait * r
-    if surface != 0.0:
-        left = surface * exp(-x[lane.NU + k] * wait)
-        x[lane.Y + lane.C + k] += surface - left
-        x[lane.S + k], x[lane.Y + lane.R + k] = left, r + x[lane.NU + k] * left
-
-
-@kernel
-def _flight_time(x: Floats, k: int) -> float:
-    """Return how long contact k flies until it touches: c + r t + s (1 - e^(-nu t)) = 0.
-
-    The sum grows ever more slowly, so that Newton's method comes to the root from below.
-    """
-    c, r, nu, surface = x[lane.Y + lane.C + k], free_rate(x, k), x[lane.NU + k], 0.0
-    time = -c / x[lane.Y + lane.R + k]
-    surface = x[lane.S + k]
-    if surface != 0.0:
-        for _ in range(_ROUNDS):
-            left = surface * exp(-nu * time)
-            time -= (c + r * time + surface - left) / (r + nu * left)
-    return time
-
-
-@kernel
 def fly(x: Floats, i: int) -> None:
-    """Let both balls fly freely until a contact touches, or end the drop."""
+    """Let both balls fly freely until a contact touches, or end the drop.
+
+    A flight to a touch while a surface recovers is left to `pair_series`.
+    """
     first, contact, least = math.inf, -1, _least_rate(x, i)
     for k in (i, LANES + i):
-        c, r = x[lane.Y + lane.C + k], free_rate(x, k)
-        touches = r > least
-        wait = _flight_time(x, k) if touches and c < 0.0 else math.inf
+        c, r, free = x[lane.Y + lane.C + k], x[lane.Y + lane.R + k], free_rate(x, k)
+        touches = free > least
+        wait = -c / r if touches and c < 0.0 else math.inf
         close = abs(wait - first) < _TOGETHER * wait
-        if r < -least and x[lane.Y + lane.R + k] > -least:  # the surface still follows the ball
+        if free < -least < r:  # the surface still follows the ball
             return
-        if not (touches or x[lane.Y + lane.R + k] < -least) or close or (touches and c > 0.0):
+        if not (touches or r < -least) or close or (touches and c > 0.0):
             x[lane.STATUS + i] = ASK
             return
         if wait < first:
             first, contact = wait, k
     if contact < 0:
         x[lane.STATUS + i] = FINISHED
-        return
-    for k in (i, LANES + i):
-        _advance(x, k, first)
-        if x[lane.Y + lane.C + k] <= 0.0:
-            open_now(x, k)
-    x[lane.Y + lane.T + i] += first
-    touch(x, i, contact)
+    elif x[lane.S + i] + x[lane.S + LANES + i] == 0.0:
+        for k in (i, LANES + i):
+            x[lane.Y + lane.C + k] += first * x[lane.Y + lane.R + k]
+            if x[lane.Y + lane.C + k] <= 0.0:
+                open_now(x, k)
+        x[lane.Y + lane.T + i] += first
+        touch(x, i, contact)
 
 
 @kernel
