@@ -22,7 +22,6 @@ _TOGETHER = 1e-6  # of a time: it is not sure which of two contacts that are so 
 _NEAR = 0.5  # of the next step by time: an event within it is aimed at
 _PART = 0.8  # of the way to a later event, or to one that a step could not be aimed at
 _STEADY = 0.4  # of the mean rate up to an event: the least rate at which a step is aimed at it
-_ODD = 0.1  # of a way: the least by which it is odd
 
 
 @kernel
@@ -184,7 +183,7 @@ def look_after(x: Floats, i: int) -> bool:
         _look_ahead(x, i)
     elif x[lane.MODE + i] != EVENT:
         _retry(x, i)
-    elif doubt or x[lane.OVER_ERROR + i] < 1.0 or not _is_steady(x, i):
+    elif doubt or x[lane.OVER_ERROR + i] < 1.0:
         go_by(x, i, TIME, _PART * x[lane.WAIT + i])
     else:
         apply_event(x, i)
@@ -192,23 +191,6 @@ def look_after(x: Floats, i: int) -> bool:
             _look_ahead(x, i)  # else the other contact mostly goes by a formula
         return True
     return False
-
-
-@kernel
-def _is_steady(x: Floats, i: int) -> bool:
-    """Return whether the compression of the contact of an event moved as its derivatives say.
-
-    If the rate comes near 0 on the way, neither the step nor its error can be trusted. A contact
-    that comes to rest must not have opened before.
-    """
-    k, dt = int(x[lane.CONTACT + i]), x[lane.DT + i]
-    left = x[lane.NEW + lane.C + k] - x[lane.LEVEL + k]
-    if x[lane.KIND + i] == GAIN and not x[lane.SIGN + k] * left > 0.0:
-        return False
-    mean = 0.5 * (x[lane.Y + lane.R + k] + x[lane.NEW + lane.R + k])
-    mean += dt * (x[lane.ACC + k] - x[lane.ACC_NEW + k]) / 12.0
-    moved = x[lane.NEW + lane.C + k] - x[lane.Y + lane.C + k]
-    return abs(moved - dt * mean) < _ODD * abs(moved)
 
 
 @kernel
@@ -277,9 +259,7 @@ def _retry(x: Floats, i: int) -> None:
     span = min(x[lane.SPAN + i], x[lane.SPAN + LANES + i])
     if dt * x[lane.V0 + i] < x[lane.UNSURE + i] * span:
         x[lane.STATUS + i] = ASK
-    elif x[lane.MODE + i] == ROOT:
-        x[lane.H + i] *= math.sqrt(min(0.6 * first / dt, 0.5))
-    elif not first < dt:
+    elif x[lane.MODE + i] == ROOT or not first < dt:
         x[lane.H + i] *= 0.5
     elif not _aim(x, i, lane.ACC):
         x[lane.H + i] = _PART * first
