@@ -237,34 +237,24 @@ def _choose_steps(x: Floats) -> None:
 
 @kernel
 def _move(x: Floats, order: int) -> None:
-    """Compute the state at the end of each step; the rate is the slope of the compression."""
+    """Compute the state at the end of each step; the rate is the slope of the compression.
+
+    A surface has recovered if less is left of it than is not sure.
+    """
     last, c_new, r_new = (order & _MASK) * BOTH, lane.NEW + lane.C, lane.NEW + lane.R
     for i in range(BOTH):
         x[c_new + i], x[r_new + i] = x[C_TERMS + last + i], 0.0
+        x[lane.S_NEW + i] = x[S_TERMS + last + i]
     for j in range(order - 1, -1, -1):
-        term = C_TERMS + (j & _MASK) * BOTH
+        term = (j & _MASK) * BOTH
         for i in range(BOTH):
             u, c = x[PART + i], x[c_new + i]
             x[r_new + i] = c + u * x[r_new + i]
-            x[c_new + i] = x[term + i] + u * c
-    for i in range(BOTH):
-        x[r_new + i] *= x[OVER_LENGTH + i]
-    if x[lane.CREEPS] > 0.0:
-        for i in range(BOTH):
-            x[lane.S_NEW + i] = x[S_TERMS + last + i]
-        for j in range(order - 1, -1, -1):
-            term = S_TERMS + (j & _MASK) * BOTH
-            for i in range(BOTH):
-                x[lane.S_NEW + i] = x[term + i] + x[PART + i] * x[lane.S_NEW + i]
-        _recover(x)
-
-
-@kernel
-def _recover(x: Floats) -> None:
-    """Let surfaces have recovered but for less than what is not sure; take their steps."""
+            x[c_new + i] = x[C_TERMS + term + i] + u * c
+            x[lane.S_NEW + i] = x[S_TERMS + term + i] + u * x[lane.S_NEW + i]
     for i in range(BOTH):
         s, s_new = x[lane.S + i], x[lane.S_NEW + i]
         rest = s_new if x[lane.PRESSING + i] > 0.0 or s_new > x[lane.WIDE + i] else 0.0
-        x[lane.NEW + lane.R + i] += x[lane.NU + i] * (rest - s_new)
+        x[r_new + i] = x[r_new + i] * x[OVER_LENGTH + i] + x[lane.NU + i] * (rest - s_new)
         x[lane.S_NEW + i] = rest
         x[lane.S + i] = rest if x[lane.TAKEN + i] > 0.0 else s

@@ -89,11 +89,11 @@ CONTACT, KIND, WAIT, UNSURE, GRAVITY = (_LANE + k * LANES for k in range(16, 21)
 # estimate of order 3 with which the others can be trusted; and, of `pair_alone`, half the levels of
 # a continued fraction, and how far derivatives lead, over c.
 ALLOWED, COARSE, LEVELS, REACH = (_LANE + k * LANES for k in range(21, 25))
-# 1 if some exponent is neither 1 nor 1.5; if some contact creeps, has hysteresis, has a gain that
-# changes, or one that is watched.
+# 1 if some exponent is neither 1 nor 1.5; if some contact has hysteresis, a gain that changes, or
+# one that is watched.
 _ALL = _LANE + 25 * LANES
-GENERAL, CREEPS, REMEMBERS, LOSES, WATCHES = (_ALL + k for k in range(5))
-SLOTS = _ALL + 5
+GENERAL, REMEMBERS, LOSES, WATCHES = (_ALL + k for k in range(4))
+SLOTS = _ALL + 4
 
 TIME, ROOT, EVENT = 0.0, 1.0, 2.0  # modes: by time, by a root from a touch on, up to an event
 

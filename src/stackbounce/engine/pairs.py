@@ -104,7 +104,7 @@ def _run(
     drops: Drops, usual: Accuracy, closer: Accuracy, linear: bool, out: Outcomes, x: Floats
 ) -> None:
     """Let all drops pass through the lanes, and some once more."""
-    x[lane.GENERAL] = x[lane.CREEPS] = x[lane.REMEMBERS] = x[lane.LOSES] = x[lane.WATCHES] = 0.0
+    x[lane.GENERAL] = x[lane.REMEMBERS] = x[lane.LOSES] = x[lane.WATCHES] = 0.0
     rows = len(out.status)
     left, row = rows, 0
     for i in range(LANES):
@@ -203,7 +203,7 @@ def _take_law(drops: Drops, x: Floats, row: int, b: int, k: int) -> None:
     elif form == codes.RELAXING and loss > 0.0:
         stiffness *= 1.0 + loss
         nu = 1.0 / ((1.0 + loss) * drops.fourth[row, b])
-        p, mu, x[lane.CREEPS] = 1.0, loss * nu, 1.0
+        p, mu = 1.0, loss * nu
     elif form == codes.HYSTERETIC and loss > p:
         held, x[lane.REMEMBERS] = loss - p, 1.0
     if form in (codes.POWER, codes.RELAXING, codes.HYSTERETIC):
