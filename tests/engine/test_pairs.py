@@ -15,7 +15,7 @@ from stackbounce.engine.records import SCRATCH, Drops
 from stackbounce.run.batch import new_outcomes
 from stackbounce.run.engines import choose_lanes
 from stackbounce.run.options import Options, run_options
-from stackbounce.run.paths import number_at
+from stackbounce.run.paths import base_rows, number_at
 
 HERTZ = sb.Drop([sb.Ball(0.15), sb.Ball(0.057)], [sb.Hertz(1e6)] * 2, impact_speed=2.0)
 LIMIT = 1_000_000
@@ -29,10 +29,7 @@ ENTRIES = [(run_pairs, codes.PAIR_FORMS, 1e-6), (run_linear, codes.LINEAR_FORMS,
 )
 @pytest.mark.parametrize(("count", "gravity"), COUNTS)
 def test_as_the_general_engine(entry, forms, digits, count, gravity):
-    """Counts are right, and errors near the tolerance.
-
-    Under gravity a few drops come to rest or swing on, and one magnifies any error.
-    """
+    """Under gravity a few drops come to rest or swing on, and one magnifies any error."""
     drops, rtol = pairs(count, digits, 1.5, gravity, forms), 10.0**-digits
     work = 10**7 if gravity else 10**12
     out = in_lanes(entry.__name__, drops, rtol if entry is run_pairs else LIMIT)
@@ -177,6 +174,11 @@ def test_extremes_are_right_or_left_to_the_general_engine(name, scale, kind):
     assert np.isfinite(out.rebound_ratio[done]).all()
     retained = out.energy_retained[done & (drops.form == codes.POWER).all(axis=1)]
     assert retained == pytest.approx(1.0, abs=1e-4)
+
+
+def test_a_drop_with_very_many_contacts_is_left_to_the_general_engine():
+    drop = HERTZ.replace(balls=[sb.Ball(1e-10), sb.Ball(1.0)], gaps=[1e4])
+    assert in_lanes("run_pairs", base_rows(drop, 1), 1e-4).status.tolist() == [codes.ASK]
 
 
 def test_all_engines_in_lanes_have_room():

@@ -61,6 +61,8 @@ def press(x: Floats, i: int, k: int) -> None:
     if x[lane.COUNT + k] == 0.0:
         x[lane.FIRST + k] = x[lane.Y + lane.T + i]
     x[lane.COUNT + k] += 1.0
+    if x[lane.COUNT + k] > lane.MOST:
+        x[lane.STATUS + i] = ASK
 
 
 @kernel
@@ -177,7 +179,7 @@ def _fall(x: Floats, i: int) -> None:
 def look_after(x: Floats, i: int) -> bool:
     """Decide how a lane goes on that meets or nears an event; return whether one was applied."""
     doubt = x[lane.DOUBT + i] + x[lane.DOUBT + LANES + i] > 0.0
-    if x[lane.STEPS + i] > lane.MOST_STEPS:
+    if x[lane.STEPS + i] > lane.MOST:
         x[lane.STATUS + i] = ASK
     elif x[lane.TAKEN + i] > 0.0:
         _look_ahead(x, i)

@@ -97,7 +97,7 @@ SLOTS = _ALL + 4
 
 TIME, ROOT, EVENT = 0.0, 1.0, 2.0  # modes: by time, by a root from a touch on, up to an event
 
-MOST_STEPS = 2000.0  # of a drop: the general engine solves one that needs more
+MOST = 2000.0  # steps of a drop, or touches of a contact: the general engine solves longer ones
 _HALVED = 1.5  # allowed errors: where so much is not sure, a step may have half of its error
 _UNSURE = 3.0  # errors of the steps so far: an event that comes, or fails to, by less is not sure
 AHEAD = 1.2  # steps: an event within this is aimed at
@@ -331,7 +331,7 @@ def _go_on(x: Floats) -> None:
         mode, grow = x[MODE + i], x[GROW + i]
         meets = exact * (x[DOUBT + i] + x[DOUBT + LANES + i]) + (1.0 if mode == EVENT else 0.0)
         asks = meets + exact * (x[SOON + i] + x[SOON + LANES + i])
-        asks += 1.0 if x[STEPS + i] > MOST_STEPS else 0.0
+        asks += 1.0 if x[STEPS + i] > MOST else 0.0
         alone = 1.0 if meets == 0.0 else 0.0
         taken = alone * exact
         turns = taken * mode  # 1 where a step by a root is taken: one up to an event is not
