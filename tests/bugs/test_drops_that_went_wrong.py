@@ -195,10 +195,7 @@ def test_noise_after_a_cannon(gap):
 
 
 def test_tiny_times_stay_in_range():
-    """Power series in seconds overflowed for contacts of a nanosecond.
-
-    The restitution depends on v*^2 = 1.5 A (k/m)^(2/5) v^(1/5) alone.
-    """
+    """In seconds, series overflowed; restitution: of 1.5 A (k/m)^(2/5) v^(1/5) alone."""
     tiny = sb.Drop([sb.Ball(1e-9**2.5)], [sb.Viscoelastic(1.0, 1e-10)], impact_speed=1.0)
     plain = sb.Drop([sb.Ball(1.0)], [sb.Viscoelastic(1.0, 0.1)], impact_speed=1.0)
     expected = sb.simulate(plain).rebound_ratios

@@ -87,10 +87,7 @@ def test_momentum_and_energy_are_kept(law, count):
 
 
 def test_spring_row_is_bessel_functions_until_it_breaks():
-    """v_n = J_2n(2t) + J_2n+2(2t) in a long row, until its first contact opens at a zero of J_2.
-
-    The force at contact n is the time integral of v_(n-1) - v_n, or 4n J_2n(2t) / (2t).
-    """
+    """v_n = J_2n(2t) + J_2n+2(2t), so that a force is 4n J_2n(2t) / (2t), until J_2 is 0."""
     result, n = row("Spring", 40), np.arange(40)
     release = 0.5 * jn_zeros(2, 1)[0]
     assert result.intervals["end"].min() == pytest.approx(release, rel=1e-12)

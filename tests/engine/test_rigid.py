@@ -315,10 +315,7 @@ def test_collapse_in_the_middle_of_three_balls_without_a_floor():
     ("masses", "restitutions"), [((6.0, 0.3, 1.5), (0.95, 0.1)), ((6.0, 0.25, 1.5), (0.9, 0.15))]
 )
 def test_collapse_on_the_way_up(masses, restitutions):
-    """A light ball between two heavier ones, all on their way up: no matter how small the speeds.
-
-    They differ ever less, long before the last collision by less than a rounding error of theirs.
-    """
+    """Speeds differ by less than their round-off long before the last collision."""
     drop = rigid(masses, [1.0, *restitutions], [0.0, 1.0])
     assert not exact(drop, limit=150).finished
     result = sb.simulate(drop)

@@ -192,7 +192,7 @@ def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> N
     if kind in (codes.TOUCH, codes.RELEASE):
         logical = _zero_crossing(stack, i, time)
     overlap = compression - surface(stack, i, creep_at(stack, i, time))
-    exact = allows_root_series(stack) and logical >= stack.anchor[stack.first[i]]
+    exact = allows_root_series(stack) and logical >= _known_since(stack, i)
     if kind == codes.TOUCH and exact:
         time, overlap = logical, 0.0 if logical < time else overlap
     advance_cluster(stack, i, time)
@@ -303,6 +303,19 @@ def _zero_crossing(stack: Stack, i: int, time: float) -> float:
         if crossing < earliest:
             return earliest
     return crossing
+
+
+@kernel
+def _known_since(stack: Stack, i: int) -> float:
+    """Return since when the motion at open contact i is known.
+
+    The series of what is below holds as long before its anchor as after it.
+    """
+    since = stack.anchor[stack.first[i]]
+    if i > 0:
+        first = stack.first[i - 1]
+        since = max(since, 2.0 * stack.anchor[first] - stack.due[len(stack.mass) + first])
+    return since
 
 
 @kernel

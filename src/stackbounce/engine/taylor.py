@@ -39,6 +39,7 @@ ROOT_POWERS = 8.0  # twice the power from which on a series in the root of time 
 _BEYOND = 1.25  # times a compression: the largest change in a step
 _CLEAR = 50.0  # times the tolerance of a step: the largest last term of a power
 _HALVINGS = 50  # of a part of a step, in the search for a peak
+_UNDERFLOW = 1e-280  # where the last terms are smaller, as of very slow motion, earlier ones count
 _PARTS = 4  # of a step, each searched for one peak
 
 
@@ -89,23 +90,35 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
         own_speed = _own_speed(stack, low, high)
         allowed = min(allowed, max(_ROUGH * own_speed, _SLOW * speed))
     # in the root of time, 2 p + 1 terms of 2 p + 2 may be 0
-    before, x = 0.0, step if root == 1 else math.sqrt(step)
-    for k in range(order - 1 if root == 1 else order - 1 - int(2.0 * steepest), order + 1):
-        size = 0.0
-        for b in range(bottom, high):
-            size = max(size, abs(stack.velocity_series[b][k]))
-        for i in range(low, high):
-            if creeps(stack, i):  # as a speed, by the contact's own rate
-                own_rate = stack.number[SPEED] / stack.scale[i]
-                size = max(size, abs(stack.creep_series[i][k]) * own_rate)
-        if size * x > before:  # otherwise this term is as small as the last one
-            x = min(x, near_root(allowed / size, k))
-        before = size
+    terms, last, known = 2 if root == 1 else 2 + int(2.0 * steepest), order, False
+    x = longest = step if root == 1 else math.sqrt(step)
+    while not known:
+        before, largest, x = 0.0, 0.0, longest
+        for k in range(last - terms + 1, last + 1):
+            size = _size_of_term(stack, low, high, k)
+            if size * x > before:  # otherwise this term is as small as the last one
+                x = min(x, near_root(allowed / size, k))
+            before, largest = size, max(largest, size)
+        last -= terms
+        known = largest > _UNDERFLOW or last < 2 * terms
     step = min(step, x if root == 1 else x * x)
     for i in range(low, high):
         if (stack.power[i] > 0.0 or stack.depth[i] > 0) and stack.compression[i] > 0.0:
             step = _steep_step(stack, i, order, root, step)
     return step
+
+
+@kernel
+def _size_of_term(stack: Stack, low: int, high: int, k: int) -> float:
+    """Return the largest term of order k of a cluster's velocities, and of creeps, as speeds."""
+    size = 0.0
+    for b in range(max(low - 1, 0), high):
+        size = max(size, abs(stack.velocity_series[b][k]))
+    for i in range(low, high):
+        if creeps(stack, i):  # as a speed, by the contact's own rate
+            own_rate = stack.number[SPEED] / stack.scale[i]
+            size = max(size, abs(stack.creep_series[i][k]) * own_rate)
+    return size
 
 
 @kernel
