@@ -102,9 +102,9 @@ def look_after_series(x: Floats, i: int) -> None:
 def _choose_lengths(x: Floats) -> None:
     """Choose the longest step of each lane, and what each contact waits for.
 
-    No rate (the size of an eigenvalue) in the motion exceeds both the largest frequency of undamped
-    balls and the sum of the largest rates of dashpots and of surfaces. This is strict for dashpots
-    or surfaces alone. For both, the frequency is taken larger, as random ones show to be enough.
+    The largest rate in the motion (the size of an eigenvalue) is at most the larger one of two: the
+    largest frequency of undamped balls, and the sum of the largest rates of dashpots and surfaces.
+    docs/models.md proves it for dashpots or surfaces alone; for both the frequency is taken larger.
     """
     for i in range(BOTH):
         pressing, surface = x[lane.PRESSING + i], x[lane.S + i]
