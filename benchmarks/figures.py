@@ -68,7 +68,7 @@ def growth(costs: list[Cost]) -> Figure:
             ax.set_xlim(6.5, 2500)
             ax.set_xticks([10, 100, 1000], ["10", "100", "1000"])
             ax.set_xlabel("balls")
-        time.set_ylim(0.5, 500)
+        time.set_ylim(0.15, 500)
         _plain(time, (1, 10, 100))
         time.set_ylabel("time per contact interval (µs)")
         size.set_ylim(0.8, 100)
@@ -180,7 +180,7 @@ def pairs(entries: list[PairEntry]) -> Figure:
                 times = [1e6 * one.seconds for one in row]
                 ax.loglog(times, _seen(one.median for one in row), label=way, **look)
             ax.text(0.96, 0.05, law, transform=ax.transAxes, ha="right", fontsize=9)
-        panels[0, 0].set(xlim=(1.0, 3e4), ylim=(2e-20, 1e-2))
+        panels[0, 0].set(xlim=(0.4, 3e4), ylim=(2e-20, 1e-2))
         for ax in list(panels.flat)[len(laws) :]:
             ax.axis("off")
         for ax in panels[1]:
