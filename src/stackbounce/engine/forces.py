@@ -43,8 +43,9 @@ and so does its creep: it begins the next interval with what is left.
 TWO_STAGE and TABULATED are one form in the stack, too: a PIECEWISE contact is a product with q = 0
 and d = 0 in each piece, when it unloads times f + g c^M.
 
-A new form that is such a product needs a code (`codes`) and its numbers in `take_law`; any other
-one also a force, an energy, a static compression, and the terms of its power series (`find_terms`).
+A new form that is such a product needs a code (`codes`) and its numbers in `numbers_of_product`;
+any other one also a force, an energy, a static compression, and the terms of its power series
+(`find_terms`).
 """
 
 import math
@@ -87,23 +88,24 @@ def take_law(stack: Stack, i: int, kind: int, k: float, p: float, z: float, w: f
         take_table(stack, i, int(z), w, p)
     elif kind == codes.BOND or (kind != codes.POWER and z > 0.0):
         stack.law[i] = codes.PRODUCT
-        if kind in (codes.BOND, codes.DASHPOT):  # k (c + z/k c')
-            stack.bonded[i] = 1 if kind == codes.BOND else 0
-            stack.factor_exponent[i] = 0.0
-            stack.gain_slope[i] = 1.0
-            stack.gain_rate[i] = z / k
-        elif kind == codes.VISCOELASTIC:  # k c^1/2 (c + 3/2 z c')
-            stack.factor_exponent[i] = 0.5
-            stack.gain_slope[i] = 1.0
-            stack.gain_rate[i] = 1.5 * z
-        elif kind == codes.HUNT_CROSSLEY:  # k c^p (1 + z c')
-            stack.gain_constant[i] = 1.0
-            stack.gain_rate[i] = z
-        else:  # k ((1 + z) c - z u)
-            stack.factor_exponent[i] = 0.0
-            stack.gain_slope[i] = 1.0 + z
-            stack.gain_creep[i] = z
-            stack.creep_rate[i] = 1.0 / w
+        stack.bonded[i] = 1 if kind == codes.BOND else 0
+        product = numbers_of_product(kind, k, p, z, w)
+        stack.factor_exponent[i], stack.gain_constant[i], stack.gain_slope[i] = product[:3]
+        stack.gain_rate[i], stack.gain_creep[i], stack.creep_rate[i] = product[3:]
+
+
+@kernel
+def numbers_of_product(
+    kind: int, k: float, p: float, z: float, w: float
+) -> tuple[float, float, float, float, float, float]:
+    """Return q, a, b, d and m of a product with a loss, and the rate at which its creep follows."""
+    if kind in (codes.BOND, codes.DASHPOT):  # k (c + z/k c')
+        return 0.0, 0.0, 1.0, z / k, 0.0, 0.0
+    if kind == codes.VISCOELASTIC:  # k c^1/2 (c + 3/2 z c')
+        return 0.5, 0.0, 1.0, 1.5 * z, 0.0, 0.0
+    if kind == codes.HUNT_CROSSLEY:  # k c^p (1 + z c')
+        return p, 1.0, 0.0, z, 0.0, 0.0
+    return 0.0, 0.0, 1.0 + z, 0.0, z, 1.0 / w  # k ((1 + z) c - z u)
 
 
 @kernel

@@ -178,15 +178,15 @@ def _fall(x: Floats, i: int) -> None:
 @kernel
 def look_after(x: Floats, i: int) -> bool:
     """Decide how a lane goes on that meets or nears an event; return whether one was applied."""
-    doubt = x[lane.DOUBT + i] + x[lane.DOUBT + LANES + i] > 0.0
+    taken, at_event = x[lane.TAKEN + i] > 0.0, x[lane.MODE + i] == EVENT
     if x[lane.STEPS + i] > lane.MOST:
         x[lane.STATUS + i] = ASK
-    elif x[lane.TAKEN + i] > 0.0:
-        _look_ahead(x, i)
-    elif x[lane.MODE + i] != EVENT:
-        _retry(x, i)
-    elif doubt or x[lane.OVER_ERROR + i] < 1.0:
+    elif not taken and at_event:
         go_by(x, i, TIME, _PART * x[lane.WAIT + i])
+    elif not taken:
+        _retry(x, i)
+    elif not at_event:
+        _look_ahead(x, i)
     else:
         apply_event(x, i)
         if x[lane.WATCHES] > 0.0 and x[lane.STATUS + i] == 0.0 and x[lane.MODE + i] == TIME:
@@ -210,17 +210,6 @@ def _wait(left: float, rate: float, change: float) -> float:
         return math.inf
     square = rate * rate - 2.0 * change * left
     return 2.0 * abs(left) / (abs(rate) + math.sqrt(square)) if square > 0.0 else abs(left / rate)
-
-
-@kernel
-def accept(x: Floats, i: int) -> None:
-    """Let the state at the end of the step of a lane be the present one, see also `pair_step`."""
-    for j in range(i, lane.STATE, LANES):
-        x[lane.Y + j] = x[lane.NEW + j]
-    for k in (i, LANES + i):
-        x[lane.S + k] = x[lane.S_NEW + k]
-        if x[lane.PRESSING + k] == 0.0 and x[lane.Y + lane.C + k] <= 0.0:
-            open_now(x, k)
 
 
 @kernel
@@ -304,9 +293,8 @@ def _aim(x: Floats, i: int, acc: int) -> bool:
 
 @kernel
 def apply_event(x: Floats, i: int) -> None:
-    """Take a step that ends at an event, and apply that event."""
+    """Apply the event at which a step has ended."""
     k, kind = int(x[lane.CONTACT + i]), x[lane.KIND + i]
-    accept(x, i)
     r, acc, turns = x[lane.Y + lane.R + k], x[lane.ACC_NEW + k], kind >= GAIN and _turns(x, k)
     if not turns and r * acc < 0.0 and r * r < 2.0 * abs(acc) * x[lane.WIDE + k]:
         x[lane.STATUS + i] = ASK  # it would come back before it is sure that it was there

@@ -24,7 +24,7 @@ from stackbounce.engine import pair_step as lane
 from stackbounce.engine.codes import ASK
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.lockstep import time_above
-from stackbounce.engine.pair_events import GAIN, RELEASE, TOUCH, accept, apply_event, fly
+from stackbounce.engine.pair_events import GAIN, RELEASE, TOUCH, apply_event, fly
 from stackbounce.engine.pair_step import BOTH, LANES, take_steps
 
 ORDER = 25  # of the series
@@ -88,10 +88,8 @@ def look_after_series(x: Floats, i: int) -> None:
         x[lane.STATUS + i] = ASK
     elif x[LANDS + i] == 0.0:
         fly(x, i)
-    elif x[lane.LEVEL + k] > 0.0 and x[lane.NEW + lane.C + k] < 0.0:
-        accept(x, i)  # it opened before it could press again
-    else:
-        kind = TOUCH
+    elif x[DAMP + k] == 0.0 or x[lane.PRESSING + k] + x[lane.LEVEL + k] > 0.0:
+        kind = TOUCH  # else it opened before it could press again
         if x[lane.PRESSING + k] > 0.0:
             kind = GAIN if x[lane.D + k] > 0.0 else RELEASE
         x[lane.CONTACT + i], x[lane.KIND + i] = k, kind
@@ -123,6 +121,7 @@ def _choose_lengths(x: Floats) -> None:
         pressing, compressed = x[lane.PRESSING + i], x[lane.LEVEL + i]
         x[SIDE + i], x[OVER_LENGTH + i] = 1.0 if pressing > 0.0 else -1.0, 1.0 / x[LENGTH + i]
         x[DAMP + i] = x[lane.D + i] if pressing + compressed > 0.0 else 0.0
+        x[lane.TAKEN + i] = 1.0
         x[lane.WIDE + i] *= x[lane.SPAN + i]
 
 
@@ -232,7 +231,6 @@ def _choose_steps(x: Floats) -> None:
         x[lane.NEW + lane.T + i] = x[lane.Y + lane.T + i] + u * x[LENGTH + i]
         holds = x[lane.PRESSING + i] + x[lane.PRESSING + LANES + i] + x[lane.GRAVITY + i]
         x[lane.ASKS + i] = lands + stuck + (1.0 if holds == 0.0 else 0.0)
-        x[lane.TAKEN + i] = x[lane.TAKEN + LANES + i] = 1.0 - lands
 
 
 @kernel
@@ -253,8 +251,7 @@ def _move(x: Floats, order: int) -> None:
             x[c_new + i] = x[C_TERMS + term + i] + u * c
             x[lane.S_NEW + i] = x[S_TERMS + term + i] + u * x[lane.S_NEW + i]
     for i in range(BOTH):
-        s, s_new = x[lane.S + i], x[lane.S_NEW + i]
+        s_new = x[lane.S_NEW + i]
         rest = s_new if x[lane.PRESSING + i] > 0.0 or s_new > x[lane.WIDE + i] else 0.0
         x[r_new + i] = x[r_new + i] * x[OVER_LENGTH + i] + x[lane.NU + i] * (rest - s_new)
-        x[lane.S_NEW + i] = rest
-        x[lane.S + i] = rest if x[lane.TAKEN + i] > 0.0 else s
+        x[lane.S + i] = rest

@@ -329,12 +329,13 @@ def _go_on(x: Floats) -> None:
     for i in range(LANES):
         exact = 1.0 if x[OVER_ERROR + i] >= 1.0 else 0.0
         mode, grow = x[MODE + i], x[GROW + i]
-        meets = exact * (x[DOUBT + i] + x[DOUBT + LANES + i]) + (1.0 if mode == EVENT else 0.0)
+        clear = 1.0 if x[DOUBT + i] + x[DOUBT + LANES + i] == 0.0 else 0.0
+        meets = exact * (1.0 - clear) + (1.0 if mode == EVENT else 0.0)
         asks = meets + exact * (x[SOON + i] + x[SOON + LANES + i])
         asks += 1.0 if x[STEPS + i] > MOST else 0.0
         alone = 1.0 if meets == 0.0 else 0.0
-        taken = alone * exact
-        turns = taken * mode  # 1 where a step by a root is taken: one up to an event is not
+        taken = alone * exact  # but those up to an event
+        turns = taken * mode  # 1 where a step by a root is taken
         stays = 1.0 - turns
         h = x[H + i] * (1.0 + alone * (grow - 1.0))
         first = ONWARD * x[DT + i] * min(grow, 1.0)
@@ -353,7 +354,7 @@ def _go_on(x: Floats) -> None:
         x[BY_R + LANES + i] *= stays
         x[STEPS + i] += 1.0
         x[ASKS + i] = asks
-        x[TAKEN + i] = x[TAKEN + LANES + i] = taken
+        x[TAKEN + i] = x[TAKEN + LANES + i] = exact * clear
     take_steps(x)
 
 
@@ -361,7 +362,7 @@ def _go_on(x: Floats) -> None:
 def take_steps(x: Floats) -> None:
     """Let the state at the end of a step be the present one of the lanes that are in TAKEN.
 
-    An open contact that is not compressed any more waits for a touch, as `accept` has it, too.
+    An open contact that is not compressed any more waits for a touch.
     """
     for i in range(BOTH):
         c, c_new, r, r_new = x[Y + C + i], x[NEW + C + i], x[Y + R + i], x[NEW + R + i]

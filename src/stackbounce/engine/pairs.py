@@ -13,12 +13,13 @@ from typing import NamedTuple
 from stackbounce.engine import codes
 from stackbounce.engine import pair_step as lane
 from stackbounce.engine.elementary import near_root, nearest_exponent, power
+from stackbounce.engine.forces import numbers_of_product
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.pair_alone import go_alone
 from stackbounce.engine.pair_cycles import forget
-from stackbounce.engine.pair_events import free_rate, go_by, look_after, open_now, press, touch
+from stackbounce.engine.pair_events import free_rate, look_after, open_now, press, touch
 from stackbounce.engine.pair_series import ERROR, begin_series, look_after_series, step_by_series
-from stackbounce.engine.pair_step import LANES, TIME, step_by_runge_kutta
+from stackbounce.engine.pair_step import LANES, step_by_runge_kutta
 from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import Drops, Outcomes, Workspace
 from stackbounce.engine.work import LANE_STEP, LANES_RTOL
@@ -108,7 +109,7 @@ def _run(
     rows = len(out.status)
     left, row = rows, 0
     for i in range(LANES):
-        _idle(x, i, usual)
+        x[lane.STATUS + i], x[lane.ROW + i] = codes.ASK, -1.0  # without a drop
     while left > 0:
         for i in range(LANES):
             if x[lane.STATUS + i] == 0.0 and x[lane.ASKS + i] > 0.0:
@@ -125,7 +126,7 @@ def _run(
                         _write_outcome(drops, out, x, i, done)
                         left -= 1
                     if row == rows:
-                        _idle(x, i, usual)
+                        x[lane.ROW + i] = -1.0
                         break
                     _begin(drops, x, i, row, usual)
                     row += 1
@@ -145,17 +146,6 @@ def _is_unsure(x: Floats, i: int, accuracy: Accuracy) -> bool:
 
 
 @kernel
-def _idle(x: Floats, i: int, accuracy: Accuracy) -> None:
-    """Let a lane fly without a drop."""
-    for slot in range(i, lane.GENERAL, LANES):
-        x[slot] = 0.0
-    x[lane.STATUS + i], x[lane.ROW + i], x[lane.V0 + i] = codes.ASK, -1.0, 1.0
-    x[lane.ALLOWED + i], x[lane.COARSE + i] = accuracy.allowed, accuracy.coarse
-    x[lane.Y + lane.C + i], x[lane.Y + lane.C + LANES + i] = -1.0, -1.0
-    go_by(x, i, TIME, 1.0)
-
-
-@kernel
 def _begin(drops: Drops, x: Floats, i: int, row: int, accuracy: Accuracy) -> None:
     """Start a drop in lane i, at t = 0."""
     speed, first = -drops.velocity[row, 0], accuracy.first
@@ -171,8 +161,8 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, accuracy: Accuracy) -> Non
         k = b * LANES + i
         _take_law(drops, x, row, b, k)
         x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = -drops.gap[row, b], 0.0
-        x[lane.S + k], x[lane.S_NEW + k] = 0.0, 0.0
-        x[lane.COUNT + k], x[lane.FIRST + k], x[lane.LAST + k] = 0.0, math.nan, math.nan
+        x[lane.S + k], x[lane.COUNT + k] = 0.0, 0.0
+        x[lane.FIRST + k], x[lane.LAST + k] = math.nan, math.nan
         open_now(x, k)
         forget(x, k)
         # k c^(p + 1) is about m v^2
@@ -195,33 +185,26 @@ def _take_law(drops: Drops, x: Floats, row: int, b: int, k: int) -> None:
     """Set the numbers of contact k of a lane: those of ball b's contact in a row."""
     form, stiffness = drops.form[row, b], drops.first[row, b]
     p, loss = drops.second[row, b], drops.third[row, b]
-    pure, slope, mu, nu, held = 1.0, 0.0, 0.0, 0.0, 0.0  # pure and slope: a and b
-    if form == codes.DASHPOT:
-        p, loss, pure, slope = 1.0, loss / stiffness, 0.0, 1.0
-    elif form == codes.VISCOELASTIC:
-        p, loss, pure, slope = 1.5, 1.5 * loss, 0.0, 1.0
-    elif form == codes.RELAXING and loss > 0.0:
-        stiffness *= 1.0 + loss
-        nu = 1.0 / ((1.0 + loss) * drops.fourth[row, b])
-        p, mu = 1.0, loss * nu
-    elif form == codes.HYSTERETIC and loss > p:
-        held, x[lane.REMEMBERS] = loss - p, 1.0
-    if form in (codes.POWER, codes.RELAXING, codes.HYSTERETIC):
-        loss = 0.0
-    if loss > 0.0 or held > 0.0:
-        x[lane.WATCHES] = 1.0
-    if loss > 0.0:
-        x[lane.LOSES] = 1.0
-    else:
-        pure, slope = 1.0, 0.0
-    x[lane.A + k], x[lane.B + k], x[lane.D + k] = pure, slope, loss
-    watched = (0.0, 0.0, 1.0) if held > 0.0 else (pure, slope, loss)
-    x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k] = watched
-    x[lane.STIFFNESS + k], x[lane.POWER + k] = stiffness, p - 1.0
-    x[lane.LOSS + k] = held
-    x[lane.MU + k], x[lane.NU + k] = mu, nu
+    a, slope, d, mu, nu, held = 1.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    if form == codes.HYSTERETIC:
+        held = max(loss - p, 0.0)
+    elif form != codes.POWER and loss > 0.0:
+        product = numbers_of_product(form, stiffness, p, loss, drops.fourth[row, b])
+        _, a, slope, d, creep, rate = product
+        if creep > 0.0:
+            stiffness, nu = slope * stiffness, rate / slope
+            a, slope, mu = 1.0, 0.0, creep * nu
+    if held > 0.0:
+        x[lane.REMEMBERS] = x[lane.WATCHES] = 1.0
+    if d > 0.0:
+        x[lane.LOSES] = x[lane.WATCHES] = 1.0
     if p not in (1.0, 1.5):
         x[lane.GENERAL] = 1.0
+    x[lane.A + k], x[lane.B + k], x[lane.D + k] = a, slope, d
+    watched = (0.0, 0.0, 1.0) if held > 0.0 else (a, slope, d)
+    x[lane.END_A + k], x[lane.END_B + k], x[lane.END_D + k] = watched
+    x[lane.STIFFNESS + k], x[lane.POWER + k], x[lane.LOSS + k] = stiffness, p - 1.0, held
+    x[lane.MU + k], x[lane.NU + k] = mu, nu
 
 
 @kernel
