@@ -41,13 +41,12 @@ _STEPS = 200.0  # longer runs accumulate round-off
 # made.
 _EACH = lane.SLOTS + -lane.SLOTS % LANES  # a row begins at a cache line
 V, CREEP, SIDE, DAMP, BOUND, SAFE, LENGTH, OVER_LENGTH, PART = (_EACH + k * BOTH for k in range(9))
-# Slots for each lane: 1 if an event ends the step, and 1 if that is the floor's; the times until
-# which one contact is safe, and both are; what the contact waits for, its slope, half its second
-# derivative, and how sure the root is.
+# Slots for each lane: 1 if an event ends the step, and 1 if that is the floor's; what the contact
+# waits for, its slope, half its second derivative, and how sure the root is.
 _LANE = _EACH + 9 * BOTH
-LANDS, FLOOR, ONE_SAFE, BOTH_SAFE, VALUE, SLOPE, BEND, SURE = (_LANE + k * LANES for k in range(8))
+LANDS, FLOOR, VALUE, SLOPE, BEND, SURE = (_LANE + k * LANES for k in range(6))
 # The order: in a slot, so that a compiler does not unroll the loops. The most steps of a drop.
-COUNT_OF_TERMS = _LANE + 8 * LANES
+COUNT_OF_TERMS = _LANE + 6 * LANES
 LIMIT = COUNT_OF_TERMS + 1
 # Terms of the series in parts of a step, a slot for each contact: compression, its surface's, and
 # what it waits for, which is positive; in the first half later that which may end the step. They
@@ -175,7 +174,6 @@ def _choose_contact(x: Floats, order: int) -> None:
     for i in range(LANES):
         one, other = x[SAFE + i], x[SAFE + LANES + i]
         x[FLOOR + i], x[PART + i] = 1.0 if one <= other else 0.0, min(one, other)
-        x[ONE_SAFE + i], x[BOTH_SAFE + i] = max(one, other), min(one, other)
     for j in range(order):
         wait = WAITS + (j & _MASK) * BOTH
         for i in range(LANES):
@@ -221,9 +219,10 @@ def _choose_steps(x: Floats) -> None:
         u, unsure, steps = x[PART + i], x[lane.UNSURE + i], x[lane.STEPS + i] + 1.0
         sure = x[SURE + i] > -ERROR * x[lane.V0 + i] * x[LENGTH + i]
         sure = sure and x[SLOPE + i] < -unsure * x[LENGTH + i]
-        sure = sure and 0.0 < u <= min(x[ONE_SAFE + i], 1.0)
+        one, other = x[SAFE + i], x[SAFE + LANES + i]
+        sure = sure and 0.0 < u <= min(max(one, other), 1.0)
         lands = x[LANDS + i] if sure else 0.0
-        u = u if lands > 0.0 else x[BOTH_SAFE + i]
+        u = u if lands > 0.0 else min(one, other)
         stuck = 1.0 if u <= 0.0 or steps > limit else 0.0
         x[LANDS + i], x[lane.DOUBT + i], x[lane.STEPS + i] = lands, stuck, steps
         x[PART + i] = x[PART + LANES + i] = u
