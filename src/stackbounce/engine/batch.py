@@ -209,8 +209,8 @@ def _read_outcome(space: Workspace, counter: Integers, status: int, out: Outcome
             out.first_touch[row, i] = begin
         if not out.last_release[row, i] >= end:
             out.last_release[row, i] = end
-    for b in range(len(out.velocity[row])):
-        out.velocity[row, b] = space.after[AFTER + b]
+    for b in range(len(out.rebound_ratio[row])):
+        out.rebound_ratio[row, b] = space.after[AFTER + b]
     work: int = DROP + counter[slots.WORK] - out.work[row]
     out.status[row], out.work[row] = status, counter[slots.WORK]
     return work

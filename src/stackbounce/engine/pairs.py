@@ -62,7 +62,7 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
         The error of the velocities that is aimed at, over the impact speed. Drops that the lanes
         are not sure of, and long ones, are solved again with a smaller one.
     out : Outcomes
-        Gets the velocities, ratios, numbers of collisions, times and work. The status is FINISHED,
+        Gets the ratios, numbers of collisions, times and work. The status is FINISHED,
         or ASK where the general engine must solve the drop; its other results are then meaningless.
     space : Workspace
         Its ``floats`` are scratch space, of the size `records.SCRATCH`.
@@ -212,8 +212,7 @@ def _write_outcome(drops: Drops, out: Outcomes, x: Floats, i: int, row: int) -> 
     """Write the outcome of the drop in lane i."""
     out.status[row], out.work[row] = int(x[lane.STATUS + i]), LANE_STEP * int(x[lane.STEPS + i])
     lower = -free_rate(x, i)
-    out.velocity[row, 0] = lower
-    out.velocity[row, 1] = lower - free_rate(x, LANES + i)
+    out.rebound_ratio[row, 0], out.rebound_ratio[row, 1] = lower, lower - free_rate(x, LANES + i)
     for b in range(2):
         k = b * LANES + i
         out.collisions[row, b] = int(x[lane.COUNT + k])

@@ -8,12 +8,15 @@ from stackbounce.engine.records import Drops, Outcomes
 
 @kernel
 def find_ratios(drops: Drops, out: Outcomes, row: int) -> None:
-    """Compute rebound ratios and retained energy of a drop from its velocities before and after."""
-    before, after = drops.velocity[row], out.velocity[row]
+    """Compute the retained energy of a drop; velocities after become rebound ratios where they are.
+
+    The velocities stand in ``rebound_ratio``.
+    """
+    before, after = drops.velocity[row], out.rebound_ratio[row]
     out.energy_retained[row] = energy_kept(drops.mass[row], before, after)
     speed = largest_speed(before)
     for b in range(len(after)):
-        out.rebound_ratio[row, b] = after[b] / speed
+        after[b] /= speed
 
 
 @kernel

@@ -30,7 +30,7 @@ def run_two_rigid(drops: Drops, event_limit: int, out: Outcomes, space: Workspac
     event_limit : int
         The number of collisions after which the general engine must solve a drop.
     out : Outcomes
-        Gets the velocities, ratios, numbers of collisions, and times. The status is FINISHED, or
+        Gets the ratios, numbers of collisions, and times. The status is FINISHED, or
         ASK where the general engine must solve the drop; its other results are then meaningless.
     space : Workspace
         Not used: all engines in lanes take the same arguments.
@@ -83,7 +83,7 @@ def run_two_rigid(drops: Drops, event_limit: int, out: Outcomes, space: Workspac
             compression1 += rate1 * (now - before)
             if rate0 < _SMALL * speed:
                 break
-        out.velocity[row, 0], out.velocity[row, 1] = velocity0, velocity1
+        out.rebound_ratio[row, 0], out.rebound_ratio[row, 1] = velocity0, velocity1
         out.collisions[row, 0], out.collisions[row, 1] = count0, count1
         out.first_touch[row, 0], out.first_touch[row, 1] = 0.0, first1
         out.last_release[row, 0], out.last_release[row, 1] = last0, last1

@@ -35,7 +35,7 @@ def run_two_springs(drops: Drops, event_limit: int, out: Outcomes, space: Worksp
     event_limit : int
         The number of touches and releases after which a drop ends with EVENT_LIMIT.
     out : Outcomes
-        Gets the velocities, ratios, numbers of collisions, and times. The status is FINISHED;
+        Gets the ratios, numbers of collisions, and times. The status is FINISHED;
         EVENT_LIMIT; INVALID for input that is out of range; or ASK where the general engine must
         solve the drop. The other results of such a drop are meaningless.
     space : Workspace
@@ -146,8 +146,8 @@ def _write_outcome(drops: Drops, out: Outcomes, x: Floats, i: int, r: int) -> No
     v0, unit = x[lane.V0 + i] if known else math.nan, x[lane.UNIT + i] if known else math.nan
     last0, last1 = x[lane.LAST0 + i], x[lane.LAST1 + i]
     out.status[r] = code
-    out.velocity[r, 0] = v0 * x[lane.U0 + i]
-    out.velocity[r, 1] = v0 * (x[lane.U1 + i] * x[lane.SLIM + i])
+    out.rebound_ratio[r, 0] = v0 * x[lane.U0 + i]
+    out.rebound_ratio[r, 1] = v0 * (x[lane.U1 + i] * x[lane.SLIM + i])
     out.collisions[r, 0], out.collisions[r, 1] = int(x[lane.N0 + i]), int(x[lane.N1 + i])
     out.first_touch[r, 0] = unit * 0.0
     out.first_touch[r, 1] = unit * (x[lane.FIRST + i] if x[lane.N1 + i] > 0.0 else math.nan)

@@ -167,9 +167,8 @@ def solve(
 def new_outcomes(count: int, balls: int) -> Outcomes:
     """Return room for the outcomes of so many drops; refuse more than fit into memory."""
     way = "write a sweep to a file, block by block (stackbounce.sweeps.write), or take fewer"
-    check_room((5 * balls + 3) * count, f"the results of {count} drops", way)
+    check_room((4 * balls + 3) * count, f"the results of {count} drops", way)
     return Outcomes(
-        velocity=np.empty((count, balls)),
         rebound_ratio=np.empty((count, balls)),
         collisions=np.empty((count, balls), dtype=np.int64),
         first_touch=np.empty((count, balls)),
@@ -232,4 +231,4 @@ def _run_rows(
                 pause()
         except OUT_OF_RANGE:
             outcome.status[0] = codes.INVALID
-            outcome.velocity[0] = outcome.rebound_ratio[0] = outcome.energy_retained[0] = math.nan
+            outcome.rebound_ratio[0] = outcome.energy_retained[0] = math.nan

@@ -159,7 +159,7 @@ def outcome(drop, show, index, event_limit):
         return int(out.collisions[0, index])
     if show == "rebound_ratio":
         return finite(out.rebound_ratio[0, index])
-    speed = out.velocity[0, index]
+    speed = out.rebound_ratio[0, index] * max(map(abs, drop.start_velocities))
     return finite(speed * abs(speed) / (2.0 * sb.model.STANDARD_GRAVITY))
 
 
