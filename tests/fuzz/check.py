@@ -30,14 +30,16 @@ def faults_of(result: sb.Result, stops: np.ndarray) -> list[str]:
     if result.status is sb.Status.INVALID:
         return [] if _comes_too_late(result) else [FAULTS[7]]
     allowed = (_ROUND + _LOOSE * result.precision) * (1.0 + 0.1 * len(result.events))
+    logged = list(_by_contact(result))
     found = (
         not np.isfinite(result.rebound_speeds).all() or np.isnan(result.log).any(),
         bool(_rise(result, stops) > allowed),
         _shake(result) > _SHAKE * (10.0 + len(result.events)),
-        any(not _alternate(kinds) for kinds, _ in _by_contact(result)),
-        any((np.diff(times) < 0.0).any() for _, times in _by_contact(result))
+        any(not _alternate(kinds) for kinds, _ in logged),
+        any((np.diff(times) < 0.0).any() for _, times in logged)
         or bool((result.intervals["start"] > result.intervals["end"]).any()),
-        result.status is sb.Status.FINISHED and bool(np.isinf(result.intervals["end"]).any()),
+        result.status is sb.Status.FINISHED
+        and any(kinds[-1:] == [codes.TOUCH] or np.inf in times for kinds, times in logged),
         result.status in _ENDED and _approach(result) > allowed,
     )
     return [name for name, wrong in zip(FAULTS, found, strict=False) if wrong]

@@ -225,11 +225,15 @@ def _can_fall(stack: Stack, i: int) -> bool:
 def _fall(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
     """Return when c falls to where contact i opens or its curve changes, if before ``event``.
 
-    It comes first as well if both are at the same time.
+    It comes first as well if both are at the same time. A contact whose force was clipped opens at
+    once if its balls fly on at one speed.
     """
     if not _can_fall(stack, i):
         return event
     level, kind = lowest_compression(stack, i), codes.RELEASE
+    together = motion.straight and abs(stack.watched[1]) <= approach_noise(stack, i)
+    if together and stack.phase[i] == codes.UNLOADED:
+        return 0.0, True, kind
     if level > 0.0:
         kind = codes.RETURNED
     if stack.law[i] == codes.PIECEWISE and stack.piece_low[i] > level:

@@ -192,9 +192,11 @@ def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> N
     if kind in (codes.TOUCH, codes.RELEASE):
         logical = _zero_crossing(stack, i, time)
     overlap = compression - surface(stack, i, creep_at(stack, i, time))
-    exact = allows_root_series(stack) and logical >= _known_since(stack, i)
+    # a dashpot presses from the touch on: its impulse up to an overlap would be missed
+    jumps = stack.gain_rate[i] > 0.0 and stack.factor_exponent[i] == 0.0
+    exact = (jumps or allows_root_series(stack)) and logical >= _known_since(stack, i)
     if kind == codes.TOUCH and exact:
-        time, overlap = logical, 0.0 if logical < time else overlap
+        time, overlap = logical, 0.0 if jumps or logical < time else overlap
     advance_cluster(stack, i, time)
     if i > 0 and stack.first[i - 1] != stack.first[i]:
         advance_cluster(stack, i - 1, time)
