@@ -81,10 +81,7 @@ def pairs(count, seed, reach=3.0, gravity=False, forms=codes.PAIR_FORMS):
 
 
 def rigid_pairs(count, seed, reach=3.0, least=0.0):
-    """Return drops of two rigid balls, a third of which touch and a fifth of which are elastic.
-
-    Some mass ratios are those at which balls end with one velocity, or a ball at rest.
-    """
+    """Return drops of two rigid balls; some touch, are elastic, or end at one speed or at rest."""
     random, drops = np.random.default_rng(seed), pairs(count, seed, reach)
     some = random.random(count) < 0.1
     ratio = random.choice([1 / 3, 0.5, 1.0, 2.0, 3.0], some.sum())

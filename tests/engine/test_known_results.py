@@ -208,3 +208,17 @@ def test_error_is_below_ten_times_the_tolerance_asked_for(index, rtol):
     if len(drop.balls) == 1 and abs(row["rebound_speeds"][0]) < CREEPING * drop.reference_speed:
         return
     assert found[:, 2] == pytest.approx(expected[:, 2], abs=1e3 * time, nan_ok=True)
+
+
+@pytest.mark.parametrize("rtol", [1e-6, 1e-9, 1e-12])
+@pytest.mark.parametrize("row", data.read("extreme"))
+def test_errors_of_extreme_drops_are_those_that_their_conditioning_tells(row, rtol):
+    drop = drop_of(row["case"])
+    result, dataset = sb.simulate(drop, rtol=rtol), sb.sweep(drop, {"gaps.0": drop.gaps}, rtol=rtol)
+    within = max(10.0 * rtol * max(1.0, result.conditioning.max()), PRECISION)
+    ratios = pytest.approx(np.array(row["rebound_speeds"]) / drop.reference_speed, abs=within)
+    assert result.rebound_ratios == ratios
+    assert dataset.rebound_ratio.values[0] == ratios
+    if rtol < 1e-9:
+        assert result.collisions.tolist() == row["collisions"]
+        assert dataset.collisions.values[0].tolist() == row["collisions"]

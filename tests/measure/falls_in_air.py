@@ -40,10 +40,7 @@ class FallsInAir(Falls):
 
 
 def falls_in_air(height, kept, *, ball=BALL, coefficient=0.45, bounces=8, lasts=lambda _: 0.0):
-    """Return the bounces of a ball from a height in m.
-
-    `kept` is its restitution at a speed, and `lasts` the duration of a contact.
-    """
+    """Return a ball's bounces, with its restitution and the duration of a contact at a speed."""
     mass, diameter = ball
     k = DENSITY * coefficient * math.pi * (diameter / 2.0) ** 2 / (2.0 * mass)
     first = _flight(k, [height, 0.0])

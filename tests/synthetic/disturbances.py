@@ -26,10 +26,7 @@ def ar_noise(random: np.random.Generator, shape: tuple[int, ...], correlation: f
 
 
 def reverberated(values, rate, amplitude, random):
-    """Return a sound in a room: four echoes within 40 ms and a tail of noise.
-
-    The `amplitude` of the strongest echo is a share of that of the sound.
-    """
+    """Return a sound in a room: four echoes, the strongest of an amplitude, and a tail of noise."""
     from scipy.signal import fftconvolve
 
     response = np.zeros(math.ceil(_ROOM * rate))

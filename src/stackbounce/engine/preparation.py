@@ -17,6 +17,7 @@ from stackbounce.engine.stack import RigidStack, Stack
 
 _STEP = 0.02  # the error of one step of a nonlinear cluster, over rtol
 _ROUND_OFF = 1e-16  # the least such error
+_APART = 10.0  # a ratio of the contacts' times: where it is larger, that error is smaller
 _LEAST_ORDER = 6  # of a power series
 _LINEARISED_SHARE = 1e-2  # LINEARISED_WORK over the error of one step
 _LEAST_LINEARISED_WORK = 1e-18  # but at least so much
@@ -32,13 +33,14 @@ def prepare(stack: Stack, drops: Drops, row: int, rtol: float) -> float:
     the range of floating-point numbers, and the conversion rounds nothing.
     """
     size, velocity = len(stack.mass), drops.velocity[row]
-    speed, shortest = largest_speed(velocity), math.inf
+    speed, shortest, longest = largest_speed(velocity), math.inf, 0.0
     for i in range(size):
         stack.mass[i] = drops.mass[row][i]
         take_law(stack, i, *_contact(drops, row, i))
         stack.scale[i] = typical_compression(stack, i, speed)
         if stack.law[i] != codes.ABSENT:
             shortest = min(shortest, stack.scale[i] / speed)
+            longest = max(longest, stack.scale[i] / speed)
         stack.counter[slots.BONDS] += stack.bonded[i]
         if is_nonlinear(stack, i):
             stack.counter[slots.NONLINEAR] = 1
@@ -53,7 +55,10 @@ def prepare(stack: Stack, drops: Drops, row: int, rtol: float) -> float:
         stack.creep_rate[i] *= unit
         stack.velocity[i] = velocity[i] * unit
         stack.compression[i] = -drops.gap[row][i]
-    tolerance = max(_STEP * rtol, _ROUND_OFF)
+    tolerance = _STEP * rtol
+    if _APART * shortest < longest:  # an error of a speed, in the longest, adds up to a compression
+        tolerance *= _APART * shortest / longest
+    tolerance = max(tolerance, _ROUND_OFF)
     stack.number[slots.GRAVITY] = drops.gravity[row] * (unit * unit)
     stack.number[slots.SPEED] = speed * unit
     stack.number[slots.TOLERANCE] = tolerance

@@ -161,10 +161,7 @@ def test_random_drops_have_the_same_numbers(asked, batches, count):
 
 
 def compare_textbook(ours, theirs):
-    """Compare separate collisions; return whether their restitutions are the same bits.
-
-    If they are not, many collisions can make anything of the last digit.
-    """
+    """Compare separate collisions; return whether restitutions have the same bits: many amplify."""
     if theirs is None or "error" in theirs:
         assert ours == theirs
         return True
@@ -238,10 +235,7 @@ def test_laws_are_calibrated_and_converted_alike(asked, seed, count):
 
 
 def compare_measures(one, other, mass, speed):
-    """Compare laws, of which the page has found one by runs, and what is measured of them.
-
-    A run tells a loss from round-off to about 1e-11.
-    """
+    """Compare laws, one found by runs, which tell a loss to 1e-11, and what is measured of them."""
     assert type(one) is type(other)
     kept, lasts = sb.restitution(other, mass, speed), sb.contact_time(other, mass, speed)
     assert sb.restitution(one, mass, speed) == pytest.approx(kept, rel=MEASURED, abs=1e-11)
@@ -252,10 +246,7 @@ def compare_measures(one, other, mass, speed):
 
 
 def creeps_apart(contact, mass, speed):
-    """Return whether a contact hardly throws back, so that a run does not show its end exactly.
-
-    The speeds keep their digits, see docs/benchmark.md.
-    """
+    """Return whether a contact hardly throws back, so that a run does not show its end exactly."""
     try:
         return sb.restitution(read_law(contact, "contact"), mass, speed) < 1e-4
     except sb.StackbounceError:
