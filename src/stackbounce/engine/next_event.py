@@ -60,7 +60,7 @@ from stackbounce.engine.series import (
     shift,
     time_to_level,
 )
-from stackbounce.engine.slots import NONLINEAR, SPEED, TOLERANCE
+from stackbounce.engine.slots import GRAVITY, NONLINEAR, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
 # of a typical speed or compression: a motion whose round-off is smaller has died out
@@ -366,7 +366,7 @@ def _gain_wait(stack: Stack, i: int, time: float, motion: Motion) -> tuple[float
     """Return how long the gain of damped contact i surely keeps its sign; see `_safe_wait`."""
     a, gain = stack.watched, stack.changed
     order, power, root, tail = motion.order, motion.power, motion.root, motion.tail
-    speed = abs(a[root])
+    speed, reach = abs(a[root]), motion.horizon
     noise = max(motion.noise, 16.0 * codes.EPSILON * abs(a[0])) + motion.tick * speed
     rate_noise = max(motion.rate_noise, 16.0 * codes.EPSILON * (stack.speed[i] + speed))
     rate_noise += motion.tick * abs(2.0 * a[2 * root])
@@ -395,13 +395,21 @@ def _gain_wait(stack: Stack, i: int, time: float, motion: Motion) -> tuple[float
     elif gain[0] <= clear and gain[1] < 0.0 and a[1] < 0.0:
         # an overdamped contact would open infinitely slowly, with a negligible force
         return _zero_near(stack, i, time, motion, 0.0), True
+    elif a[1] == 0.0 and abs(gain[0]) + abs(gain[1]) * reach <= clear and _is_alone(stack, i):
+        return 0.0, True  # at rest, with a force too small to change that
     rest, more = rate * power * tail, slope * tail
-    wait, reached = _safe_wait(
-        stack, gain, order, power - 1, rest, more, sign, level, clear, motion.horizon
-    )
+    wait, reached = _safe_wait(stack, gain, order, power - 1, rest, more, sign, level, clear, reach)
     if reached and sign > 0.0:
         wait = _zero_near(stack, i, time, motion, wait)
     return wait, reached
+
+
+@kernel
+def _is_alone(stack: Stack, i: int) -> bool:
+    """Return whether no force but that of contact i acts on its balls."""
+    below = i == 0 or stack.phase[i - 1] < codes.COMPRESSING
+    above = i + 1 == len(stack.mass) or stack.phase[i + 1] < codes.COMPRESSING
+    return below and above and stack.number[GRAVITY] == 0.0
 
 
 @kernel
