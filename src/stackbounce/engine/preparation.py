@@ -17,7 +17,7 @@ from stackbounce.engine.stack import RigidStack, Stack
 
 _STEP = 0.02  # the error of one step of a nonlinear cluster, over rtol
 _ROUND_OFF = 1e-16  # the least such error
-_APART = 10.0  # a ratio of the contacts' times: where it is larger, that error is smaller
+_APART = 10.0  # a ratio of the contacts' times: beyond it that error is smaller in proportion
 _LEAST_ORDER = 6  # of a power series
 _LINEARISED_SHARE = 1e-2  # LINEARISED_WORK over the error of one step
 _LEAST_LINEARISED_WORK = 1e-18  # but at least so much
@@ -56,7 +56,7 @@ def prepare(stack: Stack, drops: Drops, row: int, rtol: float) -> float:
         stack.velocity[i] = velocity[i] * unit
         stack.compression[i] = -drops.gap[row][i]
     tolerance = _STEP * rtol
-    if _APART * shortest < longest:  # an error of a speed, in the longest, adds up to a compression
+    if _APART * shortest < longest:  # errors of speeds add up to positions while the longest lasts
         tolerance *= _APART * shortest / longest
     tolerance = max(tolerance, _ROUND_OFF)
     stack.number[slots.GRAVITY] = drops.gravity[row] * (unit * unit)
