@@ -8,9 +8,10 @@ from stackbounce.engine.records import Drops, Outcomes
 
 @kernel
 def find_ratios(drops: Drops, out: Outcomes, row: int) -> None:
-    """Compute the retained energy of a drop; velocities after become rebound ratios where they are.
+    """Compute the rebound ratios and the retained energy of a drop.
 
-    The velocities stand in ``rebound_ratio``.
+    An engine has written the balls' velocities after the impact to ``out.rebound_ratio``; here they
+    are divided by the impact speed.
     """
     before, after = drops.velocity[row], out.rebound_ratio[row]
     out.energy_retained[row] = energy_kept(drops.mass[row], before, after)

@@ -32,7 +32,7 @@ class Drops(NamedTuple):
 class Outcomes(NamedTuple):
     """The results of drops: (rows, balls) arrays, and (rows,) energy and status."""
 
-    rebound_ratio: FloatTable  # velocity after over the impact speed v0
+    rebound_ratio: FloatTable  # velocity over the impact speed v0; until `find_ratios` in m/s
     collisions: IntegerTable  # -1 where infinitely many
     first_touch: FloatTable  # s; nan where none
     last_release: FloatTable  # s; nan where none, infinity where the run stopped in an interval
