@@ -37,10 +37,10 @@ def job(count: int, seed: int = 1) -> tuple[Callable[[], None], Any]:
     )
     out = new_outcomes(count, 2)
     solve = native.compiled("run_two_springs")
-    given = Table(drops), _LIMIT, Table(out), lane_workspace(compiled=True)
+    given = Table(drops), _LIMIT, Table(out)
 
     def call() -> None:
-        solve(*given)
+        solve(*given, lane_workspace(compiled=True))  # that of the thread which calls
 
     return call, out.status
 
