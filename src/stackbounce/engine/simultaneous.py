@@ -204,7 +204,7 @@ def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> N
         stack.creep[i] = creep_at(stack, i, time)
         close_contact(stack, i, logical)
         logical = stack.start[i]
-        overlap = _first_overlap(stack, i, overlap, time)
+        overlap = _first_overlap(stack, i, overlap)
         stack.compression[i] = surface(stack, i, stack.creep[i]) + overlap
     elif kind == codes.RELEASE:
         stack.phase[i] = codes.OPEN
@@ -257,21 +257,16 @@ def _is_unresolved(stack: Stack, i: int, time: float) -> bool:
 
 
 @kernel
-def _first_overlap(stack: Stack, i: int, overlap: float, time: float) -> float:
+def _first_overlap(stack: Stack, i: int, overlap: float) -> float:
     """Return the initial overlap of contact i, anchored now: a rounding error, or 0.
 
-    It is 0 if it exceeds the error of the motion, because an approach was missed within
-    the error of the speeds. It is also 0 if the balls touch so slowly that the compression would
-    store more energy than their approach has.
+    It is 0 if the balls touch so slowly that the compression would store more energy than their
+    approach has: then an approach was missed within the error of the speeds.
     """
     rate = approach_speed(stack, i)
-    known = max(100.0 * stack.number[slots.TOLERANCE], 1e-12) * stack.scale[i]
-    known += 64.0 * codes.EPSILON * time * abs(rate)
     brought = 0.5 * reduced_mass(stack, i) * rate * rate
     stored = stored_energy(stack, i, overlap) + arm_energy(stack, i, overlap, 0.0)
-    if overlap > known or stored > _NOTICED * brought:
-        return 0.0
-    return max(overlap, 0.0)
+    return 0.0 if stored > _NOTICED * brought else max(overlap, 0.0)
 
 
 @kernel
