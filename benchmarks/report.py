@@ -12,7 +12,17 @@ from pathlib import Path
 import jinja2
 from matplotlib.figure import Figure
 
-from benchmarks import calls, figures, growth, many, pairs, race, startup, work_precision
+from benchmarks import (
+    calls,
+    figures,
+    growth,
+    hard_pairs,
+    many,
+    pairs,
+    race,
+    startup,
+    work_precision,
+)
 from benchmarks.peers import common
 from stackbounce.cross2007.style import render
 
@@ -195,11 +205,18 @@ def _pairs(progress: Callable[[str], None]) -> Section:
         "by numba), and general solvers stopped at every event, for the first drops. heyoka cannot "
         "expand powers that are no whole numbers, nor forces that are clipped. Of hysteretic drops "
         "those are solved for which the loop's simpler rule for a second compression makes no "
-        f"difference. {pairs.RIGID_COUNT:,} rigid pairs have no tolerance."
+        f"difference. {pairs.RIGID_COUNT:,} rigid pairs have no tolerance. Hard pairs are "
+        f"{hard_pairs.COUNT:,} others, with masses and stiffnesses over three decades each and all "
+        "pairs of laws, a fifth of them under gravity. Asked are those that a sweep leaves to the "
+        f"general engine; what that finds at {hard_pairs.TRUTH:g} tells which numbers are wrong."
     )
-    table = Table("Time and errors / v0", pairs.HEADS, pairs.rows(entries), 2)
+    hard = hard_pairs.rows(hard_pairs.measure(progress))
+    tables = [
+        Table("Time and errors / v0", pairs.HEADS, pairs.rows(entries), 2),
+        Table("Hard pairs in sweeps: wrong numbers, and errors / v0", hard_pairs.HEADS, hard, 2),
+    ]
     title = "Sweeps of other laws, and a loop by hand"
-    return _section("pairs", title, caption, figures.pairs(entries), [table])
+    return _section("pairs", title, caption, figures.pairs(entries), tables)
 
 
 def many_rows(progress: Callable[[str], None]) -> list[list[str]]:

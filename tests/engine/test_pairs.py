@@ -39,7 +39,7 @@ def test_as_the_general_engine(entry, forms, digits, count, gravity):
     assert ended.mean() > (0.99 if gravity else 0.9999)
     assert np.array_equal(whole.collisions[ended], exact.collisions[ended])
     known = (out.status == codes.FINISHED) & ended
-    assert known.mean() > 0.95
+    assert known.mean() > (0.9 if rtol < 1e-9 else 0.95)  # long ones are not solved again there
     error = np.abs(whole.rebound_ratio - exact.rebound_ratio).max(axis=1)[ended]
     assert np.median(error) < 0.1 * rtol
     assert np.sort(error)[-2 if gravity else -1] < 10.0 * rtol

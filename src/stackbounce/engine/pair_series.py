@@ -33,7 +33,6 @@ _FLIGHT = 1e30  # s: the longest step of balls that no force acts on
 _ROUGH = 8  # terms fewer: near enough for the first rounds to find a root
 _NEAR = 1e-5  # of a step: a change so small leaves an error below round-off
 ERROR = 1e-13  # of a step, over the impact speed
-_STEPS = 200.0  # longer runs accumulate round-off
 
 # Slots for each contact: a term of its free closing rate; the rate at which its surface follows;
 # the sign of what it waits for, and the weight of v in it; the bound, and the time until which it
@@ -45,13 +44,12 @@ V, CREEP, SIDE, DAMP, BOUND, SAFE, LENGTH, OVER_LENGTH, PART = (_EACH + k * BOTH
 # waits for, its slope, half its second derivative, and how sure the root is.
 _LANE = _EACH + 9 * BOTH
 LANDS, FLOOR, VALUE, SLOPE, BEND, SURE = (_LANE + k * LANES for k in range(6))
-# The order: in a slot, so that a compiler does not unroll the loops. The most steps of a drop.
+# The order: in a slot, so that a compiler does not unroll the loops.
 COUNT_OF_TERMS = _LANE + 6 * LANES
-LIMIT = COUNT_OF_TERMS + 1
 # Terms of the series in parts of a step, a slot for each contact: compression, its surface's, and
 # what it waits for, which is positive; in the first half later that which may end the step. They
 # come last, so that a compiler sees that no other slot is among them.
-C_TERMS = LIMIT + LANES - 1
+C_TERMS = COUNT_OF_TERMS + LANES
 S_TERMS = C_TERMS + (ORDER + 1) * BOTH
 WAITS = S_TERMS + (ORDER + 1) * BOTH
 SLOTS = WAITS + ORDER * BOTH
@@ -59,9 +57,9 @@ _MASK = 31  # no change: it shows a compiler the range of a term's number
 
 
 @kernel
-def begin_series(x: Floats, event_limit: float) -> None:
-    """Set the numbers that hold for all lanes."""
-    x[COUNT_OF_TERMS], x[LIMIT] = ORDER, min(event_limit, _STEPS)
+def begin_series(x: Floats) -> None:
+    """Set the number that holds for all lanes."""
+    x[COUNT_OF_TERMS] = ORDER
 
 
 @kernel
@@ -214,7 +212,6 @@ def _improve_root(x: Floats, order: int) -> None:
 @kernel
 def _choose_steps(x: Floats) -> None:
     """Let each lane step to the event if it is sure, else to the end of the safe time."""
-    limit = x[LIMIT]
     for i in range(LANES):
         u, unsure, steps = x[PART + i], x[lane.UNSURE + i], x[lane.STEPS + i] + 1.0
         sure = x[SURE + i] > -ERROR * x[lane.V0 + i] * x[LENGTH + i]
@@ -223,7 +220,7 @@ def _choose_steps(x: Floats) -> None:
         sure = sure and 0.0 < u <= min(max(one, other), 1.0)
         lands = x[LANDS + i] if sure else 0.0
         u = u if lands > 0.0 else min(one, other)
-        stuck = 1.0 if u <= 0.0 or steps > limit else 0.0
+        stuck = 1.0 if u <= 0.0 or steps > x[lane.LIMIT + i] else 0.0
         x[LANDS + i], x[lane.DOUBT + i], x[lane.STEPS + i] = lands, stuck, steps
         x[PART + i] = x[PART + LANES + i] = u
         x[lane.UNSURE + i] = unsure + ERROR * x[lane.V0 + i]

@@ -86,18 +86,17 @@ V0, ROW, STATUS, ASKS, STEPS, OVER_ERROR, GROW, BY_TIME = (_LANE + k * LANES for
 # which an event may come too early or too late; gravity.
 CONTACT, KIND, WAIT, UNSURE, GRAVITY = (_LANE + k * LANES for k in range(16, 21))
 # How exactly a drop is solved: the error allowed in a step, over the impact speed; the largest
-# estimate of order 3 with which the others can be trusted; and, of `pair_alone`, half the levels of
-# a continued fraction, and how far derivatives lead, over c.
-ALLOWED, COARSE, LEVELS, REACH = (_LANE + k * LANES for k in range(21, 25))
+# estimate of order 3 with which the others can be trusted; of `pair_alone`, half the levels of a
+# continued fraction, and how far derivatives lead, over c; and the most steps.
+ALLOWED, COARSE, LEVELS, REACH, LIMIT = (_LANE + k * LANES for k in range(21, 26))
 # 1 if some exponent is neither 1 nor 1.5; if some contact has hysteresis, a gain that changes, or
 # one that is watched.
-_ALL = _LANE + 25 * LANES
+_ALL = _LANE + 26 * LANES
 GENERAL, REMEMBERS, LOSES, WATCHES = (_ALL + k for k in range(4))
 SLOTS = _ALL + 4
 
 TIME, ROOT, EVENT = 0.0, 1.0, 2.0  # modes: by time, by a root from a touch on, up to an event
 
-MOST = 2000.0  # steps of a drop, or touches of a contact: the general engine solves longer ones
 _HALVED = 1.5  # allowed errors: where so much is not sure, a step may have half of its error
 _UNSURE = 3.0  # errors of the steps so far: an event that comes, or fails to, by less is not sure
 AHEAD = 1.2  # steps: an event within this is aimed at
@@ -332,7 +331,7 @@ def _go_on(x: Floats) -> None:
         clear = 1.0 if x[DOUBT + i] + x[DOUBT + LANES + i] == 0.0 else 0.0
         meets = exact * (1.0 - clear) + (1.0 if mode == EVENT else 0.0)
         asks = meets + exact * (x[SOON + i] + x[SOON + LANES + i])
-        asks += 1.0 if x[STEPS + i] > MOST else 0.0
+        asks += 1.0 if x[STEPS + i] > x[LIMIT + i] else 0.0
         alone = 1.0 if meets == 0.0 else 0.0
         taken = alone * exact  # but those up to an event
         turns = taken * mode  # 1 where a step by a root is taken

@@ -22,7 +22,7 @@ from stackbounce.engine.pair_series import ERROR, begin_series, look_after_serie
 from stackbounce.engine.pair_step import LANES, step_by_runge_kutta
 from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.records import Drops, Outcomes, Workspace
-from stackbounce.engine.work import LANE_STEP, LANES_RTOL
+from stackbounce.engine.work import LANE_STEP
 
 _STEP = 1.3  # the error allowed in one step, over rtol
 _FIRST = 1.8  # of the root of a typical compression: the first step by a root, for an error of 1
@@ -32,10 +32,14 @@ _LEVELS, _LEVELS_PER_BIT = 1.5, 0.2  # of a continued fraction, for an error of 
 _REACH = 0.5  # of a compression, for an error of 1: so far do three derivatives lead
 _COARSE = 2.0  # the largest estimate of order 3, for an error of 1
 _COARSE_POWER = 0.38  # it falls with this power of the error
-_AGAIN = 1e-3  # of rtol: the tolerance of a drop that is solved again
+# A drop is solved again with so much of rtol, unless rtol is below _LEAST: there the general engine
+# is as fast.
+_AGAIN, _LEAST = 1e-3, 1e-9
 # Steps of a drop, for an error of 1: one that takes more has many contacts, or oscillations, in
 # which errors accumulate. With hysteresis steps also end where a compression turns.
 _LONG, _TURNS = 12.0, 36.0
+_MOST = 2000.0  # steps of a drop that is solved again: the general engine solves longer ones
+_STEPS = 200.0  # of a linear drop: longer ones accumulate round-off
 
 
 class Accuracy(NamedTuple):
@@ -46,7 +50,7 @@ class Accuracy(NamedTuple):
     levels: float
     reach: float
     first: float  # the first step by a root after a touch, over the root of a typical compression
-    most: float  # steps, after which a drop is solved again
+    most: float  # steps, but for those that end where a compression turns
 
 
 @kernel
@@ -67,8 +71,9 @@ def run_pairs(drops: Drops, rtol: float, out: Outcomes, space: Workspace) -> Non
     space : Workspace
         Its ``floats`` are scratch space, of the size `records.SCRATCH`.
     """
-    closer = min(max(_AGAIN * rtol, LANES_RTOL), rtol)
-    _run(drops, _accuracy(rtol), _accuracy(closer), False, out, space.floats)
+    closer = _AGAIN * rtol if rtol >= _LEAST else rtol
+    most = _LONG * power(rtol, -0.125)
+    _run(drops, _accuracy(rtol, most), _accuracy(closer, _MOST), False, out, space.floats)
 
 
 @kernel
@@ -86,18 +91,18 @@ def run_linear(drops: Drops, event_limit: int, out: Outcomes, space: Workspace) 
     out, space
         As for `run_pairs`.
     """
-    begin_series(space.floats, float(event_limit))
-    exact = Accuracy(ERROR, 0.0, 0.0, 0.0, 1.0, math.inf)
+    begin_series(space.floats)
+    exact = Accuracy(ERROR, 0.0, 0.0, 0.0, 1.0, min(float(event_limit), _STEPS))
     _run(drops, exact, exact, True, out, space.floats)
 
 
 @kernel
-def _accuracy(rtol: float) -> Accuracy:
+def _accuracy(rtol: float, most: float) -> Accuracy:
     """Return how exactly drops are solved with a tolerance."""
     coarse = _COARSE * power(rtol, _COARSE_POWER)
     levels, reach = _LEVELS - _LEVELS_PER_BIT * nearest_exponent(rtol), _REACH * near_root(rtol, 3)
     first = min(_FIRST * near_root(rtol, _FIRST_ROOT), _LONGEST)
-    return Accuracy(_STEP * rtol, coarse, levels, reach, first, _LONG * power(rtol, -0.125))
+    return Accuracy(_STEP * rtol, coarse, levels, reach, first, most)
 
 
 @kernel
@@ -119,7 +124,8 @@ def _run(
                     go_alone(x, i)
             while x[lane.STATUS + i] != 0.0:
                 done = int(x[lane.ROW + i])
-                if done >= 0 and x[lane.ALLOWED + i] > closer.allowed and _is_unsure(x, i, usual):
+                unsure = x[lane.STATUS + i] == codes.ASK
+                if done >= 0 and unsure and x[lane.ALLOWED + i] > closer.allowed:
                     _begin(drops, x, i, done, closer)
                 else:
                     if done >= 0:
@@ -139,18 +145,12 @@ def _run(
 
 
 @kernel
-def _is_unsure(x: Floats, i: int, accuracy: Accuracy) -> bool:
-    """Return whether the drop that has ended in lane i is to be solved again."""
-    more = _TURNS if x[lane.LOSS + i] + x[lane.LOSS + LANES + i] > 0.0 else 0.0
-    return x[lane.STATUS + i] == codes.ASK or x[lane.STEPS + i] > accuracy.most + more
-
-
-@kernel
 def _begin(drops: Drops, x: Floats, i: int, row: int, accuracy: Accuracy) -> None:
     """Start a drop in lane i, at t = 0."""
     speed, first = -drops.velocity[row, 0], accuracy.first
     x[lane.ALLOWED + i], x[lane.COARSE + i] = accuracy.allowed, accuracy.coarse
     x[lane.LEVELS + i], x[lane.REACH + i] = accuracy.levels, accuracy.reach
+    x[lane.LIMIT + i] = accuracy.most
     x[lane.ROW + i], x[lane.STATUS + i], x[lane.V0 + i], x[lane.STEPS + i] = row, 0.0, speed, 0.0
     x[lane.OVER_1 + i], x[lane.OVER_2 + i] = 1.0 / drops.mass[row, 0], 1.0 / drops.mass[row, 1]
     x[lane.Y + lane.T + i], x[lane.BY_TIME + i] = 0.0, math.inf
@@ -160,6 +160,8 @@ def _begin(drops: Drops, x: Floats, i: int, row: int, accuracy: Accuracy) -> Non
     for b in range(2):
         k = b * LANES + i
         _take_law(drops, x, row, b, k)
+        if x[lane.LOSS + k] > 0.0:
+            x[lane.LIMIT + i] = accuracy.most + _TURNS
         x[lane.Y + lane.C + k], x[lane.Y + lane.R + k] = -drops.gap[row, b], 0.0
         x[lane.S + k], x[lane.COUNT + k] = 0.0, 0.0
         x[lane.FIRST + k], x[lane.LAST + k] = math.nan, math.nan
