@@ -62,6 +62,12 @@ def headed(rows: Sequence[Row]) -> tuple[list[str], Sequence[Row]]:
     named = (k for k in range(first) if sum(bool(c.role) for c in columns_of(rows[k][1])) > 1)
     at = next(named, first - 1)
     head, units = rows[at][1], rows[at + 1][1]
+    for line, cells in rows[first:]:
+        if any(_NUMBER.fullmatch(cell) for cell in cells[len(head) :]):
+            raise InvalidValue(
+                f"row {line} has {len(cells)} cells below {len(head)} headings: a decimal comma "
+                "between commas cannot be told apart; put semicolons between the cells"
+            )
     if at + 1 == first or not all(is_unit(cell) for cell in units if cell):
         return head, rows[at + 1 :]
     pairs = zip_longest(head, units, fillvalue="")
