@@ -2,7 +2,7 @@
 
 import functools
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -69,9 +69,9 @@ class Posterior(Shown):
     """
 
     names: list[str]
-    units: dict[str, str] = field(repr=False)
-    chain: Array = field(repr=False)
-    log_probability: Array = field(repr=False)
+    units: dict[str, str]
+    chain: Array
+    log_probability: Array
     acceptance: float
     seed: int
     unsolved: int = 0

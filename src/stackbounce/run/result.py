@@ -142,13 +142,13 @@ class Result(Shown):
     drop: Drop
     status: Status
     end_time: float
-    final_velocities: Sequence[float] = dataclasses.field(repr=False)
-    log: Sequence[float] = dataclasses.field(repr=False)
-    infinite: Sequence[int] = dataclasses.field(repr=False)
-    precision: float = dataclasses.field(repr=False)
-    rerun: Callable[..., Any] = dataclasses.field(repr=False)
-    work: int = dataclasses.field(repr=False, default=0)
-    cause: Cause | None = dataclasses.field(repr=False, default=None)
+    final_velocities: Sequence[float]
+    log: Sequence[float]
+    infinite: Sequence[int]
+    precision: float
+    rerun: Callable[..., Any]
+    work: int = 0
+    cause: Cause | None = None
 
     if not TYPE_CHECKING:  # checkers know which attributes there are
 

@@ -1,7 +1,7 @@
 """An accelerometer that fell and bounced -> flights, restitution of each bounce, drop height."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar
 
@@ -64,9 +64,9 @@ class Accelerometer(Finding):
     contact_times: tuple[Number | None, ...]
     peaks: tuple[float, ...]
     notes: tuple[str, ...]
-    times: Array = field(repr=False)
-    values: Array = field(repr=False)
-    spans: tuple[tuple[float, float], ...] = field(repr=False)
+    times: Array
+    values: Array
+    spans: tuple[tuple[float, float], ...]
 
     def rows(self) -> list[Row]:
         """Return the table, the most important first."""

@@ -97,8 +97,8 @@ class Waveform(Finding):
     notes: tuple[str, ...]
     mass: Number | float | None
     impact_speed: Number | float | None
-    times: Array = field(repr=False)
-    force: Array = field(repr=False)
+    times: Array
+    force: Array
 
     @property
     def stiffness(self) -> Number | None:
