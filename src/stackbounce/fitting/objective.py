@@ -308,7 +308,7 @@ class Objective:
         stamps = np.unique(np.concatenate([wave.times for wave in waves]))
         times = stamps - start
         forces = np.zeros((len(drop.balls), len(times)))
-        status, _, forces[:, times >= 0.0] = forces_at(drop, times[times >= 0.0], self.rtol)
+        status, forces[:, times >= 0.0] = forces_at(drop, times[times >= 0.0], self.rtol)
         if status not in _DONE:
             self.unsolved[status.name] += 1
             forces[:] = np.nan

@@ -114,17 +114,14 @@ def solve_one(drop: Drop, options: Options, compiled: bool | None = None) -> Res
     )
 
 
-def forces_at(drop: Drop, times: Array, rtol: float) -> tuple[Status, int, Array]:
-    """Return a run's status, its work, and its forces in N, (contacts, times), at ascending times.
-
-    Times are in s.
-    """
+def forces_at(drop: Drop, times: Array, rtol: float) -> tuple[Status, Array]:
+    """Return a run's status, and its forces in N, (contacts, times), at ascending times in s."""
     import numpy as np
 
     options = run_options(drop, None, rtol, 1_000_000)
     run = _run(drop, options, choose_compiled(None), times.tolist())
     forces = np.reshape(np.asarray(run.samples.force, dtype=float), (-1, len(drop.balls))).T
-    return Status(run.status), run.work, forces
+    return Status(run.status), forces
 
 
 class _Run(NamedTuple):
