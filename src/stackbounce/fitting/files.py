@@ -10,6 +10,7 @@ from stackbounce.errors import InvalidValue, ScenarioError, a_or_an, one_of, pla
 from stackbounce.fitting.parameters import Range
 from stackbounce.fitting.problem import FitProblem
 from stackbounce.library_types import DataArray
+from stackbounce.measure.finding import force_channels
 from stackbounce.model import Drop
 from stackbounce.model.toml import load_toml
 from stackbounce.units import count_written, quantity
@@ -128,7 +129,7 @@ def read_force_record(name: str, value: object, folder: Path) -> DataArray:
     _check_keys(table, _RECORD + _READING, f"{name}.")
     path = folder / table["file"]
     data = read(path, **{key: value for key, value in table.items() if key in _READING})
-    own = [name for name in data.data_vars if str(name).split("_")[0] in ("force", "voltage")]
+    own = force_channels(data)
     if data.attrs["holds"] != "waveform" or not own:
         raise InvalidValue(
             f"{name}: {path} holds no force over time, but {a_or_an(data.attrs['holds'])}"

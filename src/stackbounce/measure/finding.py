@@ -176,21 +176,19 @@ def no_gain(restitutions: Iterable[Number], moments: Iterable[Any]) -> str:
 
 def force_channels(data: Dataset) -> list[str]:
     """Return the names of a record's forces; the first one is the floor's by custom."""
-    return [str(name) for name in data.data_vars if _is_force(str(name))]
+    names = map(str, data.data_vars)
+    return [name for name in names if name.partition("_")[0] in ("force", "voltage")]
 
 
 def channels(data: Dataset, force: Curve | None = None) -> list[Curve]:
     """Return a record's channels over time; `force` replaces the first one if that is a force."""
     curves: list[Curve] = []
+    forces = force_channels(data)
     for name, channel in data.data_vars.items():
         if channel.dims == ("time",):
-            what = "force" if _is_force(str(name)) else "other"
+            what = "force" if name in forces else "other"
             unit = str(channel.attrs.get("units", ""))
             curves.append(Curve(str(name), what, data["time"].values, channel.values, unit))
     if force is not None and curves and curves[0].what == "force":
         curves[0] = force._replace(label=curves[0].label)
     return curves
-
-
-def _is_force(name: str) -> bool:
-    return name.split("_", maxsplit=1)[0] in ("force", "voltage")
