@@ -21,7 +21,7 @@ from stackbounce.run.driver import forces_at
 from stackbounce.run.options import Options
 from stackbounce.run.paths import Number, Rows, check, drop_at, numbers_of, value_in
 from stackbounce.run.quantities import Array, solve_quantities
-from stackbounce.run.result import Status
+from stackbounce.run.result import STOPPED, Status
 
 ABSENT = 1e4
 """The residual, in errors, of a number that a trial does not have, such as a missing touch."""
@@ -29,7 +29,6 @@ ABSENT = 1e4
 _STEP = 1e-5  # of the width of the bounds: the step of a numerical derivative
 _EVENTS = 10_000  # limit for one trial; no measurement has so many
 _WORK, _FEW = WORK_LIMIT // 100, 10  # what it may cost for each ball, and at least as for so many
-_DONE = (Status.FINISHED, Status.SETTLED, Status.COLLAPSED)
 
 
 @dataclass
@@ -286,7 +285,7 @@ class Objective:
             options = Options(math.inf, self.rtol, _EVENTS, _WORK * max(_FEW, len(drop.balls)))
             solved = solve_quantities(drop, self._rows_of_all(same, x), count, options)
             ended = solved.status.tolist()
-            self.unsolved.update(Status(code).name for code in ended if code not in _DONE)
+            self.unsolved.update(Status(code).name for code in ended if code in STOPPED)
             for k, key in enumerate(same):
                 own = slice(k * len(x), (k + 1) * len(x))
                 found[key] = {name: table[own] for name, table in solved.tables.items()}
@@ -309,7 +308,7 @@ class Objective:
         times = stamps - start
         forces = np.zeros((len(drop.balls), len(times)))
         status, forces[:, times >= 0.0] = forces_at(drop, times[times >= 0.0], self.rtol)
-        if status not in _DONE:
+        if status in STOPPED:
             self.unsolved[status.name] += 1
             forces[:] = np.nan
         return [forces[wave.index, np.searchsorted(stamps, wave.times)] for wave in waves]

@@ -9,7 +9,7 @@ from stackbounce.library_types import Axes, Figure
 from stackbounce.model.drawing import meeting
 from stackbounce.plots.style import WIDTH, check_kind, color_of, into_axes, panels, written
 from stackbounce.run.quantities import Array
-from stackbounce.run.result import Result
+from stackbounce.run.result import STOPPED, Result
 
 if TYPE_CHECKING:
     from stackbounce.prediction import Prediction
@@ -32,8 +32,7 @@ def choose_window(result: Result) -> tuple[float, float]:
     ends = result.intervals["end"]
     last = float(max([0.0, *ends[np.isfinite(ends)], result.end_time]))
     span = last if last > 0.0 else _INSTANT
-    stopped = result.status.name in ("TIME_REACHED", "EVENT_LIMIT", "INVALID")
-    return -_BEFORE * span, last if stopped else last + _AFTER * span
+    return -_BEFORE * span, last if result.status in STOPPED else last + _AFTER * span
 
 
 def sample_with_approach(result: Result, times: Array) -> dict[str, Array]:

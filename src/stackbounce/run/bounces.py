@@ -10,7 +10,7 @@ from stackbounce.errors import InvalidValue, instance, whole
 from stackbounce.model import Air, ContactLaw, Drop
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.run.driver import simulate
-from stackbounce.run.result import Status
+from stackbounce.run.result import STOPPED
 
 _FIELDS = ("time", "impact_speed", "rebound_speed", "contact_time", "apex_time", "height")
 BOUNCE = np.dtype([(name, "f8") for name in _FIELDS])
@@ -110,7 +110,7 @@ def _impact(drop: Drop) -> tuple[float, float, float]:
     """Return speed after an impact in m/s, its duration in s, and how deep in m it is released."""
     result = simulate(drop)
     speed = float(result.rebound_speeds[0])
-    if result.status not in (Status.FINISHED, Status.SETTLED, Status.COLLAPSED):
+    if result.status in STOPPED:
         raise InvalidValue(
             f"drop must have impacts that can be computed, got {result.status.name} at "
             f"{drop.impact_speed!r} m/s: {result.advice}"

@@ -90,6 +90,10 @@ class Status(_Ending):
     INVALID = codes.INVALID
 
 
+STOPPED = (Status.TIME_REACHED, Status.EVENT_LIMIT, Status.INVALID)
+"""The statuses of runs that were stopped: at the time asked for, at a limit, or by an error."""
+
+
 class Cause(_Ending):
     """Why a run met a limit; `advice` says what to do about it."""
 
@@ -334,8 +338,7 @@ class Result(Shown):
         gravity = self.drop.gravity
         if gravity == 0.0:
             return _frozen(np.empty(0, dtype=APEX))
-        stopped = self.status in (Status.TIME_REACHED, Status.EVENT_LIMIT, Status.INVALID)
-        last = self.end_time if stopped else math.inf
+        last = self.end_time if self.status in STOPPED else math.inf
         rising = [
             (start + velocity / gravity, ball, start, 0.5 * velocity**2 / gravity)
             for ball, start, velocity, end in self._flights()
@@ -549,7 +552,7 @@ class Result(Shown):
 
     def _times(self, times: ArrayLike) -> Array:
         wanted = _numbers(times)
-        stopped = self.status not in (Status.FINISHED, Status.SETTLED, Status.COLLAPSED)
+        stopped = self.status in STOPPED
         last = self.end_time if stopped else math.inf
         bad = wanted[~(np.isfinite(wanted) & (wanted >= 0.0) & (wanted <= last))]
         if len(bad):

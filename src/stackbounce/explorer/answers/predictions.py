@@ -12,7 +12,7 @@ from stackbounce.prediction import predict
 from stackbounce.prediction.inputs import add_value
 from stackbounce.run.driver import simulate
 from stackbounce.run.quantities import Array
-from stackbounce.run.result import Result
+from stackbounce.run.result import STOPPED, Result
 from stackbounce.version import __version__
 
 _INTERVALS = 60  # most contact intervals that get times of their own
@@ -58,8 +58,7 @@ def _choose_times(result: Result, until: float | None) -> Array:
     _, end = choose_window(result)
     spans, even, each = result.intervals[:_INTERVALS], _TIMES, 2
     if until is not None:
-        stopped = result.status.name in ("TIME_REACHED", "EVENT_LIMIT", "INVALID")
-        end = min(until, result.end_time) if stopped else until
+        end = min(until, result.end_time) if result.status in STOPPED else until
         even //= 2  # the other half samples the contacts, which are short
         each = max(8, even // max(1, len(spans)))
     times = [np.linspace(0.0, end, even)]
