@@ -10,6 +10,7 @@ from stackbounce.cli.tables import table_of_rows
 from stackbounce.files import write_file
 from stackbounce.measure.constants import LawConstants
 from stackbounce.measure.measurement import Measurement, row_mapping
+from stackbounce.measure.quantities import nominal
 from stackbounce.version import __version__
 
 
@@ -69,8 +70,7 @@ def save_ball(
     if law is not None:
         parts = [{key: part[key] for key in part if key != "contact"} for part in parts]
         parts.append(law.parts())
-    ball = {key: known[key] for key in ("mass", "diameter") if key in known}
-    plain = {key: getattr(value, "nominal_value", value) for key, value in ball.items()}
-    drop = one_ball(parts, **plain, name=name)
+    ball = {key: nominal(known[key]) for key in ("mass", "diameter") if key in known}
+    drop = one_ball(parts, **ball, name=name)
     write_file(path, drop.to_toml().encode(), overwrite)
     return drop.to_mapping()
