@@ -17,9 +17,6 @@ _Plot = TypeVar("_Plot", bound=Callable[..., Any])
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """The palette of Okabe and Ito, which colour-blind readers can tell apart."""
 
-FORCES = {"N": "force (N)", "V": "signal (V)"}
-"""The label of a force axis, by the unit of the record."""
-
 WIDTH = 7.2
 """The usual width of a figure in inches."""
 
@@ -159,18 +156,6 @@ def check_kind(value: Any, name: str, *kinds: str) -> None:
     if type(value).__name__ not in kinds:
         right = " or ".join(map(a_or_an, kinds))
         raise InvalidType(f"{name} must be {right}, got {drawn_by(value)}")
-
-
-def with_error(value: Any, plain: str = ".3g") -> str:
-    """Return a number with the error of its last digit, or written as `plain` if it has none.
-
-    Examples
-    --------
-    >>> from uncertainties import ufloat
-    >>> with_error(ufloat(0.752, 0.013)), with_error(ufloat(0.752, float("nan")), ".2f")
-    ('0.75(1)', '0.75')
-    """
-    return f"{value:.1uS}" if value.std_dev > 0.0 else f"{value.nominal_value:{plain}}"
 
 
 def file_of(data: Any) -> str:

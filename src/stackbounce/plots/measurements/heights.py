@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from stackbounce.library_types import Figure
-from stackbounce.plots.style import COLORS, annotate, panels, with_error
+from stackbounce.plots.style import COLORS, annotate, panels
 from stackbounce.run.quantities import Array
 
 
@@ -38,7 +38,7 @@ def draw(data: Any, found: Any, axes: Any = None) -> Figure:  # noqa: ARG001
         values = np.array([height.nominal_value for height in rows])
         kept, start = found.mean.nominal_value, rows[0].nominal_value
         wide = np.linspace(at[0], at[-1], 160)
-        mean = with_error(found.mean, ".3f")
+        mean = _with_error(found.mean)
         if found.repeated:
             expected = np.full(len(wide), _curve(found, start, kept, np.ones(1))[0])
             label = f"mean restitution {mean}"
@@ -49,13 +49,18 @@ def draw(data: Any, found: Any, axes: Any = None) -> Figure:  # noqa: ARG001
         errors = np.nan_to_num([height.std_dev for height in rows])
         axes.errorbar(at, values, yerr=errors, fmt="o", color=COLORS[0], capsize=3, label="read")
         for k, restitution in enumerate(found.restitutions, start=1):
-            annotate(axes, "e = " + with_error(restitution, ".3f"), (at[k], values[k]), COLORS[0])
+            annotate(axes, "e = " + _with_error(restitution), (at[k], values[k]), COLORS[0])
         after = "bounce" if found.repeated else "after bounce"
         axes.set_xticks(at, ["drop", *(f"{after} {k}" for k in at[:-1])])
         axes.set_ylim(0.0, 1.12 * float(values.max()))
         axes.set(xlim=(-0.3, at[-1] + 0.6), ylabel="height of the lowest point (m)")
         axes.legend(frameon=False, loc="upper right")
     return figure
+
+
+def _with_error(value: Any) -> str:
+    """Return a restitution with the error of its last digit, or with three decimals if unknown."""
+    return f"{value:.1uS}" if value.std_dev > 0.0 else f"{value.nominal_value:.3f}"
 
 
 def _curve(found: Any, start: float, kept: float, bounces: Array) -> Any:

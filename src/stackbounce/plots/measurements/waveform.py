@@ -3,9 +3,10 @@
 from typing import Any
 
 from stackbounce.library_types import Axes, Figure
-from stackbounce.plots.style import COLORS, FORCES, WIDTH, annotate, file_of, panels
+from stackbounce.plots.style import COLORS, WIDTH, annotate, file_of, panels
 
 _RECORD, _SHADE, _FLANK, _PEAK = "#4d4d4d", COLORS[0], COLORS[1], COLORS[2]
+_LABELS = {"N": "force (N)", "V": "signal (V)"}  # labels, by the unit of the record
 _TINY = 0.03  # of the whole extent: a contact too narrow to be seen
 _MOST = 6  # contacts that are labelled one by one
 _BESIDE = 0.6  # of all contacts' extent, shown on each side
@@ -81,7 +82,7 @@ def _draw_panel(
         if few:
             _label_contacts(axes, contacts, factor)
     axes.set(xlim=(factor * low, factor * high), xlabel=f"time ({unit})")
-    axes.set_ylabel(FORCES.get(found.unit, "signal") + ("" if found.sign > 0 else ", turned over"))
+    axes.set_ylabel(_LABELS.get(found.unit, "signal") + ("" if found.sign > 0 else ", turned over"))
 
 
 def _extent(found: Any, contacts: Any) -> tuple[float, float]:
