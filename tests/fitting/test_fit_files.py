@@ -203,6 +203,13 @@ def test_a_table_as_spreadsheets_write_it(write, text, encoding):
     }
 
 
+def test_an_error_beside_a_number_has_its_unit_in_every_row(write):
+    text = "rebound_heights.1 (cm),error of rebound_heights.1\n172,3\n165,4\n"
+    _, data = read_drops(BASE, write(text, "drops.csv"))
+    found = [one["rebound_heights.1"] for one in data.values()]
+    assert found == [pytest.approx((1.72, 0.03)), pytest.approx((1.65, 0.04))]
+
+
 def test_a_table_has_counts_heights_and_forces(write, tmp_path):
     record(tmp_path / "scope.csv", "V")
     text = "collisions.0,rebound_heights.1 (cm),force.0,impact_speed\n1,172 ± 3 cm,,\n,,scope.csv,2"

@@ -98,6 +98,7 @@ def _drops(drop: Drop, rows: Sequence[Row], folder: Path) -> Asked:
     if not rows:
         raise InvalidValue("it has a heading but no drop below it")
     units = {column.name: column.unit for column in columns if column.kind == "data"}
+    in_si = _FALLS | {path: number.unit for path, number in numbers_of(drop).items()}
     comma = decimal_comma(
         [
             (cell, f"row {line}, {column.text}")
@@ -120,9 +121,8 @@ def _drops(drop: Drop, rows: Sequence[Row], folder: Path) -> Asked:
                 row[column.kind][column.name] = _Cell(text, f"row {line}, {column.text}")
         name = row["name"]["name"].text if row["name"] else f"drop_{k}"
         check_name(f"row {line}, name", name, drops)
-        units = _FALLS | {path: number.unit for path, number in numbers_of(drop).items()}
         given = row["number"].items()
-        values = {path: quantity(own.text, units[path], own.where) for path, own in given}
+        values = {path: quantity(own.text, in_si[path], own.where) for path, own in given}
         drops[name] = drop_of(drop, values, line)
         data[name] = _data(row, folder)
         if not data[name]:
