@@ -173,33 +173,7 @@ class Posterior(Shown):
 
 
 def sample(fit: "Fit", draws: int, *, rng: Any = 0, progress: Any = None) -> Posterior:
-    """Return draws from the posterior distribution of the parameters.
-
-    Parameters
-    ----------
-    fit : Fit
-        Around whose best values the walkers start.
-    draws : int
-        The number of draws of all walkers, burn-in included.
-    rng : int, numpy.random.Generator or the like, optional
-        Of the random numbers, as `numpy.random.default_rng` takes it: the same number gives the
-        same draws, and a Generator others each time. `Posterior.seed` repeats them.
-    progress : callable, optional
-        Called with the number of draws done and the number of all draws.
-
-    Returns
-    -------
-    Posterior
-
-    Raises
-    ------
-    InvalidValue
-        If the draws are too few, or do not fit into memory.
-    InvalidType
-        If a number is not a whole one.
-    MissingExtra
-        If emcee is not installed.
-    """
+    """Return draws from the posterior distribution of a fit's parameters; see `Fit.sample`."""
     need("a posterior", "emcee")
     import emcee
 

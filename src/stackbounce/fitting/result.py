@@ -274,8 +274,9 @@ class Fit(Shown):
         draws : int, optional
             The number of draws of all walkers; the first quarter is discarded as burn-in.
         **options
-            ``rng``, and ``progress``, a function that is called with the number of draws done and
-            the number of all draws.
+            ``rng``, as `numpy.random.default_rng` takes it: the same number gives the same draws,
+            and a Generator others each time, which `Posterior.seed` repeats. ``progress``, a
+            function that is called with the number of draws done and the number of all draws.
 
         Returns
         -------
@@ -284,7 +285,9 @@ class Fit(Shown):
         Raises
         ------
         InvalidValue
-            If the draws are too few.
+            If the draws are too few, or do not fit into memory.
+        MissingExtra
+            If emcee is not installed.
         """
         return posterior.sample(self, draws, **options)
 
