@@ -20,10 +20,11 @@ from stackbounce.errors import InvalidValue, shown
 from stackbounce.extras import need
 from stackbounce.files import write_files
 from stackbounce.library_types import DataArray, Dataset
-from stackbounce.run.batch import Block, blocks
+from stackbounce.run.batch import Block, blocks, sides
 from stackbounce.run.paths import identifier
 
 _UNFINISHED = re.compile(r"\.[0-9a-f]{32}\.partial$")  # a chunk that zarr was writing
+Axes: TypeAlias = Mapping[str, tuple[str, NDArray[np.float64]]]  # dimension and values, by path
 Writer: TypeAlias = Callable[[Block, Dataset], None]
 
 
@@ -36,20 +37,15 @@ class Form:
         As from `sweep`, with the first value of each parameter only.
     axes : mapping
         The dimension and all values of each parameter, by its path.
-    sides : sequence of int
-        The shape of a block of drops, by dimension.
+    block : int
+        Drops in a block, at most.
     """
 
-    def __init__(
-        self,
-        sample: Dataset,
-        axes: Mapping[str, tuple[str, NDArray[np.float64]]],
-        sides: Sequence[int],
-    ) -> None:
+    def __init__(self, sample: Dataset, axes: Axes, block: int) -> None:
         import xarray as xr
 
-        self.sample, self.sides = sample, tuple(sides)
-        self.grid = tuple({dim: len(axis) for dim, axis in axes.values()}.values())
+        self.sample, self.grid = sample, tuple(sizes(axes).values())
+        self.sides = sides(self.grid, block)
         known = {identifier(path): axis for path, (_, axis) in axes.items()}
         coords = {
             name: (variable.dims, known.get(str(name), variable.values), variable.attrs)
@@ -77,6 +73,11 @@ class Form:
                 for name, variable in self.sample.data_vars.items()
             )
         )
+
+
+def sizes(axes: Axes) -> dict[str, int]:
+    """Return the number of values along each dimension."""
+    return {dim: len(axis) for dim, axis in axes.values()}
 
 
 def create(path: Path, form: Form) -> None:
@@ -141,11 +142,11 @@ def lost(path: Path, form: Form) -> tuple[list[Block], int]:
 
     group: Any = zarr.open_group(path, mode="r")
     arrays = {str(name): group[name] for name in form.sample.data_vars}
-    sides = tuple(next(iter(arrays.values())).chunks[: len(form.grid)])
+    lengths = tuple(next(iter(arrays.values())).chunks[: len(form.grid)])
     missing, count = [], 0
-    for block in blocks(form.grid, sides):
+    for block in blocks(form.grid, lengths):
         count += 1
-        place = [side.start // length for side, length in zip(block, sides, strict=True)]
+        place = [side.start // length for side, length in zip(block, lengths, strict=True)]
         if not all(_is_there(path / name, array, place, block) for name, array in arrays.items()):
             missing.append(block)
     return missing, count

@@ -23,16 +23,13 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
 from stackbounce.errors import FileError, InvalidValue, shown
 from stackbounce.library_types import Dataset
 from stackbounce.model import Drop
-from stackbounce.run.batch import Block, sides, size
+from stackbounce.run.batch import Block, size
 from stackbounce.sweeps import files
 from stackbounce.sweeps.dataset import check_along, read_values, sweep
-from stackbounce.sweeps.files import Form
+from stackbounce.sweeps.files import Axes, Form, sizes
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -44,7 +41,6 @@ BLOCK = 2**16
 
 _TOGETHER = 4  # blocks submitted to a cluster at a time, for each of its threads
 _DIMENSION = re.compile(r"\w[\w.-]*")  # a name that all kinds of file can have
-_Axes: TypeAlias = Mapping[str, tuple[str, NDArray[np.float64]]]  # dimension and values, by path
 _Done: TypeAlias = Iterator[tuple[Block, Dataset]]
 
 
@@ -105,9 +101,9 @@ def _is_at(path: Path, file: BinaryIO) -> bool:
         return False
 
 
-def _locked(file: object) -> bool:
+def _locked(file: BinaryIO) -> bool:
     """Lock an open file unless another process has; return whether it is locked."""
-    number: int = file.fileno()  # type: ignore[attr-defined]
+    number = file.fileno()
     try:
         if os.name == "nt":
             import msvcrt
@@ -178,6 +174,7 @@ def write(
 
     Examples
     --------
+    >>> import numpy as np
     >>> import stackbounce as sb
     >>> import xarray as xr
     >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
@@ -191,10 +188,9 @@ def write(
     if block < 1:
         raise InvalidValue(f"block must be a number of drops, 1 or above, got {block}")
     axes = _read_axes(drop, values)
-    shape = tuple(_sizes(axes).values())
     first = sweep(drop, {path: (dim, axis[:1]) for path, (dim, axis) in axes.items()}, **options)
-    form = Form(first, axes, sides(shape, block))
-    total = math.prod(shape)
+    form = Form(first, axes, block)
+    total = math.prod(form.grid)
     try:
         if _is_complete(out, form):
             report(total, total)
@@ -220,7 +216,7 @@ def write(
     return out
 
 
-def _read_axes(drop: Drop, values: Mapping[str, Any]) -> _Axes:
+def _read_axes(drop: Drop, values: Mapping[str, Any]) -> Axes:
     """Return the dimension and the values of each number that varies, all of them checked."""
     axes = {}
     for number, array in zip(*read_values(drop, values), strict=True):
@@ -231,14 +227,9 @@ def _read_axes(drop: Drop, values: Mapping[str, Any]) -> _Axes:
                 f"_, . and -, got {listed}"
             )
         axes[number.path] = str(array.dims[0]), array.values
-    for dim in _sizes(axes):
+    for dim in sizes(axes):
         check_along(drop, dim, {path: axis for path, (own, axis) in axes.items() if own == dim})
     return axes
-
-
-def _sizes(axes: _Axes) -> dict[str, int]:
-    """Return the number of values along each dimension."""
-    return {dim: len(axis) for dim, axis in axes.values()}
 
 
 def _is_complete(out: Path, form: Form) -> bool:
@@ -302,7 +293,7 @@ def _is_same(path: Path, form: Form) -> bool:
 
 
 def _solved(
-    drop: Drop, axes: _Axes, todo: list[Block], options: Mapping[str, Any], client: "Client | None"
+    drop: Drop, axes: Axes, todo: list[Block], options: Mapping[str, Any], client: "Client | None"
 ) -> _Done:
     """Yield blocks with their results as they are finished; few are in memory at a time."""
     jobs = ((block, _part(axes, block)) for block in todo)
@@ -312,7 +303,7 @@ def _solved(
 
 
 def _on_cluster(
-    cluster: Any, drop: Drop, jobs: Sequence[tuple[Block, _Axes]], options: Mapping[str, Any]
+    cluster: Any, drop: Drop, jobs: Sequence[tuple[Block, Axes]], options: Mapping[str, Any]
 ) -> _Done:
     """Yield blocks with their results, some for each thread of the cluster at a time."""
     with _cluster_errors():
@@ -341,6 +332,6 @@ def _cluster_errors() -> Iterator[None]:
         ) from error
 
 
-def _part(axes: _Axes, block: Block) -> _Axes:
-    sides = dict(zip(_sizes(axes), block, strict=True))
+def _part(axes: Axes, block: Block) -> Axes:
+    sides = dict(zip(sizes(axes), block, strict=True))
     return {path: (dim, axis[sides[dim]]) for path, (dim, axis) in axes.items()}
