@@ -217,8 +217,7 @@ class ContactLaw(Shown):
 
     def replaced(self, changes: Mapping[str, Any]) -> Self:
         """Return a copy of the law with changed fields; a derived field is computed again."""
-        law: Any = self
-        return replace(law, **changes)  # type: ignore[no-any-return]
+        return replace(self, **changes)  # type: ignore[type-var]
 
     def of_collision(self, number: int) -> Self:
         """Return the law for one of several runs, whose draws are independent of each other."""
