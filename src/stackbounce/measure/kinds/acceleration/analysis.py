@@ -24,7 +24,7 @@ class Accelerometer(Finding):
 
     Attributes
     ----------
-    mean : ufloat or None
+    mean : ufloat
         The one restitution that leads from the first impact speed to the last rebound speed.
     drop_height : ufloat or None
         Of a fall from rest, in m.
@@ -54,7 +54,7 @@ class Accelerometer(Finding):
 
     picture: ClassVar[str] = "acceleration"
 
-    mean: Annotated[Number | None, Listed("restitution, mean")]
+    mean: Annotated[Number, Listed("restitution, mean")]
     drop_height: Annotated[Number | None, Listed("drop height", "m")]
     fall: Annotated[Number | None, Listed("time of fall", "s")]
     flights: tuple[Number, ...]
@@ -86,7 +86,7 @@ class Accelerometer(Finding):
 
     def parts(self) -> dict[str, Any]:
         """Return the floor's contact and the drop height, as in a drop's TOML."""
-        parts = {} if self.mean is None else rigid_contact(self.mean)
+        parts = rigid_contact(self.mean)
         if self.drop_height is not None:
             parts["height"] = nominal(self.drop_height)
         return parts
@@ -176,7 +176,7 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
         apex_heights=tuple(g * lasts**2 / 8.0 for lasts in flights),
         impact_speeds=tuple(before),
         restitutions=tuple(kept),
-        mean=(after[-1] / before[0]) ** (1.0 / len(kept)) if kept else None,
+        mean=(after[-1] / before[0]) ** (1.0 / len(kept)),
         contact_times=tuple(
             starts[k + 1] - ends[k] if count >= _CONTACT_SAMPLES else None
             for k, count in enumerate(counts)
