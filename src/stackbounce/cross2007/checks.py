@@ -70,9 +70,8 @@ class Row:
     @property
     def explained(self) -> bool:
         """Return whether the number agrees, or has a reason and a reading that agrees."""
-        if self.verdict != DIFFERS:
-            return True
-        return bool(self.attempts) and any(attempt.verdict != DIFFERS for attempt in self.attempts)
+        others = (attempt.verdict for attempt in self.attempts)
+        return any(verdict != DIFFERS for verdict in (self.verdict, *others))
 
 
 def run_check(claim: Claim, compute: Compute, readings: Sequence[Compute], data: Data) -> Row:
