@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from benchmarks import figures, many, pairs, race, random_drops, report, startup
+from benchmarks import figures, hard_pairs, many, pairs, race, random_drops, report, startup
 from benchmarks.peers import by_scipy, by_steps
 from benchmarks.peers.common import Peer
 from benchmarks.random_drops import Drops
@@ -69,6 +69,10 @@ def test_starts_are_told_next_to_numpy():
     imports = report.import_times(startup.imports(quiet, rounds=1))
     assert [imports[0], imports[1][0]] == [["python", ""], startup.BASE]
     assert "numpy" in imports[1][1]
+
+
+def test_no_hard_pair_has_a_wrong_number_of_contacts():
+    assert [check.wrong for check in hard_pairs.measure(quiet, count=1000)] == [0] * 12
 
 
 def test_a_start_is_the_median_of_its_rounds_and_of_their_ratios(monkeypatch):

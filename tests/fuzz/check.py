@@ -59,10 +59,7 @@ def _comes_too_late(result: sb.Result) -> bool:
 
 
 def _rise(result: sb.Result, stops: np.ndarray) -> float:
-    """Return the largest rise of the energy over its size, from the begin to each stop and the end.
-
-    Without gravity and stops the kinetic energy is looked at alone, which is quicker.
-    """
+    """Return the largest rise of the energy over its size; of the kinetic one where that is all."""
     if not (result.drop.gravity or stops.any()) or not 0.0 < result.end_time < np.inf:
         return result.energy_retained - 1.0
     motion = result.sample([0.0, *(stops[stops > 0.0] * result.end_time), result.end_time])

@@ -67,10 +67,7 @@ def test_nothing_is_pickled_or_kept_in_a_cache():
 
 @pytest.fixture(scope="module")
 def imports():
-    """What each file imports, also inside functions.
-
-    Not what only type checkers import, nor a folder that the file lies in, such as a registry.
-    """
+    """What each file imports when it runs, but for folders that it lies in, such as a registry."""
     graph = grimp.build_graph("stackbounce", exclude_type_checking_imports=True)
     return {
         name: {

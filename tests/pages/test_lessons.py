@@ -1,7 +1,4 @@
-"""The lessons: the numbers in them are those that the package computes, and their links work.
-
-The German ones have the same parts, numbers and links as the English ones.
-"""
+"""The lessons, in both languages: their numbers are the package's own, and their links work."""
 
 import dataclasses
 import functools

@@ -119,10 +119,7 @@ def elastic_pair(lower: Any, upper: Any, collisions: int) -> tuple[mpf, mpf]:
 
 
 def elastic_counts(lower: Any, upper: Any) -> tuple[int, int]:
-    """Return the floor and the ball-ball collisions of an elastic pair falling together.
-
-    The same reflections, until the angle is one at which neither contact approaches.
-    """
+    """Return the floor and the ball-ball collisions of an elastic pair, by the same reflections."""
     with mp.workdps(DIGITS):
         edge = mp.atan2(mp.sqrt(mpf(upper)), mp.sqrt(mpf(lower)))  # here v1 = v2
         angle, floor, balls = edge + mp.pi, 0, 0
