@@ -93,9 +93,10 @@ def test_nothing_known_is_no_contact():
     assert of_numbers(Setup(contact_time=5e-3)).parts() == {}
 
 
-@pytest.mark.parametrize("mark", [",", ";"])
-def test_heights_typed_in(run, mark):
-    told = run("--heights", HEIGHTS.replace(",", mark), "--height-error", "5mm")
+@pytest.mark.parametrize(("mark", "point"), [(",", "."), (";", "."), (";", ",")])
+def test_heights_typed_in(run, mark, point):
+    given = HEIGHTS.replace(",", mark).replace(".", point)
+    told = run("--heights", given, "--height-error", "5mm")
     found = rows(told["files"][0]["found"])
     assert found["restitution"][0] == pytest.approx(0.8)
     assert found["drop height"] == (1.0, 0.005)

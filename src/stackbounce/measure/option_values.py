@@ -1,6 +1,5 @@
 """Option values from a user interface -> values as `read` and `analyse` take them."""
 
-import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -70,8 +69,12 @@ def _number(value: Any, option: Option, called: str) -> Any:
 
 
 def _lengths(text: str, option: Option, called: str) -> list[Any]:
-    """Return lengths between commas or semicolons; a unit at the end is that of all."""
-    words = [word.strip() for word in re.split(r"[,;]", text)]
+    """Return lengths between commas, or semicolons; a unit at the end is that of all.
+
+    Between semicolons a comma is a decimal one.
+    """
+    listed = text.replace(",", ".").split(";") if ";" in text else text.split(",")
+    words = [word.strip() for word in listed]
     units = [unit_of_both(word) for word in words]
     if any(units[:-1]) and "" in units:
         raise InvalidValue(
