@@ -262,7 +262,8 @@ def _propagated(names: tuple[str, ...], drag: float, data: Dataset) -> _Measured
 
 def _slopes(transform: _Transform, drag: float, given: dict[str, Array], name: str) -> Array:
     """Return the derivatives (values, rows) of the values by the numbers of a column."""
-    steps = _STEP * np.maximum(np.abs(given[name]), _STEP)
+    sizes = np.abs(given[name])
+    steps = _STEP * np.where(sizes > 0.0, sizes, _STEP)
     rows = given[name] + np.concatenate([np.diag(steps), np.diag(-steps)])
     values = np.array([transform(drag, given | {name: row})[1] for row in rows])
     larger, smaller = np.split(values, 2)
