@@ -17,7 +17,7 @@ from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.measure.reading.roles import is_unit
 from stackbounce.measure.reading.text import MISSING
 from stackbounce.run.quantities import Array
-from stackbounce.units import handy_text, quantity
+from stackbounce.units import handy_text, in_si, quantity
 
 STARTS = ("drop_height", "impact_speed")  # roles of what was before a bounce
 MEASURED = ("rebound_height", "rebound_speed", "restitution")  # of what was measured after it
@@ -98,6 +98,13 @@ def _resolved(
         elif column.role not in ("", "reading") and column.number >= 0:
             used.append(column)
         elif cells and not column.role:
+            beside = next((other.text for other in columns if other.ball), "")
+            known = in_si(column.unit) if beside and column.unit else None
+            if known and known[1] == "m":
+                raise InvalidValue(
+                    f"column {column.text!r} must name a ball as {beside!r} beside it does: "
+                    "one that 'stackbounce balls' lists"
+                )
             notes.append(f"Column {column.text!r} is not used: its name tells nothing known here.")
     started = any(column.role in STARTS for column in used)
     for k, column in enumerate(used):
