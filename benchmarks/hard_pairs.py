@@ -11,10 +11,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from rich.console import Console
-from rich.table import Table as Printed
 
 from batches import numbers_of, pairs, swept, swept_in_lanes
+from benchmarks.pairs import show
 from stackbounce.engine import codes
 from stackbounce.engine.memory import FINITE
 from stackbounce.engine.records import Drops
@@ -90,16 +89,5 @@ def rows(checks: list[Check]) -> list[list[str]]:
     ]
 
 
-def main() -> None:
-    """Measure and print."""
-    console = Console(highlight=False)
-    with console.status("starting") as status:
-        found = rows(measure(status.update))
-    table = Printed(*HEADS)
-    for row in found:
-        table.add_row(*row)
-    console.print(table)
-
-
 if __name__ == "__main__":
-    main()
+    show(HEADS, lambda progress: rows(measure(progress)))

@@ -239,16 +239,16 @@ def rows(entries: list[Entry]) -> list[list[str]]:
 HEADS = ["law", "way", "steps or rtol", "drops", "µs a drop", "median error", "99 %"]
 
 
-def main() -> None:
-    """Measure and print."""
+def show(heads: list[str], measure: Callable[[Callable[[str], None]], list[list[str]]]) -> None:
+    """Print the rows of a table, and while they are measured what is done."""
     console = Console(highlight=False)
     with console.status("starting") as status:
-        found = rows(all_entries(status.update))
-    table = Printed(*HEADS)
+        found = measure(status.update)
+    table = Printed(*heads)
     for row in found:
         table.add_row(*row)
     console.print(table)
 
 
 if __name__ == "__main__":
-    main()
+    show(HEADS, lambda progress: rows(all_entries(progress)))

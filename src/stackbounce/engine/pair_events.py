@@ -17,7 +17,7 @@ from stackbounce.engine.pair_step import BOTH, EVENT, LANES, ROOT, TIME
 # turning point
 TOUCH, RELEASE, GAIN, RETURN = 0.0, 1.0, 2.0, 3.0
 
-MOST = 2000.0  # touches of a contact: the general engine solves longer drops
+_MOST = 2000.0  # touches of a contact: the general engine solves longer drops
 _SLOW = 1e-5  # of the impact speed: it is not sure that slower contacts touch or open
 _TOGETHER = 1e-6  # of a time: it is not sure which of two contacts that are so close touches first
 _NEAR = 0.5  # of the next step by time: an event within it is aimed at
@@ -62,7 +62,7 @@ def press(x: Floats, i: int, k: int) -> None:
     if x[lane.COUNT + k] == 0.0:
         x[lane.FIRST + k] = x[lane.Y + lane.T + i]
     x[lane.COUNT + k] += 1.0
-    if x[lane.COUNT + k] > MOST:
+    if x[lane.COUNT + k] > _MOST:
         x[lane.STATUS + i] = ASK
 
 

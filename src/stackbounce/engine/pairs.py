@@ -4,7 +4,8 @@ All lanes step together: by a Runge-Kutta method (`pair_step`), or where all con
 power series (`pair_series`). Between steps, lanes that meet an event are looked after one by one
 (`pair_events`). A nonlinear contact that presses alone needs no steps under some laws
 (`pair_alone`). A lane whose drop has ended takes the next one. One whose drop is not sure, or takes
-long, starts it again with a smaller tolerance. No lane affects another.
+long, starts it again with a smaller tolerance, or leaves it to the general engine. No lane affects
+another.
 """
 
 import math
@@ -50,7 +51,7 @@ class Accuracy(NamedTuple):
     levels: float
     reach: float
     first: float  # the first step by a root after a touch, over the root of a typical compression
-    most: float  # steps, but for those that end where a compression turns
+    most: float  # steps of a drop; one with hysteresis may take `_TURNS` more
 
 
 @kernel

@@ -62,17 +62,17 @@ def headed(rows: Sequence[Row]) -> tuple[list[str], Sequence[Row]]:
     named = (k for k in range(first) if sum(bool(c.role) for c in columns_of(rows[k][1])) > 1)
     at = next(named, first - 1)
     head, units = rows[at][1], rows[at + 1][1]
-    for line, cells in rows[first:]:
+    if at + 1 < first and all(is_unit(cell) for cell in units if cell):
+        pairs = zip_longest(head, units, fillvalue="")
+        head = [f"{name} ({unit.strip('()[] ')})" if unit else name for name, unit in pairs]
+        at += 1
+    for line, cells in rows[at + 1 :]:
         if any(_NUMBER.fullmatch(cell) for cell in cells[len(head) :]):
             raise InvalidValue(
-                f"row {line} has {len(cells)} cells below {len(head)} headings: a decimal comma "
-                "between commas cannot be told apart; put semicolons between the cells"
+                f"row {line} has {len(cells)} cells below {len(head)} headings: each column needs "
+                "one, and numbers with decimal commas need semicolons between them"
             )
-    if at + 1 == first or not all(is_unit(cell) for cell in units if cell):
-        return head, rows[at + 1 :]
-    pairs = zip_longest(head, units, fillvalue="")
-    head = [f"{name} ({unit.strip('()[] ')})" if unit else name for name, unit in pairs]
-    return head, rows[at + 2 :]
+    return head, rows[at + 1 :]
 
 
 def _cell(cells: Sequence[str], index: int) -> str:
@@ -102,8 +102,8 @@ def _resolved(
             known = in_si(column.unit) if beside and column.unit else None
             if known and known[1] == "m":
                 raise InvalidValue(
-                    f"column {column.text!r} must name a ball as {beside!r} beside it does: "
-                    "one that 'stackbounce balls' lists"
+                    f"column {column.text!r} must name a ball of the catalogue, as {beside!r} "
+                    "beside it does"
                 )
             notes.append(f"Column {column.text!r} is not used: its name tells nothing known here.")
     started = any(column.role in STARTS for column in used)
