@@ -29,7 +29,7 @@ ENTRIES = [(run_pairs, codes.PAIR_FORMS, 1e-6), (run_linear, codes.LINEAR_FORMS,
 )
 @pytest.mark.parametrize(("count", "gravity"), COUNTS)
 def test_as_the_general_engine(entry, forms, digits, count, gravity):
-    """Under gravity a few drops come to rest or swing on, and one magnifies any error."""
+    """Under gravity a few drops come to rest or swing on."""
     drops, rtol = pairs(count, digits, 1.5, gravity, forms), 10.0**-digits
     work = 10**7 if gravity else 10**12
     out = in_lanes(entry.__name__, drops, rtol if entry is run_pairs else LIMIT)
@@ -42,7 +42,7 @@ def test_as_the_general_engine(entry, forms, digits, count, gravity):
     assert known.mean() > (0.9 if rtol < 1e-9 else 0.95)  # long ones are not solved again there
     error = np.abs(whole.rebound_ratio - exact.rebound_ratio).max(axis=1)[ended]
     assert np.median(error) < 0.1 * rtol
-    assert np.sort(error)[-2 if gravity else -1] < 10.0 * rtol
+    assert np.max(error) < 10.0 * rtol
     last = np.nanmax(exact.last_release[known], axis=1)[:, None]
     for name in ("first_touch", "last_release"):
         time, right = getattr(out, name)[known], getattr(exact, name)[known]
@@ -195,6 +195,7 @@ def test_all_engines_in_lanes_have_room():
         ({"contacts": [sb.Hertz(1e6), sb.StandardLinearSolid(1e4, 0.5, 2e-3)]}, {}, [], None),
         ({"contacts": [sb.PowerLaw(1e4, 1.0)] * 2}, {}, ["contacts.0.exponent"], "run_pairs"),
         ({"contacts": [sb.Hysteretic(1e4, restitution=0.8)] * 2}, {}, [], "run_pairs"),
+        ({"contacts": [sb.Hysteretic(1e4, restitution=0.8)] * 2}, {"rtol": 1e-12}, [], None),
         ({"contacts": [sb.Hertz(1e6), sb.HollowBall(1e4, 0.01, 0.5, 0.9)]}, {}, [], None),
         ({"contacts": [sb.Rigid(0.8)] * 2}, {}, ["balls.0.mass"], "run_two_rigid"),
         ({"contacts": [sb.Rigid(0.8), sb.RigidBySpeed(0.8, speed=1.0)]}, {}, [], None),

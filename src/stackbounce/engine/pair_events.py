@@ -22,6 +22,7 @@ _SLOW = 1e-5  # of the impact speed: it is not sure that slower contacts touch o
 _TOGETHER = 1e-6  # of a time: it is not sure which of two contacts that are so close touches first
 _NEAR = 0.5  # of the next step by time: an event within it is aimed at
 _PART = 0.8  # of the way to a later event, or to one that a step could not be aimed at
+_LATE = 0.5  # of what gravity has added to a velocity: a slower touch magnifies errors
 _STEADY = 0.4  # of the mean rate up to an event: the least rate at which a step is aimed at it
 
 
@@ -105,8 +106,8 @@ def _turn_or_return(x: Floats, i: int, k: int, kind: float) -> None:
 @kernel
 def touch(x: Floats, i: int, k: int) -> None:
     """Let contact k touch now; the next step goes by the root of its compression if p is not 1."""
-    rate = x[lane.Y + lane.R + k]
-    if not rate > _least_rate(x, i) or x[lane.LEVEL + k] > 0.0:
+    rate, fallen = x[lane.Y + lane.R + k], x[lane.GRAVITY + i] * x[lane.Y + lane.T + i]
+    if not rate > max(_least_rate(x, i), _LATE * fallen) or x[lane.LEVEL + k] > 0.0:
         x[lane.STATUS + i] = ASK
         return
     x[lane.Y + lane.C + k] = 0.0

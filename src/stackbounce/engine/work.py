@@ -17,6 +17,9 @@ LANE_EVENTS = 10_000
 LANES_RTOL = 1e-13
 """The least tolerance of pairs in lanes: round-off accumulates over some 100 steps."""
 
+LOOPS_RTOL = 1e-11
+"""The least tolerance of pairs with hysteresis in lanes: below, the general engine is faster."""
+
 ASKED_RTOL = 1e-13
 """The tolerance of a drop that an engine in lanes leaves to the general one, or a smaller one.
 

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING
 
 from stackbounce.engine import codes, native
 from stackbounce.engine.memory import FINITE, RIGID, Engine
-from stackbounce.engine.work import LANE_EVENTS, LANES_RTOL
+from stackbounce.engine.work import LANE_EVENTS, LANES_RTOL, LOOPS_RTOL
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.model import Drop
 from stackbounce.model.laws import contact_numbers
@@ -81,5 +81,6 @@ def choose_lanes(drop: Drop, numbers: "Iterable[Number]", options: Options) -> s
         return "run_two_rigid"
     if linear and all(exponent == 1.0 for _, exponent in contacts):
         return "run_two_springs" if weightless and forms == {codes.POWER} else "run_linear"
-    known = forms <= set(codes.PAIR_FORMS) and options.rtol >= LANES_RTOL
+    least = LOOPS_RTOL if codes.HYSTERETIC in forms else LANES_RTOL
+    known = forms <= set(codes.PAIR_FORMS) and options.rtol >= least
     return "run_pairs" if known else None
