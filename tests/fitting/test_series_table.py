@@ -89,10 +89,8 @@ def test_numbered_columns_of_equal_heights_are_readings(table):
 
 
 def test_words_are_groups_and_remarks_are_not(table):
-    text = (
-        "ball,drop height (cm),rebound (cm),remark\ngolf,100,70,a\ngolf,50,36,b\ntennis,100,53,c\n"
-    )
-    read = table(text)
+    rows = "golf,100,70,a\ngolf,50,36,b\ntennis,100,53,c\n"
+    read = table("ball,drop height (cm),rebound (cm),remark\n" + rows)
     assert list(read.groups) == ["golf", "tennis"]
     assert "The words of column 'remark' differ in each row: not used." in read.notes
 

@@ -334,7 +334,7 @@ def test_a_record_that_begins_or_stops_within_a_contact():
 
 def test_further_channels_are_named():
     record = record_of(ONE, rate=1e5, noise=1.0, contacts=[0, 0])
-    assert any("not force_2" in note for note in waveform(record).notes)
+    assert any("not Force_2 (N)" in note for note in waveform(record).notes)
     assert waveform(record[["force_2"]]).contacts
 
 

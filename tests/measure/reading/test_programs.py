@@ -166,6 +166,11 @@ def test_a_position_beside_a_force_and_times_is_no_press_curve(read):
     assert data.attrs["holds"] == "waveform"
 
 
+def test_the_largest_component_is_the_force_of_a_contact(read):
+    data = read("time,Fx,Fy,Fz\n0,1,0,-9\n0.1,2,0,-8\n0.2,0,0,-9\n")
+    assert data.force.attrs["long_name"] == "Fz"
+
+
 def test_bare_columns_of_a_scope(read):
     data = read(lines([TIMES, VOLTS]))
     assert data.attrs["holds"] == "waveform"

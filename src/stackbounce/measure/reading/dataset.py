@@ -69,7 +69,8 @@ def assemble(
         return dataset_of(data, coordinates), doubts
     kind = KINDS[holds]
     # An analysis takes the first of several forces: one that an option names comes before others.
-    order = sorted(range(len(columns)), key=lambda k: columns[k].named not in ROLES)
+    normal = _normal_force(columns, values)
+    order = sorted(range(len(columns)), key=lambda k: (columns[k].named not in ROLES, k != normal))
     columns, values = [columns[k] for k in order], values[:, order]
     over_time = {"time": _series, "track": _track}.get(kind.dimension)
     build = over_time or partial(_rows, kind)
@@ -108,6 +109,14 @@ def dataset_of(data: Mapping[str, Any], coordinates: Mapping[str, Any]) -> Datas
             for name, own in coordinates.items()
         },
     )
+
+
+def _normal_force(columns: Sequence[Column], values: Array) -> int:
+    """Return the largest of the three components of a force: no friction exceeds it; else -1."""
+    parts = [k for k, column in enumerate(columns) if column.role == "force"]
+    if "".join(columns[k].heading.name[-1:].lower() for k in parts) != "xyz":
+        return -1
+    return max(parts, key=lambda k: float(np.nanmax(np.abs(values[:, k]))))
 
 
 def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:

@@ -179,11 +179,8 @@ def general(text: Text) -> Layout:
     units = None
     if len(above) > 1 and all(is_unit(cell) for cell in names if cell):
         units, names = names, _named(text, above[-2], width)
-    if text.delimiter == "," and text.decimal == "." and width == 2 * len(names) > 2:
-        raise FileError(
-            f"its header names {len(names)} columns, its rows have {width} cells: numbers with a "
-            "decimal comma between commas cannot be told apart; export with another delimiter"
-        )
+    if text.delimiter == "," and text.decimal == "." and width == 2 * len(names):
+        _refuse_commas(names, text.head[first:])
     beyond = sum(any(row[len(names) :]) for row in text.head[first:])
     if 2 * beyond <= len(text.head) - first:  # a few rows that are too long make no column
         width = len(names)
@@ -193,6 +190,20 @@ def general(text: Text) -> Layout:
     doubts = () if len(names) >= width else (f"columns from {len(names) + 1} on have no name",)
     why = f"a header names its columns: {shown}{more}"
     return Layout("table of numbers", why, columns, first, doubts)
+
+
+def _refuse_commas(names: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Refuse rows with twice as many cells as names, if their numbers may have decimal commas."""
+    if len(names) > 1:
+        raise FileError(
+            f"its header names {len(names)} columns, its rows have {2 * len(names)} cells: numbers "
+            "with a decimal comma between commas cannot be told apart; export with another "
+            "delimiter"
+        )
+    if all("".join(row).lstrip("-").isdecimal() for row in rows if any(row)):
+        said, commas = "its header names one column, its rows have 2 cells: ", {"decimal": ","}
+        two = " reads decimal commas, and two columns need two names"
+        raise FileError(Message(said, OptionHint(commas), two))
 
 
 def _numbers(text: Text, first: int, width: int) -> Array:

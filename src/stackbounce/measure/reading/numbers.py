@@ -89,7 +89,8 @@ def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
     beyond = (sizes > _MOST) | ((sizes < _LEAST) & (sizes > 0.0))
     values[beyond] = np.nan
     table.beyond = int(np.count_nonzero(beyond))
-    table.values = values[~np.isnan(values).all(axis=1)]
+    there = np.flatnonzero(~np.isnan(values).all(axis=1))
+    table.values = values[there[0] : there[-1] + 1] if there.size else values[:0]
     return table
 
 

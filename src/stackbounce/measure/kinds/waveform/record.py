@@ -110,7 +110,8 @@ def _channel(data: Any) -> tuple[Array, Array, str, list[str]]:
         raise InvalidValue(f"data must hold a force or a voltage over time, got {got}")
     names.sort(key=lambda name: name.startswith("voltage"))  # forces come first
     times, values = columns(data, ("time", names[0]))
-    return times, values, str(data[names[0]].attrs.get("units", "")), names
+    shown = [str(data[name].attrs.get("long_name", name)) for name in names]
+    return times, values, str(data[names[0]].attrs.get("units", "")), shown
 
 
 def _spikes(values: Array) -> Mask:
