@@ -138,12 +138,13 @@ def solve(
     def work(todo: Iterable[tuple[Block, int]]) -> None:
         room = base_rows(drop, min(count, most))
         for block, stop in todo:
-            drops = Drops._make(array[: size(block)] for array in room)
             sizes = [side.stop - side.start for side in block]
+            start = stop - math.prod(sizes)
+            drops = Drops._make(array[: stop - start] for array in room)
             shaped = (array.reshape((*sizes, *array.shape[1:])) for array in drops)
             varied = {number: values[block] for number, values in wide.items()}
             fill(Drops._make(shaped), drop, varied)
-            part = Outcomes._make(array[stop - size(block) : stop] for array in out)
+            part = Outcomes._make(array[start:stop] for array in out)
             run(drops, part, options, chosen, pause)
 
     cut = list(blocks(shape, sides(shape, most)))

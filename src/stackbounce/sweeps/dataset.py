@@ -271,14 +271,18 @@ def _dataset(
             output_dtypes=[kind for _, kind, *_ in _OUTPUTS.values()],
             dask_gufunc_kwargs={"output_sizes": {"ball": size, "contact": size}},
         )
-    data = xr.Dataset(dict(zip(_OUTPUTS, made, strict=True)))
-    for name, (_, _, unit, meaning) in _OUTPUTS.items():
-        data[name].attrs = {"units": unit, "long_name": meaning}
-    data["status"].attrs["flag_values"] = [int(status) for status in Status]
-    data["status"].attrs["flag_meanings"] = " ".join(status.name for status in Status)
-    coordinates = dict(zip([identifier(number.path) for number in numbers], arrays, strict=True))
+    for array, (_, _, unit, meaning) in zip(made, _OUTPUTS.values(), strict=True):
+        array.attrs = {"units": unit, "long_name": meaning}
+    made[-1].attrs["flag_values"] = [int(status) for status in Status]
+    made[-1].attrs["flag_meanings"] = " ".join(status.name for status in Status)
     index = {"ball": np.arange(size), "contact": np.arange(size)}
-    return data.assign_coords(coordinates | index).assign_attrs(_provenance(drop, numbers, options))
+    coordinates: dict[Any, DataArray] = dict(made[0].coords)
+    coordinates |= zip([identifier(number.path) for number in numbers], arrays, strict=True)
+    found = dict(zip(_OUTPUTS, made, strict=True)) | coordinates
+    # variables: xarray would align arrays whose dimension has other labels than the values
+    variables = {name: array.variable for name, array in found.items()}
+    data = xr.Dataset(variables, index, _provenance(drop, numbers, options))
+    return data.set_coords(coordinates)
 
 
 def check_along(drop: Drop, dim: str, values: Mapping[str, NDArray[np.float64]]) -> None:
