@@ -139,7 +139,9 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
             said = f": {a_or_an(holds)} needs columns of {needs}; it has {names}: by their units "
             raise about_option("holds", f"{said}none of them is {' or '.join(roles)}")
         taken.add(free[0])
-        found[free[0]] = replace(found[free[0]], role=roles[0], named="")
+        same = [_name(found[k]) for k in free if found[k].unit == wanted]
+        doubt = f"{same[0]} is taken as {roles[0]}, not {', '.join(same[1:])}" if same[1:] else ""
+        found[free[0]] = replace(found[free[0]], role=roles[0], named="", doubt=doubt)
     return found
 
 

@@ -106,8 +106,14 @@ def rows_by_frame(columns: Sequence[Column], values: Array) -> _Tracks:
 
     Tracks that stand below each other, told apart by a column of their numbers, are put side by
     side. Of several points in a frame that belong to no track, the one next to the point before is
-    taken.
+    taken. Where several columns are told to be heights, each is a track.
     """
+    columns = list(columns)
+    told = {axis: [k for k, own in enumerate(columns) if own.named == axis] for axis in "xy"}
+    if len(told["y"]) > 1:
+        tracks = [columns[k].heading.name or f"column {columns[k].index + 1}" for k in told["y"]]
+        for k, track in (pair for own in told.values() for pair in zip(own, tracks, strict=False)):
+            columns[k] = replace(columns[k], track=track)
     at = next((k for k, column in enumerate(columns) if column.role == "track_id"), None)
     time = next(k for k, column in enumerate(columns) if column.role == "time")
     if at is not None:
