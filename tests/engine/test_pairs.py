@@ -216,8 +216,7 @@ def test_which_sweeps_run_in_lanes(changes, options, varied, lanes):
     drop = HERTZ.replace(**changes)
     numbers = [number_at(drop, path) for path in varied]
     options = {"until": None, "rtol": 1e-9, "event_limit": LIMIT} | options
-    chosen = run_options(drop, *options.values())
-    assert choose_lanes(drop, numbers, chosen) == lanes
+    assert choose_lanes(drop, numbers, run_options(drop, *options.values())) == lanes
 
 
 def test_a_swift_power_and_a_quick_logarithm():

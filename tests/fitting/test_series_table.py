@@ -67,7 +67,8 @@ def test_speeds_and_restitutions(table, text):
 
 
 def test_bounces_in_turn_fall_from_where_the_one_before_rose_to(table):
-    read = table("drop height (cm),bounce 1,bounce 2\n100,64,41\n50,33,22\n")
+    read = table("drop height,bounce 1,bounce 2\n100,64,41\n50,33,22\n")
+    assert "taken as cm, by their size" in read.notes[0]
     series = make_series(read.groups[""])
     order = np.argsort(-series.speeds)
     assert series.speeds[order] == speeds(1.0, 0.64, 0.5, 0.33)

@@ -42,7 +42,7 @@ def readings_of(rows: Sequence[Row]) -> tuple[DataFrame, str, list[str]]:
     notes: list[str] = []
     head, body = headed(rows)
     columns, words = _resolved(columns_of(head), body, notes)
-    numbers = numbers_in(columns, body)
+    numbers = numbers_in(columns, body, notes)
     groups = [", ".join(filter(None, (_cell(cells, k) for k in words))) for _, cells in body]
     found, measured = _by_drop(columns, numbers, [line for line, _ in body], groups, notes)
     if not found:
@@ -129,11 +129,14 @@ class Numbers(NamedTuple):
     digit: float
 
 
-def numbers_in(columns: Sequence[Column], body: Sequence[Row]) -> dict[int, Numbers]:
+def numbers_in(
+    columns: Sequence[Column], body: Sequence[Row], notes: list[str]
+) -> dict[int, Numbers]:
     """Return the numbers of each column by its index, with the errors that other columns tell."""
     known = {column.index for column in columns if column.role != "error"}
     columns = [column for column in columns if {column.index, column.number} & known]
-    numbers = {column.index: _numbers(column, columns, body) for column in columns}
+    usual = _usual(columns, body, notes)
+    numbers = {column.index: _numbers(column, columns, body, usual) for column in columns}
     for column in columns:
         if column.role == "error" and column.number in numbers:
             told = numbers[column.number]
@@ -145,8 +148,8 @@ def numbers_in(columns: Sequence[Column], body: Sequence[Row]) -> dict[int, Numb
     return numbers
 
 
-def _numbers(column: Column, columns: Sequence[Column], body: Sequence[Row]) -> Numbers:
-    """Read the cells of a column."""
+def _numbers(column: Column, columns: Sequence[Column], body: Sequence[Row], usual: str) -> Numbers:
+    """Read the cells of a column; ``usual`` is the unit of heights without one."""
     whose = next((c for c in columns if c.index == column.number), column)
     of = whose if column.role == "error" else column
     unit = UNITS[of.role]
@@ -158,7 +161,7 @@ def _numbers(column: Column, columns: Sequence[Column], body: Sequence[Row]) -> 
         cells = [cell.replace(",", ".") for cell in cells]
     written = column.unit or (of.unit if of is not column else "")
     if not written and unit == "m":
-        written = _usual(columns, body)
+        written = usual
     values, errors = np.full((2, len(cells)), math.nan)
     for k, (cell, (_, where)) in enumerate(zip(cells, texts, strict=True)):
         if cell:
@@ -184,15 +187,17 @@ def _step(values: Array, digit: float) -> float:
     return digit
 
 
-def _usual(columns: Sequence[Column], body: Sequence[Row]) -> str:
+def _usual(columns: Sequence[Column], body: Sequence[Row], notes: list[str]) -> str:
     """Return the unit of heights without one: that of other heights, or by the size of all."""
     lengths = [c for c in columns if UNITS.get(c.role) == "m"]
     if others := [c.unit for c in lengths if c.unit]:
         return others[0]
-    cells = (_cell(row, c.index) for c in lengths for _, row in body)
+    cells = [_cell(row, c.index) for c in lengths for _, row in body]
     sizes = [float(found[0]) for cell in cells if (found := re.match(r"\d+", cell))]
-    largest = max(sizes, default=0.0)
-    return next(unit for least, unit in _SIZES if largest >= least)
+    unit = next(unit for least, unit in _SIZES if max(sizes, default=0.0) >= least)
+    if any((found := _NUMBER.fullmatch(cell)) and not found[1] for cell in cells):
+        notes.append(f"No unit is told for heights: taken as {unit}, by their size.")
+    return unit
 
 
 def _by_drop(

@@ -83,7 +83,8 @@ def _drops(
     columns: Sequence[Column], body: Sequence[Row], told: dict[str, float], balls: list[str]
 ) -> StackTable:
     """Return the drops of a table whose columns are known."""
-    numbers, parts = numbers_in(columns, body), stacked(balls)
+    notes = [f"The balls are stacked {' below '.join(balls)}."]
+    numbers, parts = numbers_in(columns, body, notes), stacked(balls)
     base = Drop(parts.balls, parts.contacts, parts.gaps, height=1.0)
     start = next((column for column in columns if column.role in _FALLS), None)
     if start is None:
@@ -94,7 +95,6 @@ def _drops(
     }
     places = np.stack([numbers[index].values for index in paths])
     measured = sorted((c for c in columns if c.ball), key=lambda c: balls.index(c.ball))
-    notes = [f"The balls are stacked {' below '.join(balls)}."]
     errors = {c.index: _errors(c, numbers[c.index], told, places, notes) for c in measured}
     drops: dict[str, Drop] = {}
     data: dict[str, dict[str, tuple[float, float]]] = {}
