@@ -17,6 +17,7 @@ _CHANGES = 5  # different changes between neighbours, which evenly moved numbers
 _STRAY = 0.05  # share of the numbers that may lie between two steps
 _STEP_UNEVEN, _DISTANCE_OFF = 0.1, 0.25  # in steps: of one step, and at most of a longer distance
 _ON_STEPS = 0.9  # share of the distances that are whole numbers of steps
+_SPIKE = 12.0  # noise levels of the second difference at a spike
 _STUCK = 0.4  # of a step: scatter, with rounding, below which numbers are stuck at it
 
 
@@ -130,3 +131,36 @@ def trapezoid(x: Array) -> Array:
     """
     steps = 0.5 * np.diff(x)
     return np.asarray(np.append(steps, 0.0) + np.append(0.0, steps))
+
+
+def spikes(values: Array) -> Mask:
+    """Return which samples are spikes: far from both neighbours, which agree with theirs.
+
+    A spike makes second differences of 1, -2 and 1 times its height, and nothing else does.
+
+    Parameters
+    ----------
+    values : ndarray
+        (n,) samples at even times, n at least 3.
+
+    Returns
+    -------
+    ndarray
+        (n,) booleans; the first and last two samples are never spikes.
+
+    Examples
+    --------
+    >>> spikes(np.array([0.0, 1.0, 3.0, 9.0, 8.0, 11.0, 15.0])).nonzero()[0].tolist()
+    []
+    >>> spikes(np.array([0.0, 1.0, 3.0, 99.0, 8.0, 11.0, 15.0, 20.0, 25.0])).nonzero()[0].tolist()
+    [3]
+    """
+    found = np.zeros(len(values), dtype=bool)
+    bend = np.diff(values, 2)
+    quiet = float(np.median(np.abs(bend))) / 0.6745
+    scale = max(quiet, 1e-9 * float(np.ptp(values)))
+    before, here, after = bend[:-2], bend[1:-1], bend[2:]
+    high = np.abs(here) > _SPIKE * scale
+    off = np.maximum(np.abs(before + 0.5 * here), np.abs(after + 0.5 * here))
+    found[2:-2] = high & (off < 0.15 * np.abs(here))
+    return found

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, finite, positive
+from stackbounce.errors import InvalidValue, counted, finite, positive
 from stackbounce.measure.drag import Drag, with_difference, with_error_of_drag
 from stackbounce.measure.finding import no_gain
 from stackbounce.measure.kinds.track import motion, steadiness
@@ -128,6 +128,8 @@ def track(
     notes: list[str] = []
     if found.many > 1:
         notes.append(f"It is so long that means of {found.many} neighbouring points were taken.")
+    if found.apart:
+        notes.append(f"{counted(found.apart, 'point')} far from both neighbours left out.")
     up = upward(found, gravity)
     if up.sign < 0.0:
         notes.append(f"{up.axis} points down; heights are counted upwards.")

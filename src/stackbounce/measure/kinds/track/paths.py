@@ -10,7 +10,7 @@ from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.track.motion import accelerations, own_noise
 from stackbounce.measure.kinds.track.parabolas import Flight, Parabolas, find_flights, unexplained
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.samples import columns, resolution
+from stackbounce.measure.samples import columns, resolution, spikes
 from stackbounce.measure.statistics.ar_noise import difference_noise
 
 _LEAST_MOTION = 0.03  # of the range of a track, within a window that tells an acceleration
@@ -18,6 +18,7 @@ _CLEAR_JUMP = 5.0  # standard errors of a velocity's jump that may be a bounce
 _LEAST_JUMP = 0.1  # of the largest jump; smaller ones are caused by a hand
 _ROUNDS = 4  # of cutting the track, each with the acceleration and error of the one before
 _MOST_POINTS = 10_000  # of a track; of more, means of neighbours are taken
+_FEWEST = 4  # points, of which none can be told to stand apart
 _AT_ONCE = 4  # one in so many of the weakest jumps is taken out before the next fit
 _WIDTHS = (3, 5, 7, 11, 17, 25)  # points of a window
 _SEEN_FALL = 4.0  # errors of a point by which a ball has fallen where its flight begins
@@ -34,13 +35,15 @@ Bounced: TypeAlias = tuple[Parabolas, list[int]]
 class Columns(NamedTuple):
     """Times (N,) in s and, for each ball, its name and positions by axis, (N,) in m.
 
-    Of a very long track each is the mean of `many` neighbours.
+    Of a very long track each is the mean of `many` neighbours. So many points `apart` from their
+    neighbours are missing.
     """
 
     times: Array
     names: list[str]
     positions: list[dict[str, Array]]
     many: int = 1
+    apart: int = 0
 
 
 class Upward(NamedTuple):
@@ -76,13 +79,27 @@ def positions_of(data: Any) -> Columns:
         )
     if not found.positions:
         raise InvalidValue("data must hold the track of a ball, got none")
+    apart = sum(map(_leave_out, found.positions))
     many = -(-len(times) // _MOST_POINTS)
     kept = np.flatnonzero(good)[: len(times) // many * many].reshape(-1, many)
     # means of neighbours on a parabola lie on one, too
     positions = [
         {axis: values[kept].mean(axis=1) for axis, values in own.items()} for own in found.positions
     ]
-    return Columns(found.times[kept].mean(axis=1), found.names, positions, many)
+    return Columns(found.times[kept].mean(axis=1), found.names, positions, many, apart)
+
+
+def _leave_out(position: dict[str, Array]) -> int:
+    """Make points that stand apart from both neighbours missing; return how many."""
+    apart = set[int]()
+    for values in position.values():
+        known = np.flatnonzero(np.isfinite(values))
+        if known.size > _FEWEST:
+            apart.update(known[spikes(values[known])].tolist())
+    for axis, values in position.items():
+        position[axis] = values.copy()
+        position[axis][list(apart)] = np.nan
+    return len(apart)
 
 
 def _from_dataset(data: Any) -> Columns:

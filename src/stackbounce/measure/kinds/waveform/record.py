@@ -10,12 +10,11 @@ from numpy.typing import ArrayLike
 from stackbounce.errors import InvalidValue, positive
 from stackbounce.library_types import Dataset
 from stackbounce.measure.finding import force_channels
-from stackbounce.measure.quantities import Array, Mask
-from stackbounce.measure.samples import columns, resolution
+from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import columns, resolution, spikes
 
 _LEAST_SAMPLES = 8  # of a record
 _UNEVEN = 0.01  # of a step, by which one may differ before a note says so
-_SPIKE = 12.0  # noise levels of the second difference at a spike
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +90,7 @@ def read_record(data: Dataset | Sequence[ArrayLike]) -> Record:
     step = float(np.median(steps))
     if np.abs(steps - step).max() > max(_UNEVEN * step, 1e-6 * step * len(times)) and known.all():
         notes.append(f"the time steps are uneven, from {steps.min():.3g} s to {steps.max():.3g} s")
-    spiky = _spikes(values)
+    spiky = spikes(values)
     if spiky.any():
         count = int(spiky.sum())
         notes.append(f"{count} spike{'s' * (count > 1)} of one sample left out")
@@ -112,22 +111,6 @@ def _channel(data: Any) -> tuple[Array, Array, str, list[str]]:
     times, values = columns(data, ("time", names[0]))
     shown = [str(data[name].attrs.get("long_name", name)) for name in names]
     return times, values, str(data[names[0]].attrs.get("units", "")), shown
-
-
-def _spikes(values: Array) -> Mask:
-    """Return which samples are spikes: far from both neighbours, which agree with theirs.
-
-    A spike makes second differences of 1, -2 and 1 times its height, and nothing else does.
-    """
-    found = np.zeros(len(values), dtype=bool)
-    bend = np.diff(values, 2)
-    quiet = float(np.median(np.abs(bend))) / 0.6745
-    scale = max(quiet, 1e-9 * float(np.ptp(values)))
-    before, here, after = bend[:-2], bend[1:-1], bend[2:]
-    high = np.abs(here) > _SPIKE * scale
-    off = np.maximum(np.abs(before + 0.5 * here), np.abs(after + 0.5 * here))
-    found[2:-2] = high & (off < 0.15 * np.abs(here))
-    return found
 
 
 def undrooped(times: Array, values: Array, time_constant: float) -> Array:
