@@ -120,6 +120,18 @@ class Finding(Shown):
         return None
 
 
+class Findings(tuple[Finding, ...]):
+    """All that was found in a file, which is shown one below the other."""
+
+    def __repr__(self) -> str:
+        """Their tables and notes, as text."""
+        return "\n\n".join(map(repr, self))
+
+    def _repr_html_(self) -> str:
+        """Their tables and notes, for a notebook."""
+        return "".join(finding._repr_html_() for finding in self)
+
+
 def _written(value: Any) -> str:
     if getattr(value, "std_dev", 0.0) > 0.0:
         return f"{value:.2uS}"

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 
 from stackbounce.errors import InvalidType, InvalidValue, StackbounceError, shown
 from stackbounce.library_types import Dataset
-from stackbounce.measure.finding import Branch, Curve, Finding, channels
+from stackbounce.measure.finding import Branch, Curve, Finding, Findings, channels
 from stackbounce.measure.kinds import KINDS, TYPED
 from stackbounce.measure.messages import Message, Wording, python_wording
 from stackbounce.measure.options import OPTIONS, options_for
@@ -46,7 +46,7 @@ def analyse(
     gravity: float = STANDARD_GRAVITY,
     drag_coefficient: Number | float | None = None,
     air_density: Number | float | None = None,
-) -> "tuple[Finding, ...]":
+) -> Findings:
     r"""Return the results of the analyses that belong to the kind of a measurement.
 
     Parameters
@@ -90,12 +90,12 @@ def analyse(
 
     Returns
     -------
-    tuple
-        Of a sound `Bounces` (`FewBounces` where they are too few for a restitution) and `Knocks`;
-        of knock times and of phyphox's bounces `Bounces`; of a track `Tracks`; of an acceleration
-        `Accelerometer`; of a force waveform `Waveform`, with a second sensor between two balls
-        `SensorGap` before it; of a press curve `Press`; of a table with one column of heights, the
-        drop's above the bounces', `Heights`.
+    Findings
+        A tuple that shows its results. Of a sound `Bounces` (`FewBounces` where they are too few
+        for a restitution) and `Knocks`; of knock times and of phyphox's bounces `Bounces`; of a
+        track `Tracks`; of an acceleration `Accelerometer`; of a force waveform `Waveform`, with a
+        second sensor between two balls `SensorGap` before it; of a press curve `Press`; of a table
+        with one column of heights, the drop's above the bounces', `Heights`.
 
     Raises
     ------
@@ -115,9 +115,11 @@ def analyse(
     >>> path = getfixture("tmp_path") / "knocks.csv"
     >>> text = '"Event time (s)","Interval (s)"\n0,0\n0.8,0.8\n1.44,0.64\n1.952,0.512\n'
     >>> _ = path.write_text(text)
-    >>> (found,) = analyse(sb.read(path))
-    >>> f"{found.mean.nominal_value:.3f}"
+    >>> found = analyse(sb.read(path))
+    >>> f"{found[0].mean.nominal_value:.3f}"
     '0.800'
+    >>> found._repr_html_() == found[0]._repr_html_()
+    True
     """
     options = dict(locals())
     holds = getattr(data, "attrs", {}).get("holds")
@@ -129,7 +131,7 @@ def analyse(
             f"{', '.join(KINDS)}"
         )
     kind = KINDS[holds]
-    return kind.analyse(data, Setup.of(kind.options, options))
+    return Findings(kind.analyse(data, Setup.of(kind.options, options)))
 
 
 @dataclass(frozen=True)
