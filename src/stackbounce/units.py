@@ -16,6 +16,7 @@ _WRITTEN = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
 # What pint may parse: names with small powers, so that no input causes a long computation.
 _TERM = r"[^\W\d_]+(?:(?:\*\*|\^)-?\d(?:\.\d{1,3})?)?"
 _WITH_ERROR = re.compile(r"±|\+/-|[0-9] ?\([0-9.]+\)")  # 63 ± 1 cm, 63(1) cm
+_COMMA = re.compile(r"\s*[-+]?\d+,\d")  # 1,5 m
 _UNIT = re.compile(rf"%|{_TERM}(?:\s*[*/·\s]\s*{_TERM}){{0,5}}")
 _KINDS = {
     "": ("a pure number", "0.78"),
@@ -341,7 +342,10 @@ def _message(name: str, value: object, unit: str) -> str:
     right = f'{kind} ({number} or a string such as "{example}")'
     if isinstance(value, str) and _WITH_ERROR.search(value):
         right = f'{kind} without an error here (predict takes one), such as "{example}"'
-    return f"{name} must be {right}, got {shown(value)}"
+    comma = isinstance(value, str) and _COMMA.match(value)
+    return f"{name} must be {right}, got {shown(value)}" + ", which needs a decimal point" * bool(
+        comma
+    )
 
 
 @functools.cache

@@ -39,7 +39,8 @@ def run(
     if save is not None and "mass" not in known:
         raise InvalidValue("--save needs the mass of the ball, such as --mass 57g")
     try:
-        done = [measure_file(path, known, _wording) for path in files] + measure_numbers(known)
+        done = [measure_file(path, known, _wording) for path in files]
+        done += measure_numbers(known, _wording)
     except StackbounceError as error:
         table = next(filter(_has_bounces, files), None)
         if table is None:

@@ -259,7 +259,7 @@ def _measured(file: File, options: Mapping[str, Any], wording: Wording) -> Measu
     return Measurement(name, evidence, data, found, wording)
 
 
-def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:
+def measure_numbers(options: Mapping[str, Any], wording: Wording) -> list[Measurement]:
     """Analyse typed numbers; return a measurement of each kind for which they suffice."""
     known = {option.name: option for option in OPTIONS}
     done = []
@@ -274,7 +274,7 @@ def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:
             found = kind.of_numbers(Setup.of(kind.options, options))
         except ArithmeticError as error:
             raise InvalidValue(f"{source} has numbers that are too large or too small") from error
-        done.append(Measurement(source, evidence, None, (found,)))
+        done.append(Measurement(source, evidence, None, (found,), wording))
     return done
 
 
