@@ -47,8 +47,8 @@ TRUTH = 1e-13
 COUNT, RIGID_COUNT = 4000, 100_000
 LEAST, SECONDS = 10, 0.3  # drops of a slow solver: so many, or those of so many seconds
 ROUNDS, SLOW_ROUNDS = 5, 2  # the first round more, and those that a slow solver takes part in
-_WIDTH = 120  # characters of a printed table, at least: a narrower one cuts numbers off
 SAME = 1e-3  # an error: with a smaller one, the rule for a second compression made none
+_WIDTH = 120  # characters of a printed table, at least: a narrower one cuts numbers off
 
 
 Way = Callable[[], np.ndarray]
@@ -154,10 +154,8 @@ def _ways(law: str, drops: Drops) -> dict[tuple[str, float], tuple[int, Way]]:
         ways[LOOP, steps] = count, lambda steps=steps: loop(drops, steps) / speed
     base = sb.Drop([sb.Ball(0.2), sb.Ball(0.1)], [LAWS[law]] * 2, impact_speed=1.0)
     for rtol in TOLERANCES:
-        kernel, general = (
-            choose_lanes(base, [], Options(math.inf, rtol, EVENT_LIMIT)),
-            _general(drops, FINITE, rtol),
-        )
+        kernel = choose_lanes(base, [], Options(math.inf, rtol, EVENT_LIMIT))
+        general = _general(drops, FINITE, rtol)
         ways[LANES, rtol] = count, _lanes(drops, kernel, rtol) if kernel else general
         ways[DROPS, rtol] = count, general
     for name, solve in _solvers(law).items():

@@ -158,7 +158,7 @@ def test_after_one_bounce_air_and_a_turned_camera_are_the_same():
 def test_heights_alone_tell_of_no_turn_and_one_slip_is_left_out():
     data = tracked(FALL, seed=1)
     found = track(data.assign(x=math.nan * data.x, y=data.y + 50.0 * (data.time == data.time[20])))
-    assert "1 point far from both neighbours left out." in found.notes
+    assert "1 point left out: far from both neighbours." in found.notes
     assert found.tilt == 0.0
     assert near(found.balls[0].restitutions[0], 0.8)
 

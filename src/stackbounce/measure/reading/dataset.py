@@ -140,8 +140,10 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
             raise about_option("holds", f"{said}none of them is {' or '.join(roles)}")
         taken.add(free[0])
         same = [_name(found[k]) for k in free if found[k].unit == wanted]
-        doubt = f"{same[0]} is taken as {roles[0]}, not {', '.join(same[1:])}" if same[1:] else ""
-        found[free[0]] = replace(found[free[0]], role=roles[0], named="", doubt=doubt)
+        found[free[0]] = replace(found[free[0]], role=roles[0], named="")
+        if same[1:]:
+            doubt = f"{same[0]} is taken as {roles[0]}, not {', '.join(same[1:])}"
+            found[free[0]] = replace(found[free[0]], doubt=doubt)
     return found
 
 

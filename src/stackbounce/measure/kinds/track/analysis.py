@@ -129,7 +129,7 @@ def track(
     if found.many > 1:
         notes.append(f"It is so long that means of {found.many} neighbouring points were taken.")
     if found.apart:
-        notes.append(f"{counted(found.apart, 'point')} far from both neighbours left out.")
+        notes.append(f"{counted(found.apart, 'point')} left out: far from both neighbours.")
     up = upward(found, gravity)
     if up.sign < 0.0:
         notes.append(f"{up.axis} points down; heights are counted upwards.")
