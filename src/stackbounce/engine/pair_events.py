@@ -22,7 +22,7 @@ _SLOW = 1e-5  # of the impact speed: it is not sure that slower contacts touch o
 _TOGETHER = 1e-6  # of a time: it is not sure which of two contacts that are so close touches first
 _NEAR = 0.5  # of the next step by time: an event within it is aimed at
 _PART = 0.8  # of the way to a later event, or to one that a step could not be aimed at
-_LATE = 0.5  # of what gravity has added to a velocity: a slower touch magnifies errors
+_LATE = 0.2  # of what gravity has added to a velocity: a slower touch magnifies errors
 _STEADY = 0.4  # of the mean rate up to an event: the least rate at which a step is aimed at it
 
 
