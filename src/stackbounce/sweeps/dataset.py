@@ -144,9 +144,9 @@ def sweep(
     Every drop is solved as by `simulate`, except two balls that are run to their end. Under linear
     laws (`Spring`, `Dashpot`, `StandardLinearSolid`) they have faster engines, which differ by
     round-off. Under `Hertz`, `PowerLaw`, `Viscoelastic`, `HuntCrossley` and `Hysteretic` they have
-    another one, which differs by about `rtol`, unless the other contact is a relaxing solid; for a
-    picture an `rtol` of 1e-4 is enough. All pass drops near their limits of accuracy on to the
-    general one.
+    another one, which differs by about `rtol`, unless the other contact is a relaxing solid, or one
+    is `Hysteretic` and `rtol` below 1e-11; for a picture an `rtol` of 1e-4 is enough. All pass
+    drops near their limits of accuracy on to the general one.
     The result of a drop depends on its own numbers only: it is the same bit for bit whatever the
     chunks, blocks or threads.
 
