@@ -159,7 +159,7 @@ def test_an_error_has_all_numbers_of_the_element():
         ({"gaps.0": [0.0, np.nan]}, r"gaps.0 must be .*, got nan \(at gaps_0 1: gaps.0 = nan\)"),
         ({"balls.0.mass": ["a"]}, "balls.0.mass.0 must be a mass .*, got 'a'"),
         ({"balls.0.mass": [[1.0], [2.0]]}, "or a DataArray with named dimensions, got 2"),
-        ({"balls.0.mass": xr.DataArray([1.0], dims="ball")}, "has a dimension named ball"),
+        ({"balls.0.mass": xr.DataArray(1.0, {"status": 5})}, "or coordinate named status"),
         ({1: [1.0]}, "a path must be a string, got 1"),
         ([1.0], "values must be a mapping of paths to values"),
     ],

@@ -74,7 +74,7 @@ def test_numbers_that_vary_together_are_resumed_to_the_same_bytes(tmp_path):
         ({"gaps.0": ("a/b", [0.0])}, "must have one dimension in a file, with a name of letters"),
         ({"gaps.0": 0.0}, "gaps.0 must have one dimension in a file"),
         ({"gaps.0": ("draw", [0.0, -1.0]), "impact_speed": ("draw", [1.0, 2.0])}, r"\(at draw 1\)"),
-        ({"gaps.0": ("status", [0.0])}, "a dimension named status, as results are"),
+        ({"gaps.0": ("status", [0.0])}, "dimension or coordinate named status, as"),
         ({"balls.0.mass": np.array([0.0, 1.0])}, r"balls.0.mass must be .* \(at balls_0_mass 0\)"),
     ],
 )

@@ -233,9 +233,11 @@ def _named(number: Number, value: Any) -> DataArray:
                 f"dimensions, got {plain.ndim} dimensions"
             )
         array = xr.DataArray(plain, dims=[own] * plain.ndim)
-    clash = {"ball", "contact", *_OUTPUTS} & set(array.dims)
+    clash = {"ball", "contact", *_OUTPUTS} & {*array.dims, *array.coords}
     if clash:
-        raise InvalidValue(f"{number.path} has a dimension named {clash.pop()}, as results are")
+        raise InvalidValue(
+            f"{number.path} has a dimension or coordinate named {clash.pop()}, as results are"
+        )
     if array.dtype.kind not in "iuf":
         raise InvalidType(f"{number.path} must be numbers, got {array.dtype}")
     given = array.attrs.get("units", number.unit)

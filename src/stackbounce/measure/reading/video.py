@@ -111,7 +111,9 @@ def rows_by_frame(columns: Sequence[Column], values: Array) -> _Tracks:
     columns = list(columns)
     told = {axis: [k for k, own in enumerate(columns) if own.named == axis] for axis in "xy"}
     if len(told["y"]) > 1:
-        tracks = [columns[k].heading.name or f"column {columns[k].index + 1}" for k in told["y"]]
+        tracks = [columns[k].heading.name for k in told["y"]]
+        if len({*tracks} - {""}) < len(tracks):
+            tracks = [f"column {columns[k].index + 1}" for k in told["y"]]
         for k, track in (pair for own in told.values() for pair in zip(own, tracks, strict=False)):
             columns[k] = replace(columns[k], track=track)
     at = next((k for k, column in enumerate(columns) if column.role == "track_id"), None)
