@@ -9,7 +9,7 @@ from stackbounce.measure import analyse
 
 def _draw(name, **known):
     data = sb.read(DOCS / "lab" / name)
-    show(plots.measured, data, analyse(data, **known)[-1])
+    show(plots.measured, data, analyse(data, **known))
 
 
 def sound():

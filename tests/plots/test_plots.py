@@ -6,6 +6,7 @@ import pytest
 
 import stackbounce as sb
 from stackbounce import plots
+from stackbounce.measure.finding import Findings
 from stackbounce.plots.sweep_curves import SHOWN
 
 DROP = sb.Drop([sb.Ball(1.0)] * 2, [sb.Rigid(0.9), sb.Rigid(0.5)], impact_speed=1.0)
@@ -196,7 +197,7 @@ def test_every_plot_draws_into_axes_of_the_user():
     data = {"rebound_ratios": ["0.2 ± 0.05", "1.7 ± 0.1"]}
     found = sb.fit(drop, data, ["contacts.0.stiffness", "contacts.1.stiffness"])
     models = sb.compare(sb.standard_models(drop), data)
-    bounces = sb.measure.bounces([0.0, 0.8, 1.44, 1.952])
+    bounces = Findings([sb.measure.bounces([0.0, 0.8, 1.44, 1.952])])
     series = sb.fit_series("dataset:golf-marble-heights", laws=["Rigid"])
     ds = sb.sweep(DROP, OVER_BOTH)
     draws = [

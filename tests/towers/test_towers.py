@@ -163,8 +163,8 @@ def test_balls_of_ones_own_and_of_different_laws():
     ("arguments", "error", "message"),
     [
         ({"balls": ["B1", "B2"], "count": 3}, InvalidValue, "whole number from 2 to 2, got 3"),
-        ({"balls": ["B1"]}, InvalidValue, "balls must be two or more, or repeat be True, got 1"),
-        ({"count": 1}, InvalidValue, "count must be a whole number from 2 to 5, got 1"),
+        ({"balls": ["B1"]}, InvalidValue, "balls must be two or more, unless they repeat, got 1"),
+        ({"count": 1}, InvalidValue, "count of balls must be a whole number from 2 to 5, got 1"),
         ({"balls": ["B1", 3]}, InvalidType, "balls.1 must be a name of the catalogue or a Drop"),
         ({"balls": [FAST["springs"]]}, InvalidValue, "balls.0 must be a drop of one ball"),
         ({"law": sb.Rigid}, InvalidValue, "law must be one with a stiffness"),

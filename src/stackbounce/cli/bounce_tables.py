@@ -6,7 +6,7 @@ from typing import Any
 from rich.table import Table
 
 from stackbounce.cli.tables import add_columns, new_table, number, percent, with_error, write_count
-from stackbounce.model.drawing import label, meeting
+from stackbounce.model.drawing import meeting, names_of
 from stackbounce.prediction import Prediction
 from stackbounce.run.result import Result
 
@@ -44,12 +44,12 @@ class Bounce:
         other = textbook and Bounce(textbook)
         if other:
             add_columns(table, ("separate\nm/s", "separate\n/drop"), "dim")
-        for i, ball in enumerate(self.result.drop.balls):
-            row = [number(ball.mass * 1e3)] if masses else []
+        for i, name in enumerate(names_of(self.result.drop.balls)):
+            row = [number(self.result.drop.balls[i].mass * 1e3)] if masses else []
             row += [self._cell(heading, i) for heading in _BALLS]
             if other:
                 row += [other._cell(heading, i) for heading in (_BALLS[1], _BALLS[3])]
-            table.add_row(label(ball.name, i), *row)
+            table.add_row(name, *row)
         return table
 
     def contacts(self) -> Table:
@@ -78,12 +78,12 @@ class Bounce:
         points = [part for k in range(shown) for part in (f"{k + 1}\ns", "\nm")]
         title = f"Highest points, the first {shown} of each ball"
         table = new_table(title, ["\nball"], [*([] if with_errors else ["how\nmany"]), *points])
-        for i, ball in enumerate(self.result.drop.balls):
+        for i, name in enumerate(names_of(self.result.drop.balls)):
             own = [value for b, *values in rows if b == i for value in values]
             cells = [with_error(v) if with_errors else number(v) for v in own[: 2 * shown]]
             cells += ["–"] * (2 * shown - len(cells))
             many = [] if with_errors else [str(len(own) // 2)]
-            table.add_row(label(ball.name, i), *many, *cells)
+            table.add_row(name, *many, *cells)
         return table
 
     def energy(self) -> str:

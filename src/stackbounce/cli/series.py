@@ -120,7 +120,7 @@ def _print(console: Console, done: "SeriesFit", *, compared: bool) -> None:
         console.print()
         if compared:
             console.print(found.summary)
-        elif found.outcomes and found.outcomes[0].verdict != "agrees":
+        elif found.outcomes[0].verdict != "agrees":
             law = found.outcomes[0].short_name
             console.print(f"{law} does not follow it: --compare fits every contact law.")
     for name, reason in done.left_out.items():

@@ -9,7 +9,7 @@ from rich.console import Console
 from stackbounce.cli.tables import new_table, number, with_error
 from stackbounce.errors import InvalidValue, between
 from stackbounce.model import Drop
-from stackbounce.model.drawing import label
+from stackbounce.model.drawing import names_of
 from stackbounce.prediction import Prediction
 from stackbounce.prediction.prediction import split_error
 from stackbounce.run.result import Result
@@ -31,7 +31,7 @@ class Sideways:
     """
 
     def __init__(self, drop: Drop, offset: str | None, straight: str | None) -> None:
-        self.names = [label(ball.name, i) for i, ball in enumerate(drop.balls)]
+        self.names = names_of(drop.balls)
         self.moved = range(1, len(drop.balls))
         uncertain: dict[str, str] = {}
         self.offset = self.within = None

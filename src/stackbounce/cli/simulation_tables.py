@@ -9,7 +9,7 @@ from stackbounce.cli.scenario import Scenario
 from stackbounce.cli.tables import number, percent, write_count
 from stackbounce.model import Tabulated
 from stackbounce.model.catalogue import DEFAULT_HEIGHT
-from stackbounce.model.drawing import label, meeting
+from stackbounce.model.drawing import meeting, names_of
 from stackbounce.prediction import Prediction
 from stackbounce.run.result import Result, Status
 
@@ -19,7 +19,7 @@ _LONG = 5_000_000  # work of a run that is not repeated to find its conditioning
 def incidence(scenario: Scenario) -> str:
     """Return the names of the balls, and their height or speed."""
     drop = scenario.drop
-    names = " + ".join(label(ball.name, i) for i, ball in enumerate(drop.balls))
+    names = " + ".join(names_of(drop.balls))
     text = drop.incidence
     if scenario.speed_source == "default":
         text += f" ({DEFAULT_HEIGHT:g} m unless --height or --speed is given)"
@@ -50,7 +50,7 @@ def print_simulation(
     for table in (bounce.balls(textbook), bounce.contacts(), bounce.apexes()):
         if table is not None:
             console.print(table)
-    console.print(f"\nEnergy retained: {bounce.energy()}")
+    console.print(f"\nKinetic energy retained: {bounce.energy()}")
     _closing(console, result, textbook)
     if prediction is not None:
         for text in (prediction.how, prediction.advice(), *prediction.notes):

@@ -38,6 +38,8 @@ def run(
     values = _values(drop, given["over"] or [], given["draws"])
     if plot is not None:
         _check_shown(drop, given)
+    elif given["show"] != "rebound_ratio":  # which is the default
+        raise InvalidValue("--show tells what --plot draws, which is not given")
     with _connect(given["cluster"]) as client, output.progress_bar("drops") as progress:
         write(out, drop, values, client=client, progress=progress, until=end, rtol=rtol)
     done = opened(out)

@@ -10,19 +10,22 @@ _HIGH = 70.0  # pixels of all radii
 _LEAST = 7.0  # pixels of a radius: a line of text fits beside each ball
 _GAP = 6.0  # pixels
 _LETTER = 8.0  # pixels
+_LONG = 16  # characters of a name, at most
 _LOOK = 'stroke="currentColor" fill="currentColor" font-family="sans-serif" font-size="12"'
 
 
-def label(name: str | None, i: int) -> str:
-    """Return the name of ball `i` in tables: printable, and at most 16 characters.
+def names_of(balls: Sequence[Ball]) -> list[str]:
+    """Return the names of balls in tables: printable, short, and with its number if one repeats.
 
     Examples
     --------
-    >>> label(None, 1), label("B1", 0)
-    ('ball 1', 'B1')
+    >>> names_of([Ball(0.6), Ball(0.057, name="tennis"), Ball(0.058, name="tennis")])
+    ['ball 0', 'tennis (1)', 'tennis (2)']
     """
-    text = "".join(c if c.isprintable() else "?" for c in name or f"ball {i}")
-    return text if len(text) <= 16 else text[:15] + "…"
+    given = [ball.name or f"ball {i}" for i, ball in enumerate(balls)]
+    names = ["".join(c if c.isprintable() else "?" for c in name) for name in given]
+    names = [name if len(name) <= _LONG else name[: _LONG - 1] + "…" for name in names]
+    return [f"{name} ({i})" if names.count(name) > 1 else name for i, name in enumerate(names)]
 
 
 def draw_stack(balls: Sequence[Ball], gaps: Sequence[float], *, floor: bool) -> str:
@@ -49,7 +52,7 @@ def draw_stack(balls: Sequence[Ball], gaps: Sequence[float], *, floor: bool) -> 
     if not all(sizes):
         sizes = [ball.mass ** (1.0 / 3.0) for ball in balls]
     radii = [max(_LEAST, _HIGH * size / sum(sizes)) for size in sizes]
-    names = [label(ball.name, i) for i, ball in enumerate(balls)]
+    names = names_of(balls)
     middle, top, parts = max(radii) + 2.0, 0.0, []
     for name, radius, gap in zip(names, radii, (0.0, *gaps), strict=True):
         top += radius + _GAP * (gap > 0.0)
@@ -74,5 +77,5 @@ def meeting(balls: Sequence[Ball], contact: int) -> str:
     >>> meeting([Ball(0.6), Ball(0.057, name="tennis")], 1)
     'ball 0 – tennis'
     """
-    names = ["floor", *(label(ball.name, i) for i, ball in enumerate(balls))]
+    names = ["floor", *names_of(balls)]
     return f"{names[contact]} – {names[contact + 1]}"

@@ -18,7 +18,7 @@ from stackbounce.errors import (
     shown,
 )
 from stackbounce.model.ball import Ball
-from stackbounce.model.drawing import draw_stack, label
+from stackbounce.model.drawing import draw_stack, names_of
 from stackbounce.model.laws import LAWS, ContactLaw
 from stackbounce.shown import Shown, Table
 from stackbounce.units import Unit, checked, handy_text, in_unit
@@ -223,12 +223,13 @@ class Drop(Shown):
 
     def _tables(self) -> Sequence[Table]:
         rows = [("floor", "")] if self.contacts[0] is not None else []
-        for i, (ball, law) in enumerate(zip(self.balls, self.contacts, strict=True)):
+        stack = zip(self.balls, names_of(self.balls), self.contacts, strict=True)
+        for i, (ball, name, law) in enumerate(stack):
             gap = f", gap {handy_text(self.gaps[i - 1], 'm')}" if i and self.gaps[i - 1] else ""
             if law is not None:
                 rows.append((f"  contact {i}", law.described() + gap))
             size = f", {handy_text(ball.diameter, 'm')}" if ball.diameter else ""
-            rows.append((label(ball.name, i), handy_text(ball.mass, "kg") + size))
+            rows.append((name, handy_text(ball.mass, "kg") + size))
         return (Table(f"Drop {self.incidence}", ("", ""), rows[::-1]),)
 
     def _drawing(self) -> str:

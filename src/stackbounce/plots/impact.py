@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.library_types import Axes, Figure
-from stackbounce.model.drawing import meeting
+from stackbounce.model.drawing import meeting, names_of
 from stackbounce.plots.style import WIDTH, check_kind, color_of, into_axes, panels, written
 from stackbounce.run.quantities import Array
 from stackbounce.run.result import STOPPED, Result
@@ -115,14 +115,13 @@ def bounce(result: "Result | Prediction", *, axes: Any = None) -> Figure:
 
 def _draw_positions(axes: Axes, result: Result, times: Array, paths: Array) -> None:
     """Draw the position of each ball against time, extended to times before the first touch."""
-    drop = result.drop
-    for b, (ball, path) in enumerate(zip(drop.balls, paths, strict=True)):
-        name = f"{written(ball.name or f'ball {b}')}: {result.rebound_ratios[b]:.3g} v₀"
+    for b, (ball, path) in enumerate(zip(names_of(result.drop.balls), paths, strict=True)):
+        name = f"{written(ball)}: {result.rebound_ratios[b]:.3g} v₀"
         axes.plot(1e3 * times, 1e3 * path, color=color_of(b), label=name)
     axes.legend(frameon=False, loc="best", reverse=True)
     axes.set_ylabel("position (mm)")
     axes.axhline(0.0, color="#808080", linewidth=0.8)
-    words = f"v₀ = {drop.reference_speed:.3g} m/s"
+    words = f"v₀ = {result.drop.reference_speed:.3g} m/s"
     if math.isfinite(result.energy_retained):
         words += f", kinetic energy retained {100.0 * result.energy_retained:.0f} %"
     axes.set_title(words, loc="left", fontsize=10)

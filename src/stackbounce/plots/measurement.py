@@ -5,6 +5,7 @@ from typing import Any
 
 from stackbounce.errors import InvalidType
 from stackbounce.library_types import Figure
+from stackbounce.measure.finding import Findings
 from stackbounce.plots.style import drawn_by, into_axes
 
 
@@ -17,7 +18,7 @@ def measured(data: Any, found: Any, *, axes: Any = None) -> Figure:
     data : xarray.Dataset
         The measured data, as from `read`.
     found : object
-        The result of `stackbounce.measure.analyse`, or of one of the analyses.
+        The result of one analysis, or of `stackbounce.measure.analyse`, whose last one is drawn.
     axes : matplotlib.axes.Axes or sequence of them, optional
         Where to draw: as many as the picture has panels; by default in a new figure.
 
@@ -37,6 +38,7 @@ def measured(data: Any, found: Any, *, axes: Any = None) -> Figure:
     >>> from stackbounce.measure import bounces
     >>> figure = measured(None, bounces([0.0, 0.8, 1.44, 1.952]))
     """
+    found = found[-1] if isinstance(found, Findings) else found
     if not isinstance(getattr(found, "picture", None), str):
         raise InvalidType(f"found must be what an analysis returns, got {drawn_by(found)}")
     module = import_module(f"stackbounce.plots.measurements.{found.picture}")

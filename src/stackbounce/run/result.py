@@ -16,7 +16,7 @@ from stackbounce.errors import InvalidType, InvalidValue, finite, no_attribute, 
 from stackbounce.files import shipped_table
 from stackbounce.library_types import Dataset
 from stackbounce.model import STANDARD_GRAVITY, Drop
-from stackbounce.model.drawing import label, meeting
+from stackbounce.model.drawing import meeting, names_of
 from stackbounce.run.conditioning import amplification, known_until
 from stackbounce.run.paths import Array
 from stackbounce.run.sideways import leave_sideways
@@ -181,8 +181,8 @@ class Result(Shown):
         numbers = (drop.start_velocities, speed, self.rebound_ratios, self.rebound_heights)
         times_ms = (1e3 * self.first_touch, 1e3 * self.last_release)
         balls = [
-            (label(drop.balls[i].name, i), *map(_short, own))
-            for i, own in enumerate(zip(*numbers, strict=True))
+            (name, *map(_short, own))
+            for name, *own in zip(names_of(drop.balls), *numbers, strict=True)
         ]
         contacts = [
             (meeting(drop.balls, i), "∞" if count < 0 else str(count), *map(_short, own))

@@ -243,8 +243,8 @@ def _stacks(
 ) -> list[_Stack]:
     """Return all different stacks of `count` balls, without gaps."""
     if len(balls) < 2 and not repeat:
-        raise InvalidValue(f"balls must be two or more, or repeat be True, got {len(balls)} ball")
-    high = whole("count", count, 2, math.inf if repeat else len(balls))
+        raise InvalidValue(f"balls must be two or more, unless they repeat, got {len(balls)} ball")
+    high = whole("count of balls", count, 2, math.inf if repeat else len(balls))
     many = len(balls) ** high if repeat else math.perm(len(balls), high)
     if many * gaps > _MOST:
         raise InvalidValue(

@@ -157,13 +157,16 @@ def _compared(
     left_out: dict[str, str] = {}
     for name, data in groups.items():
         reason = why_not(data)
-        if reason:
-            left_out[name] = reason
-            continue
-        progress(name)
-        series = make_series(data)
-        without_air = make_series(data, air=False) if series.drag else None
-        found.append(compare_laws(series, without_air, laws))
+        if not reason:
+            progress(name)
+            series = make_series(data)
+            without_air = make_series(data, air=False) if series.drag else None
+            compared = compare_laws(series, without_air, laws)
+            if compared.outcomes:
+                found.append(compared)
+                continue
+            reason = "; ".join(map(": ".join, compared.skipped.items()))
+        left_out[name] = reason
     return SeriesFit(tuple(found), left_out, notes)
 
 

@@ -3,7 +3,7 @@
 import functools
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from numbers import Real
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, TypeVar
@@ -46,8 +46,8 @@ class Quantity(Unit):
         The initial value, the smallest and the largest value of the slider.
     """
 
-    check: Callable[[str, object], float] = positive
-    slider: tuple[float, float, float] = (1.0, 0.0, 1.0)
+    check: Callable[[str, object], float] = field(default=positive, repr=False)
+    slider: tuple[float, float, float] = field(default=(1.0, 0.0, 1.0), repr=False)
 
 
 def stiffness_in(unit: str) -> Quantity:

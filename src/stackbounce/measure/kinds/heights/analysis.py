@@ -181,7 +181,7 @@ def _listed(values: Any) -> list[Any]:
     except TypeError:
         listed = [values]
     if not listed:
-        raise InvalidValue("bounce_heights must hold at least one height, got none")
+        raise InvalidValue("at least one bounce height is needed, got none")
     return listed
 
 
