@@ -14,11 +14,11 @@ FOLDER ?=
 SEED ?= 1
 ATTACKS ?= signals kills pairs stores disks
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal
-# Not the tests of the project's own rules, of the engine (kernels), of pages, benchmarks and kept answers, and none of libraries' warnings of what comes.
+# Not the tests of the project's own rules, of the engine (kernels), of the page's scripts, of pages, benchmarks and kept answers, and none of libraries' warnings of what comes.
 OF_LOWEST := bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal -m 'not slow' \
   --hypothesis-profile=quick -W ignore::DeprecationWarning -W ignore::PendingDeprecationWarning \
   -W ignore::FutureWarning tests --ignore=tests/house --ignore=tests/pages --ignore=tests/frozen --ignore=tests/fuzz \
-  --ignore=tests/explorer/browser --ignore=tests/explorer/test_openapi.py --ignore=tests/test_impacts.py --ignore=tests/engine
+  --ignore=tests/explorer/browser --ignore=tests/explorer/page --ignore=tests/explorer/test_openapi.py --ignore=tests/test_impacts.py --ignore=tests/engine
 # 3: kernels cannot be compiled on this machine, plain Python runs. 4: no compiler is in the environment, but pip's build has one.
 COMPILE := { PYTHONPATH=src $(BIN)/python -m kernel_build; case $$? in 0|3) ;; 4) $(EDITABLE) ;; *) exit 1 ;; esac; }
 EDITABLE := $(INSTALL) --no-deps --editable .

@@ -23,6 +23,12 @@ settings.register_profile("explore", deadline=None, max_examples=2000)
 settings.load_profile("steady")
 
 
+@pytest.fixture
+def little_work(monkeypatch):
+    """Let a run cost a fifth of the work that it may by default."""
+    monkeypatch.setattr("stackbounce.run.options.WORK_LIMIT", 30_000_000)
+
+
 def pytest_configure(config):
     """Make the page of the present sources, once for all processes."""
     if not hasattr(config, "workerinput"):

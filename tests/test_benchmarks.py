@@ -58,7 +58,7 @@ def test_a_missing_peer_is_skipped_with_a_word(small):
 
 
 @pytest.mark.slow
-def test_starts_are_told_next_to_numpy():
+def test_starts_are_told_next_to_numpy(monkeypatch):
     starts = startup.measure(quiet, rounds=1)
     assert [start.name for start in starts] == list(startup.STARTS)
     base = starts[1]
@@ -66,6 +66,7 @@ def test_starts_are_told_next_to_numpy():
     assert min(min(start.processor, start.clock) for start in starts) > 0.0
     assert report.startup_times(starts)[1][::2] == [startup.BASE, "1.00", "1.00"]
     assert len(figures.startup(starts).axes[0].patches) == 2 * len(starts)
+    monkeypatch.setattr(startup, "STARTS", dict([*startup.STARTS.items()][:3]))
     imports = report.import_times(startup.imports(quiet, rounds=1))
     assert [imports[0], imports[1][0]] == [["python", ""], startup.BASE]
     assert "numpy" in imports[1][1]

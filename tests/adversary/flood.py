@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 
 import httpx
 
-from adversary.server import LONG_RUN, Server, make_drop, serving
+from adversary.server import LONG_RUN, PATIENCE, Server, make_drop, serving
 
 _FLOODER, _OTHER = "127.0.0.2", "127.0.0.1"
 _SPRING = {"law": "Spring", "stiffness": 2500.0}
@@ -142,7 +142,7 @@ def main() -> int:
     slow = False
     for name in arguments.kinds.split(","):
         with serving("--host", "0.0.0.0") as server:
-            httpx.post(f"{server.address}api/predict", json=_SMALL, timeout=60.0)
+            httpx.post(f"{server.address}api/predict", json=_SMALL, timeout=PATIENCE)
             seen = flood(server, name, arguments.seconds)
         times = (f"{f(seen.times):.2f} s" for f in (statistics.median, max))
         failed = ", ".join(f"{count} × {what}" for what, count in Counter(seen.failed).items())

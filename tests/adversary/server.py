@@ -10,6 +10,8 @@ from urllib.parse import urlsplit
 
 import psutil
 
+PATIENCE = 300.0  # s until an answer: it is slow while other tests have the processors
+
 
 def make_drop(balls: int, contact: dict[str, Any], **more: float) -> dict[str, Any]:
     """Return so many balls with the same contacts, as a request has them."""
@@ -41,14 +43,22 @@ class Server:
 
 
 @contextlib.contextmanager
+def running(command: list[str], **pipes: Any) -> Iterator[subprocess.Popen[str]]:
+    """Run a command, and end it also where what is done meanwhile fails."""
+    pipes |= {"stdout": subprocess.PIPE, "encoding": "utf-8"}
+    with subprocess.Popen(command, **pipes) as process:
+        try:
+            yield process
+        finally:
+            process.terminate()
+
+
+@contextlib.contextmanager
 def serving(*options: str, workers: int = 2, **pipes: Any) -> Iterator[Server]:
     """Run a server at a free port of this machine."""
     command = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--port", "0"]
     command += ["--workers", str(workers), *options]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, **pipes) as process:
-        try:
-            assert process.stdout is not None
-            port = urlsplit(process.stdout.readline().split()[2]).port
-            yield Server(f"http://127.0.0.1:{port}/", process)
-        finally:
-            process.terminate()
+    with running(command, **pipes) as process:
+        assert process.stdout is not None
+        port = urlsplit(process.stdout.readline().split()[2]).port
+        yield Server(f"http://127.0.0.1:{port}/", process)

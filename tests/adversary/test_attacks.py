@@ -11,7 +11,7 @@ import pytest
 from adversary.table import begin, expect, row
 
 TESTS = Path(__file__).parents[1]
-COUNTS = {"signals": 1, "kills": 4, "pairs": 7, "stores": 5, "disks": 3}
+COUNTS = {"signals": 1, "kills": 2, "pairs": 3, "stores": 2, "disks": 1}
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ import httpx
 import pytest
 
 from adversary.flood import flood
-from adversary.server import serving
+from adversary.server import PATIENCE, serving
 
 pytestmark = pytest.mark.slow
 
@@ -35,7 +35,7 @@ async def measured(address, clients):
 
     async def one(own):
         transport = httpx.AsyncHTTPTransport(local_address=own)
-        async with httpx.AsyncClient(transport=transport, timeout=120.0) as client:
+        async with httpx.AsyncClient(transport=transport, timeout=PATIENCE) as client:
             file = {"file": ("force.csv", RECORD.read_bytes())}
             return (await client.post(f"{address}api/measure", files=file)).status_code
 

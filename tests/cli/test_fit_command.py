@@ -169,7 +169,7 @@ def test_draws_in_a_table(fit):
 def test_a_terminal_sees_how_far_the_draws_are(tmp_path):
     ours, theirs = os.openpty()
     code = "import sys; from stackbounce.cli import main; sys.exit(main(sys.argv[1:]))"
-    command = [sys.executable, "-c", code, "fit", *ONE, "--sample", "320000"]
+    command = [sys.executable, "-c", code, "fit", *ONE, "--sample", "64000"]
     options = {"stderr": theirs, "stdout": subprocess.DEVNULL, "cwd": tmp_path}
     with subprocess.Popen(command, **options) as process:
         os.close(theirs)
@@ -179,7 +179,7 @@ def test_a_terminal_sees_how_far_the_draws_are(tmp_path):
                 seen += more
     os.close(ours)
     assert process.returncode == 0
-    assert b"320000/320000" in seen
+    assert b"64000/64000" in seen
 
 
 def test_an_interruption_leaves_nothing_behind(run, tmp_path, monkeypatch):

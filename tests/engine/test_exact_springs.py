@@ -125,7 +125,7 @@ def varied(case, random):
 
 
 @pytest.mark.parametrize(
-    "seed", [*range(4), *(pytest.param(k, marks=pytest.mark.slow) for k in range(4, 20))]
+    "seed", [*range(4), *(pytest.param(k, marks=pytest.mark.slow) for k in range(4, 10))]
 )
 def test_times_of_random_stacks_against_a_finer_run(seed):
     random, compared = Random(seed), 0

@@ -104,7 +104,7 @@ def test_a_vibration_loses_energy_in_more_cycles_than_are_remembered():
 def test_stacks_with_hysteresis_come_to_rest_where_their_curves_carry_them():
     """At rest each force is its weight, at about the compression of the last moment before."""
     random, seen = np.random.default_rng(8), 0
-    for _ in range(15):
+    for _ in range(8):
         size = int(random.integers(1, 4))
         laws = [
             sb.Hysteretic(10 ** random.uniform(3.0, 5.0), restitution=random.uniform(0.3, 0.95))
@@ -118,8 +118,7 @@ def test_stacks_with_hysteresis_come_to_rest_where_their_curves_carry_them():
         weights = 9.81 * np.cumsum([ball.mass for ball in balls][::-1])[::-1]
         rest = result.sample([result.end_time * 0.999, 1000.0])
         assert rest.force.values[:, 1] == pytest.approx(weights)
-        assert rest.compression.values[:, 1] == pytest.approx(
-            rest.compression.values[:, 0], rel=0.2
-        )
+        before, at_rest = rest.compression.values.T
+        assert at_rest == pytest.approx(before, rel=0.2)
         seen += size > 1
-    assert seen > 7
+    assert seen > 3

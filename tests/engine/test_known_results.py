@@ -129,11 +129,11 @@ CONTACTS = {
     ),
 }
 AXES = {
-    "gaps.0": np.linspace(0.0, 8e-3, 10_000),
-    "balls.1.mass": np.geomspace(0.005, 1.0, 10_000),
-    "impact_speed": np.geomspace(0.1, 10.0, 10_000),
+    "gaps.0": np.linspace(0.0, 8e-3, 5_000),
+    "balls.1.mass": np.geomspace(0.005, 1.0, 5_000),
+    "impact_speed": np.geomspace(0.1, 10.0, 5_000),
 }
-SUSPECTS = 10  # steps between neighbours that are looked at closely
+SUSPECTS = 6  # steps between neighbours that are looked at closely
 FINEST = 1e-15  # of a value
 JUMP = 1e-8
 

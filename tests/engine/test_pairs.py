@@ -19,7 +19,7 @@ from stackbounce.run.paths import base_rows, number_at
 
 HERTZ = sb.Drop([sb.Ball(0.15), sb.Ball(0.057)], [sb.Hertz(1e6)] * 2, impact_speed=2.0)
 LIMIT = 1_000_000
-COUNTS = [(3000, False), (1000, True), pytest.param(20_000, False, marks=pytest.mark.slow)]
+COUNTS = [(3000, False), (1000, True), pytest.param(8000, False, marks=pytest.mark.slow)]
 ENTRIES = [(run_pairs, codes.PAIR_FORMS, 1e-6), (run_linear, codes.LINEAR_FORMS, LIMIT)]
 
 

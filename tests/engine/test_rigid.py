@@ -221,7 +221,7 @@ def near_threshold(random):
 
 
 @pytest.mark.fast_cases(1)
-@pytest.mark.parametrize(("seed", "count"), [(1, 200), (2, 8_000)])
+@pytest.mark.parametrize(("seed", "count"), [(1, 200), (2, 3_000)])
 def test_next_to_the_threshold(seed, count):
     random = np.random.default_rng(seed)
     for _ in range(count):

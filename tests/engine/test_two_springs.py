@@ -228,7 +228,7 @@ def test_plain_python_and_compiled_code_of_special_stacks(name, options):
 
 
 @pytest.mark.parametrize(
-    "drops", [100, pytest.param(500, marks=pytest.mark.slow)], ids=["few", "many"]
+    "drops", [100, pytest.param(250, marks=pytest.mark.slow)], ids=["few", "many"]
 )
 def test_plain_python_and_compiled_code(drops):
     share = drops // len(BATCHES)

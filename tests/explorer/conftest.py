@@ -5,7 +5,7 @@ import copy
 import httpx
 import pytest
 
-from adversary.server import serving
+from adversary.server import PATIENCE, serving
 
 DROP = {
     "balls": [{"mass": "150 g", "name": "basketball"}, {"mass": "57 g"}],
@@ -23,7 +23,7 @@ def address_of_server():
 
 @pytest.fixture(scope="session")
 def server(address_of_server):
-    with httpx.Client(base_url=address_of_server, timeout=120.0) as client:
+    with httpx.Client(base_url=address_of_server, timeout=PATIENCE) as client:
         yield client
 
 

@@ -10,7 +10,7 @@ from coverage_cases import chosen
 
 pytestmark = pytest.mark.slow
 
-FEW = chosen(CASES, "two springs with a gap", "Hysteretic")
+FEW = chosen(CASES, "two springs with a gap")
 """All intervals and draws are left to `python -m benchmarks.coverage`."""
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import httpx
 import pytest
 
+from adversary.server import PATIENCE, running
 from stackbounce.errors import MissingExtra
 from stackbounce.explorer.made import HEADERS, one_file
 from stackbounce.extras import EXTRAS, MEASURING, need
@@ -88,12 +89,12 @@ def test_a_plain_install_runs(arguments, tmp_path):
 
 def test_a_plain_install_serves_the_page_that_plays():
     command = [sys.executable, "-c", COMMAND, "app", "--no-browser", "--port", "0"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-        address = process.stdout.readline().decode().split()[2]
-        assert process.stdout.readline().decode().endswith("pip install 'stackbounce[app]'\n")
+    with running(command, stderr=subprocess.PIPE) as process:
+        address = process.stdout.readline().split()[2]
+        assert process.stdout.readline().endswith("pip install 'stackbounce[app]'\n")
         page, nothing = httpx.get(f"{address}?lang=de"), httpx.get(f"{address}api/places")
         process.terminate()
-        assert process.communicate(timeout=30) == (b"", b"")
+        assert process.communicate(timeout=PATIENCE) == ("", "")
     assert (page.status_code, page.text, process.returncode) == (200, one_file(), 0)
     assert page.headers["content-security-policy"] == "frame-ancestors 'none'"
     assert page.headers.items() >= HEADERS.items()

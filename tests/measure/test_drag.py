@@ -89,7 +89,7 @@ def drawn(seed):
 def test_an_unsure_drag_is_in_the_errors():
     """The truth lies within one sigma as often as it should; an exact drag would promise more."""
     found = {"first": [], "mean of a line": [], "height": [], "exact": []}
-    for seed in range(100):
+    for seed in range(60):
         fall, times, random = drawn(seed)
         told = bounces(times, time_error=2e-4, drag=UNSURE)
         found["first"].append(near(told.restitutions[0], fall.restitutions[1], 1.0))
@@ -100,8 +100,8 @@ def test_an_unsure_drag_is_in_the_errors():
         ruler = heights(read[0], read[1:], height_error=1e-3, drag=UNSURE)
         found["height"].append(near(ruler.restitutions[0], fall.restitutions[0], 1.0))
     hits = {name: sum(one) for name, one in found.items()}
-    assert all(possible(hits[name], 100) for name in ("first", "mean of a line", "height")), hits
-    assert hits["exact"] < hits["first"] - 15
+    assert all(possible(hits[name], 60) for name in ("first", "mean of a line", "height")), hits
+    assert hits["exact"] < hits["first"] - 9
 
 
 def test_an_error_of_the_drag_is_one_of_all_restitutions():
@@ -289,7 +289,7 @@ def test_ugly_tracks_in_air(how):
 @pytest.mark.parametrize("unsure", [False, True])
 def test_the_truth_lies_within_one_sigma_as_often_as_it_should(unsure):
     hits = dict.fromkeys(["restitution", "impact speed", "drop height", "gravity"], 0)
-    for seed in range(100):
+    for seed in range(60):
         random = np.random.default_rng([seed, 7])
         true = random.normal(0.45, 0.05) if unsure else 0.45
         fall = falls_in_air(0.6, kept, coefficient=true, bounces=4)
@@ -302,8 +302,7 @@ def test_the_truth_lies_within_one_sigma_as_often_as_it_should(unsure):
         )
         for name, (found, value) in zip(hits, rows, strict=True):
             hits[name] += abs(found.n - value) <= found.s
-    for name, count in hits.items():
-        assert possible(count, 100, 0.60, 0.76), (name, count)
+    assert all(possible(count, 60, 0.60, 0.76) for count in hits.values()), hits
 
 
 def test_an_error_of_the_drag_is_the_change_by_it():

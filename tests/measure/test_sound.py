@@ -72,13 +72,6 @@ def test_fast_bounces_at_the_end():
     assert as_true(knocks(sound(fall, seed=2)), fall)
 
 
-@pytest.mark.slow
-def test_two_hundred_knocks():
-    found = knocks(sound(falls(0.05, 0.985, bounces=200), noise=0.0005, seed=1))
-    assert len(found.times) >= 190
-    assert bounces(found).mean.nominal_value == pytest.approx(0.985, abs=1e-4)
-
-
 def test_a_missed_bounce_is_told():
     quiet = sound(FALL, seed=3)
     start = FALL.touches[4] - FALL.touches[0] + 0.5
@@ -129,8 +122,8 @@ def test_what_is_no_recording(data, options, error, words):
 
 
 @pytest.mark.slow
-def test_ten_minutes_take_hardly_more_steps_than_seconds():
-    noise = np.random.default_rng(1).normal(0.0, 0.002, 600 * 48000).astype(np.float32)
+def test_two_minutes_take_hardly_more_steps_than_seconds():
+    noise = np.random.default_rng(1).normal(0.0, 0.002, 120 * 48000).astype(np.float32)
     short = sound(FALL, seed=1).sound.values
     noise[1_000_000 : 1_000_000 + len(short)] += short
     _, few = calls_of(knocks, short, rate=48000.0)
