@@ -397,10 +397,13 @@ def rounded(values: Iterable[float], error: float) -> list[str]:
     --------
     >>> rounded((1048.807, 44.268), 44.268), rounded((0.99459, 0.0123), 0.0123)
     (['1049', '44'], ['0.995', '0.012'])
+    >>> rounded((0.00963, 9.8e-7), 9.8e-7)
+    ['0.00963000', '9.8e-07']
     """
     if not (math.isfinite(error) and error > 0.0):
         return [f"{value:.4g}" for value in values]
     places = 1 - math.floor(math.log10(error))
     if not -6 < places < 8:
-        return [f"{value:.3g}" for value in values]
+        digits = ((value, places + 1 + math.log10(abs(value) or error)) for value in values)
+        return [f"{x:#.{int(min(max(2, count), 17))}g}".removesuffix(".") for x, count in digits]
     return [f"{value:.{max(0, places)}f}" for value in values]

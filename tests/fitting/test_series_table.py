@@ -40,6 +40,7 @@ PAIRS = (  # heights of 1 m and 0.5 m, rebounds of 0.64 m and 0.33 m, in the way
     "h0,h1\n1.00,0.64\n0.50,0.33\n",
     "Height [mm],Height of bounce [mm],temperature\n1000,640,21\n500,330,21\n",
     "drop height (cm),Average rebound height (cm)\n100,64\n,20\n50,33\n50,-\n",
+    "Lab 3;;;\ndrop height/m;rebound height/m;;mean\n1,00e+00;,64;;\n5,00E-01;,33;;\n",
 )
 
 
@@ -116,6 +117,12 @@ def test_errors_stand_in_columns_cells_or_headings(table, text):
     )
     assert series.freedom() == np.inf
     assert not series.has_assumed_errors
+
+
+def test_joined_cells_and_points_without_a_zero_before_them(table):
+    read = table("ball,h0 (m),h1 (m)\na,1,.642\n,.5,.333\nb,1,.502\n,.5,.251\n")
+    found = {(len(data.row), data.rebound_height.assumed_error) for data in read.groups.values()}
+    assert (found, [*read.groups]) == ({(2, 0.0005)}, ["a", "b"])
 
 
 def test_an_error_told_beside_the_table_and_half_a_digit_without(table):

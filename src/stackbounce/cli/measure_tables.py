@@ -65,8 +65,11 @@ def save_ball(
 ) -> dict[str, Any]:
     """Write the ball that was measured as a scenario file, and return what is in it."""
     from stackbounce.measure import one_ball
+    from stackbounce.measure.setup import Setup
 
-    parts = [found.parts() for measurement in done for found in measurement.found]
+    fall = Setup.of(("height", "measured_to", "diameter"), known).drop_height
+    parts: list[dict[str, Any]] = [] if fall is None else [{"height": nominal(fall)}]
+    parts += [found.parts() for measurement in done for found in measurement.found]
     if law is not None:
         parts = [{key: part[key] for key in part if key != "contact"} for part in parts]
         parts.append(law.parts())

@@ -21,7 +21,7 @@ _BAD = 0.05  # probability of chi squared below which an outlier is looked for
 _RARE = 0.01  # probability that one of all data is as far off by chance, for an outlier at most
 _ALONE = 1e-6  # one less the leverage of a number that determines a parameter alone
 _SHARE = 0.3  # of the largest part of an undetermined direction: parameters above it are named
-_EDGE = 1e-3  # of the width between the bounds: how near a bound is reached
+_EDGE, _EDGES = 1e-3, 3.0  # of the width between the bounds, and errors: how near one is reached
 
 
 def describe_goodness(fit: "Fit") -> str:
@@ -82,9 +82,10 @@ def list_notes(fit: "Fit") -> Iterator[str]:
 
 def _note_bounds(fit: "Fit") -> Iterator[str]:
     for parameter, at in zip(fit.objective.parameters, fit.x, strict=True):
-        low, high = parameter.span
+        (low, high), best = parameter.span, fit.values[parameter.name]
         for end, value in ((low, parameter.low), (high, parameter.high)):
-            if abs(at - end) < _EDGE * (high - low):
+            beyond = abs(best.nominal_value - value) > _EDGES * best.std_dev
+            if abs(at - end) < _EDGE * (high - low) and not beyond:
                 yield f"{parameter.name} lies at its bound, {value:g} {parameter.unit}".rstrip()
 
 

@@ -15,7 +15,7 @@ File = str | os.PathLike[str] | tuple[str, bytes]
 Row = tuple[int, list[str]]
 """The number of a line, counted from 1, and its cells."""
 
-_MARKED = re.compile(r"\d+(?:[.,]\d+)+")  # decimal mark, or marks between thousands
+_MARKED = re.compile(r"\d*(?:[.,]\d+)+")  # decimal mark, or marks between thousands
 _MOST = 1000  # rows of a table
 _GROUPED = re.compile(r"[1-9]\d{0,2}(?:,\d{3})+")
 
@@ -70,7 +70,8 @@ def decimal_comma(cells: list[tuple[str, str]]) -> bool:
     point = next((text for text, _ in numbers if "." in text), "")
     for text, where in commas[:1]:
         if point:
-            raise InvalidValue(f"{where}: {text} has a comma, but {point} a decimal point")
+            other = f"but {point} a decimal" if point != text else "and a"
+            raise InvalidValue(f"{where}: {text} has a comma, {other} point: write only one mark")
         if all(_GROUPED.fullmatch(number) for number, _ in commas):
             raise InvalidValue(f"{where}: {text} can be read in two ways: write it without a comma")
     return bool(commas)

@@ -92,12 +92,7 @@ class _StoppedError(Exception):
 
 
 def solve(
-    drop: Drop,
-    rows: Rows,
-    shape: Sequence[int],
-    options: Options,
-    *,
-    compiled: bool | None = None,
+    drop: Drop, rows: Rows, shape: Sequence[int], options: Options, *, compiled: bool | None = None
 ) -> Outcomes:
     """Run all drops of a grid, which differ from a base drop in some parameters.
 

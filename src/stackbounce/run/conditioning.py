@@ -81,11 +81,7 @@ def amplification(rerun: Callable[..., Any], final: Sequence[float], speed: floa
 
 
 def known_until(
-    rerun: Callable[..., Any],
-    end: float,
-    speed: float,
-    conditioning: Array,
-    precision: float,
+    rerun: Callable[..., Any], end: float, speed: float, conditioning: Array, precision: float
 ) -> float:
     """Return the time in s up to which the speeds of all balls have a digit; see `Result`.
 

@@ -298,6 +298,10 @@ class Result(Shown):
         found by 20 more runs, at the first use. Exponents have no error here, nor has the
         restitution of `Rigid`; that of `RigidBySpeed` has one.
 
+        An error that arises within the run, as `rtol` allows, can grow more than those of the
+        numbers: where balls meet late and gently under gravity, an error of their slow approach
+        shifts the time of the touch, and gravity makes another speed of that.
+
         Examples
         --------
         Balls that go on bouncing on each other multiply an error:

@@ -4,7 +4,8 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import zip_longest
+from decimal import Decimal
+from itertools import pairwise, zip_longest
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,8 +24,8 @@ STARTS = ("drop_height", "impact_speed")  # roles of what was before a bounce
 MEASURED = ("rebound_height", "rebound_speed", "restitution")  # of what was measured after it
 
 _RIGHT = "'drop height (cm)' and 'rebound height (cm)', or 'v (m/s)' and 'e'"
-_NUMBER = re.compile(r"[-+]?[\d.,]*\d\s*([^\W\d_]{1,3}|%|±.*|\+/-.*|\(.*)?")
-_DECIMALS = re.compile(r"\d+\.(\d+)")
+_NUMBER = re.compile(r"[-+]?[\d.,]*\d(?:[eE][-+]?\d+)?\s*([^\W\d_]{1,3}|%|±.*|\+/-.*|\(.*)?")
+_DIGITS = re.compile(r"\d*\.?\d+(?:[eE][-+]?\d+)?")
 _SIZES = ((500.0, "mm"), (5.0, "cm"), (0.0, "m"))  # of the largest height, where no unit is told
 _ENOUGH = 5  # numbers that all end in 0, or in 0 and 5, were not read more finely
 _SUCCESSIVE = 0.5  # of the logarithm of the first ratio of heights: bounces in turn fall by more
@@ -41,7 +42,9 @@ def readings_of(rows: Sequence[Row]) -> tuple[DataFrame, str, list[str]]:
 
     notes: list[str] = []
     head, body = headed(rows)
-    columns, words = _resolved(columns_of(head), body, notes)
+    named = columns_of(head)
+    _carry_down([column for column in named if column.role == "group"], body, notes)
+    columns, words = _resolved(named, body, notes)
     numbers = numbers_in(columns, body, notes)
     groups = [", ".join(filter(None, (_cell(cells, k) for k in words))) for _, cells in body]
     found, measured = _by_drop(columns, numbers, [line for line, _ in body], groups, notes)
@@ -59,8 +62,8 @@ def headed(rows: Sequence[Row]) -> tuple[list[str], Sequence[Row]]:
     if not first:
         what = "no row with two numbers" if first is None else "no heading above its numbers"
         raise InvalidValue(f"it has {what}: columns must have names, such as {_RIGHT}")
-    named = (k for k in range(first) if sum(bool(c.role) for c in columns_of(rows[k][1])) > 1)
-    at = next(named, first - 1)
+    roles = [[c.role for c in columns_of([*filter(None, cells)])] for _, cells in rows[:first]]
+    at = next((k for k, known in enumerate(roles) if sum(map(bool, known)) > 1), first - 1)
     head, units = rows[at][1], rows[at + 1][1]
     if at + 1 < first and all(is_unit(cell) for cell in units if cell):
         pairs = zip_longest(head, units, fillvalue="")
@@ -73,6 +76,15 @@ def headed(rows: Sequence[Row]) -> tuple[list[str], Sequence[Row]]:
                 "one, and numbers with decimal commas need semicolons between them"
             )
     return head, rows[at + 1 :]
+
+
+def _carry_down(groups: Sequence[Column], body: Sequence[Row], notes: list[str]) -> None:
+    """Write a name, as of a ball, also into the empty cells below it, which a sheet may join."""
+    for column in groups:
+        for (_, above), (line, cells) in pairwise(body):
+            if _cell(above, column.index) and cells[column.index : column.index + 1] == [""]:
+                cells[column.index] = _cell(above, column.index)
+                notes.append(f"Row {line} has no {column.text!r}: taken as {cells[column.index]}.")
 
 
 def _cell(cells: Sequence[str], index: int) -> str:
@@ -171,11 +183,10 @@ def _numbers(column: Column, columns: Sequence[Column], body: Sequence[Row], usu
     if column.error:
         told = quantity_with_error(column.error, unit, column.text, written)
         errors = np.where(np.isnan(errors), told, errors)
-    decimals = max(
-        (len(found[1]) for cell in cells if (found := _DECIMALS.search(cell))), default=0
-    )
+    read = (Decimal(found[0]) for cell in cells if (found := _DIGITS.search(cell)))
+    last = min((int(number.as_tuple().exponent) for number in read), default=0)
     one = quantity(f"1 {written}".strip(), unit, column.text)
-    return Numbers(values, errors, _step(values, one * 10.0**-decimals))
+    return Numbers(values, errors, _step(values, one * 10.0**last))
 
 
 def _step(values: Array, digit: float) -> float:

@@ -13,7 +13,7 @@ _WORDS = re.compile(r"(.+?)(?:\s*/\s*|,\s*|\s+in\s+|\s+|_)(\S{1,20})")
 _UNIT_NAME = re.compile(
     r"(sec|seconds?|volts?|newtons?|met(?:er|re)s?)(?: ?\d{1,2})?", re.IGNORECASE
 )
-_SURE = re.compile(r".+?(?:\s*/\s*|,\s*|\s+in\s+)\S{1,20}")
+_SURE = re.compile(r"(.+?)(?:\s*/\s*|,\s*|\s+in\s+)(\S{1,20})")
 FRAME, PIXEL = "frame", "px"
 """The units of time and of length in a video whose frame rate and scale are not known."""
 
@@ -76,6 +76,8 @@ def heading(text: str, unit: str | None = None) -> Heading:
     Heading(text='Run 1: Time (ms)', name='Time', unit='ms', run='Run 1')
     >>> heading("Force / N").unit, heading("force_N").unit, heading("Volt1").unit
     ('N', 'N', 'volt')
+    >>> heading("drop height/cm").name, heading("v/(m/s)").name
+    ('drop height', 'v')
     """
     text = " ".join(text.lstrip("#%").split())[:200]
     name, run = text.removesuffix(" Auto"), ""  # of times that Capstone counts itself
@@ -84,9 +86,10 @@ def heading(text: str, unit: str | None = None) -> Heading:
     if unit is not None:
         return Heading(text, name, unit.strip(" ()[]"), run)
     if found := _BRACKETS.fullmatch(name):
-        return Heading(text, found[1], (found[2] or found[3] or "").strip(), run)
-    if (found := _WORDS.fullmatch(name)) and in_si(found[2], common=not _SURE.fullmatch(name)):
-        return Heading(text, found[1], found[2], run)
+        return Heading(text, found[1].rstrip("/ "), (found[2] or found[3] or "").strip(), run)
+    for found in filter(None, (_WORDS.fullmatch(name), _SURE.fullmatch(name))):
+        if in_si(found[2], common=not _SURE.fullmatch(name)):
+            return Heading(text, found[1], found[2], run)
     if found := _UNIT_NAME.fullmatch(name):
         return Heading(text, name, found[1].casefold(), run)
     return Heading(text, name, "", run)

@@ -86,13 +86,7 @@ def onsets(white: Samples, rate: float, about: Array, rounded: float, faint: flo
 
 
 def _knock(
-    values: Samples,
-    time: float,
-    rate: float,
-    reach: float,
-    thin: int,
-    rounded: float,
-    faint: float,
+    values: Samples, time: float, rate: float, reach: float, thin: int, rounded: float, faint: float
 ) -> _Knock:
     rate /= thin
     at, half = round(time * rate), round(reach * rate)
