@@ -117,14 +117,14 @@ QUIET = np.random.default_rng(1).normal(0.0, 0.5, len(TIMES))
 @pytest.mark.parametrize(
     ("value", "kind", "message"),
     [
-        ((TIMES, QUIET), InvalidValue, "must begin before a contact and contain it, got 4"),
-        ((TIMES[150:], FORCE[150:]), InvalidValue, "must begin before a contact and contain it"),
+        ((TIMES, QUIET), InvalidValue, "must begin before a contact and hold it: 4"),
+        ((TIMES[150:], FORCE[150:]), InvalidValue, "must begin before a contact and hold it"),
         ((TIMES, np.where(BEFORE, 0.0, 1.0)), InvalidValue, "must begin before a contact"),
         ((TIMES, FORCE * np.nan), InvalidValue, "must"),
         ((TIMES[1:], FORCE), InvalidValue, "must hold time and force of one length"),
         (([], []), InvalidValue, "must hold at least 8 samples"),
         (None, InvalidType, "must be a DataArray over time, or times, forces and their error"),
-        (5.0, InvalidType, "must be a DataArray over time"),
+        ((np.r_[TIMES, TIMES + 0.2], np.r_[FORCE, FORCE]), InvalidValue, "got 2 contacts"),
         ((TIMES, FORCE, 0.5, 1.0), InvalidType, "must be a DataArray over time"),
         ((TIMES, FORCE, 0.0), InvalidValue, "'s error must be a positive number, got 0"),
         ((TIMES, FORCE, np.nan), InvalidValue, "'s error must be a positive number, got nan"),

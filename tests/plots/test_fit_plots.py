@@ -80,7 +80,7 @@ def test_a_curve_over_one_parameter(one):
 @pytest.mark.slow
 def test_two_parameters_have_a_profile_each(two):
     _, bar, *panels = plots.fitted(two).axes
-    assert bar.get_ylabel() == "fitted − measured,\nin errors"
+    assert bar.get_ylabel() == "off by\n(errors)"
     assert [axes.get_xlabel() for axes in panels] == ["contacts.1.stiffness (N/m)", "gaps.0 (mm)"]
     for axes, name in zip(panels, two.names, strict=True):
         values, above = max((line.get_data() for line in axes.lines), key=lambda data: len(data[0]))
@@ -143,5 +143,5 @@ def test_a_corner_has_a_panel_for_each_pair(which, request):
 
 def test_numbers_end_where_their_error_does():
     assert rounded((1.0, 0.5), 0.0) == ["1", "0.5"]
-    assert rounded((1.23456e9,), 1e7) == ["1.23e+09"]
+    assert rounded((1.23456e9,), 1e7) == ["1.235e+09"]
     assert rounded((1234567.0,), 1234.0) == ["1234567"]

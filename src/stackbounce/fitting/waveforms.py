@@ -93,7 +93,8 @@ def read_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
     Raises
     ------
     InvalidValue
-        If there is no such contact, or no contact can be found in the record.
+        If there is no such contact, no contact can be found in the record, or several of one ball
+        without gravity, which makes one.
     InvalidType
         If the value is of another type.
 
@@ -117,9 +118,9 @@ def read_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
     with placed(f"{path}: "):
         found = analysed((times, force))
     if not found.contacts or found.contacts[0].start is None:
-        raise InvalidValue(
-            f"{path} must begin before a contact and contain it, got {len(times)} samples"
-        )
+        raise InvalidValue(f"{path} must begin before a contact and hold it: {len(times)} samples")
+    if len(drop.balls) == 1 and not drop.gravity and (count := len(found.contacts)) > 1:
+        raise InvalidValue(f"{path} must end before the next bounce, got {count} contacts")
     sigma = found.noise if error is None else positive(f"{path}'s error", error)
     if not sigma > 0.0:
         raise InvalidValue(f"{path} must have the error of a sample: its own scatter is 0")

@@ -153,7 +153,7 @@ def fitted(fit: Any, *, axes: Any = None) -> Figure:
             figure, given = list_axes(axes, len(draws))
             own = iter(given)
         else:
-            figure.suptitle(fit.remarks[0], x=0.01, ha="left", fontsize=8.5)
+            figure.suptitle(fit.remarks[0], x=0.01, ha="left", fontsize=8.5, wrap=True)
             parts = figure.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0]
             if number:
                 draw_panels(parts[0], {"": fit}, number)

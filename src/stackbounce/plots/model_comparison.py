@@ -114,7 +114,7 @@ def draw_pulls(axes: Axes, pulls: Mapping[str, Sequence[float]], data: Sequence[
     axes.tick_params(axis="x", labelsize=8)
     axes.grid(visible=False)
     bar = axes.figure.colorbar(shown, ax=axes, extend="both", pad=0.015, fraction=0.05)
-    bar.set_label("fitted − measured,\nin errors")
+    bar.set_label("off by\n(errors)" if len(table) < 3 else "fitted − measured,\nin errors")
 
 
 def _written(pull: float) -> str:

@@ -71,8 +71,8 @@ def _unrecognised(data: Any) -> Message:
     if hint is None:
         tell = OptionHint({"holds": None, "names": None})
         return Message(f"{said}If it is one of {kinds}: ", tell, " tell so")
-    of = "times and heights" if what == "track" else "times"
-    return Message(f"{said}For {of} of a ball: ", hint, f"; other kinds: {kinds}")
+    told = f"{said}For times {'and heights ' * (what == 'track')}of a ball: "
+    return Message(told, hint, f"; other kinds: {kinds}")
 
 
 def _hint(data: Any, columns: Sequence[Any]) -> tuple[str, OptionHint | None]:
@@ -87,13 +87,12 @@ def _hint(data: Any, columns: Sequence[Any]) -> tuple[str, OptionHint | None]:
     lengths = [c for c in others if c.attrs["units"] in ("m", "px") or _is_bare(c)]
     places = [c for c in lengths if _PLACE.search(re.split(r"\s*[(\[/]", c.attrs["long_name"])[0])]
     if not places and len(others) == 1 and np.median(steps) > _LONGEST_SAMPLE:
-        places = [
-            c for c in lengths if c.attrs["units"] or _NAMELESS.fullmatch(c.attrs["long_name"])
-        ]
+        places = [c for c in lengths if c.units or _NAMELESS.fullmatch(c.long_name)]
     if (in_seconds or clock.name == "time") and not places and len(others) < 2 and _faster(steps):
         what, names = "knocks", {clock.attrs["column"]: "knock_time"}
     elif places and not slow and len(steps) >= _FEWEST_STEPS:
-        what, names = "track", {clock.attrs["column"]: "time", places[0].attrs["column"]: "y"}
+        what, names = "track", {clock.attrs["column"]: "time"}
+        names |= {place.attrs["column"]: "y" for place in places}
     else:
         return "", None
     return what, OptionHint({"holds": what, "names": names}, str(data.attrs.get("source", "FILE")))
