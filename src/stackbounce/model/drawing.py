@@ -1,5 +1,6 @@
 """A stack as a small drawing for a notebook, and the names of its balls."""
 
+from collections import Counter
 from collections.abc import Sequence
 from html import escape
 
@@ -25,7 +26,8 @@ def names_of(balls: Sequence[Ball]) -> list[str]:
     given = [ball.name or f"ball {i}" for i, ball in enumerate(balls)]
     names = ["".join(c if c.isprintable() else "?" for c in name) for name in given]
     names = [name if len(name) <= _LONG else name[: _LONG - 1] + "…" for name in names]
-    return [f"{name} ({i})" if names.count(name) > 1 else name for i, name in enumerate(names)]
+    many = Counter(names)
+    return [f"{name} ({i})" if many[name] > 1 else name for i, name in enumerate(names)]
 
 
 def draw_stack(balls: Sequence[Ball], gaps: Sequence[float], *, floor: bool) -> str:

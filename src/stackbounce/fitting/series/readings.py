@@ -42,9 +42,8 @@ def readings_of(rows: Sequence[Row]) -> tuple[DataFrame, str, list[str]]:
 
     notes: list[str] = []
     head, body = headed(rows)
-    named = columns_of(head)
-    _carry_down([column for column in named if column.role == "group"], body, notes)
-    columns, words = _resolved(named, body, notes)
+    _carry_down(columns_of(head), body, notes)
+    columns, words = _resolved(columns_of(head), body, notes)
     numbers = numbers_in(columns, body, notes)
     groups = [", ".join(filter(None, (_cell(cells, k) for k in words))) for _, cells in body]
     found, measured = _by_drop(columns, numbers, [line for line, _ in body], groups, notes)
@@ -78,9 +77,9 @@ def headed(rows: Sequence[Row]) -> tuple[list[str], Sequence[Row]]:
     return head, rows[at + 1 :]
 
 
-def _carry_down(groups: Sequence[Column], body: Sequence[Row], notes: list[str]) -> None:
-    """Write a name, as of a ball, also into the empty cells below it, which a sheet may join."""
-    for column in groups:
+def _carry_down(columns: Sequence[Column], body: Sequence[Row], notes: list[str]) -> None:
+    """Write the name of a group also into the empty cells below it, which a sheet may join."""
+    for column in (column for column in columns if column.role == "group"):
         for (_, above), (line, cells) in pairwise(body):
             if _cell(above, column.index) and cells[column.index : column.index + 1] == [""]:
                 cells[column.index] = _cell(above, column.index)
@@ -186,7 +185,7 @@ def _numbers(column: Column, columns: Sequence[Column], body: Sequence[Row], usu
     read = (Decimal(found[0]) for cell in cells if (found := _DIGITS.search(cell)))
     last = min((int(number.as_tuple().exponent) for number in read), default=0)
     one = quantity(f"1 {written}".strip(), unit, column.text)
-    return Numbers(values, errors, _step(values, one * 10.0**last))
+    return Numbers(values, errors, _step(values, one * 10.0 ** max(last, -300)))
 
 
 def _step(values: Array, digit: float) -> float:
