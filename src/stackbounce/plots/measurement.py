@@ -5,7 +5,6 @@ from typing import Any
 
 from stackbounce.errors import InvalidType
 from stackbounce.library_types import Figure
-from stackbounce.measure.finding import Findings
 from stackbounce.plots.style import drawn_by, into_axes
 
 
@@ -38,7 +37,7 @@ def measured(data: Any, found: Any, *, axes: Any = None) -> Figure:
     >>> from stackbounce.measure import bounces
     >>> figure = measured(None, bounces([0.0, 0.8, 1.44, 1.952]))
     """
-    found = found[-1] if isinstance(found, Findings) else found
+    found = found[-1] if isinstance(found, tuple) and found else found
     if not isinstance(getattr(found, "picture", None), str):
         raise InvalidType(f"found must be what an analysis returns, got {drawn_by(found)}")
     module = import_module(f"stackbounce.plots.measurements.{found.picture}")
