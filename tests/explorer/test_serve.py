@@ -71,14 +71,14 @@ def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
         workers = Server(address, process).children()
         assert workers
         os.kill(process.pid, how)
-        assert process.communicate(timeout=PATIENCE) == ("", "")
+        assert process.communicate(timeout=30) == ("", "")
     assert process.returncode == 0
     assert not left_of(workers)
 
 
 def left_of(processes):
     """Return those of the processes that do not end by themselves."""
-    return psutil.wait_procs(processes, timeout=PATIENCE)[1]
+    return psutil.wait_procs(processes, timeout=10.0)[1]
 
 
 @pytest.mark.slow
@@ -102,7 +102,7 @@ def test_open_requests_do_not_keep_it_from_ending(how):
         workers = server.children()
         assert workers
         os.kill(server.process.pid, how)
-        _, err = server.process.communicate(timeout=PATIENCE)
+        _, err = server.process.communicate(timeout=15)
         assert not left_of(workers)
     if how == signal.SIGTERM:
         assert server.process.returncode == 0

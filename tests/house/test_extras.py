@@ -8,7 +8,7 @@ from pathlib import Path
 import httpx
 import pytest
 
-from adversary.server import PATIENCE, running
+from adversary.server import running
 from stackbounce.errors import MissingExtra
 from stackbounce.explorer.made import HEADERS, one_file
 from stackbounce.extras import EXTRAS, MEASURING, need
@@ -94,7 +94,7 @@ def test_a_plain_install_serves_the_page_that_plays():
         assert process.stdout.readline().endswith("pip install 'stackbounce[app]'\n")
         page, nothing = httpx.get(f"{address}?lang=de"), httpx.get(f"{address}api/places")
         process.terminate()
-        assert process.communicate(timeout=PATIENCE) == ("", "")
+        assert process.communicate(timeout=30) == ("", "")
     assert (page.status_code, page.text, process.returncode) == (200, one_file(), 0)
     assert page.headers["content-security-policy"] == "frame-ancestors 'none'"
     assert page.headers.items() >= HEADERS.items()

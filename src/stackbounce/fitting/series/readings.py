@@ -80,10 +80,10 @@ def headed(rows: Sequence[Row]) -> tuple[list[str], Sequence[Row]]:
 def _carry_down(columns: Sequence[Column], body: Sequence[Row], notes: list[str]) -> None:
     """Write the name of a group also into the empty cells below it, which a sheet may join."""
     for column in (column for column in columns if column.role == "group"):
-        for (_, above), (line, cells) in pairwise(body):
+        for (_, above), (_, cells) in pairwise(body):
             if _cell(above, column.index) and cells[column.index : column.index + 1] == [""]:
                 cells[column.index] = _cell(above, column.index)
-                notes.append(f"Row {line} has no {column.text!r}: taken as {cells[column.index]}.")
+                notes.append(f"Empty cells of {column.text!r} have the name above them.")
 
 
 def _cell(cells: Sequence[str], index: int) -> str:
