@@ -58,8 +58,7 @@ def compare(jobs, expected, folder):
 
 
 @pytest.mark.parametrize(
-    ("batches", "count"),
-    [(BATCHES, 25), pytest.param(len(draw.BALLS), 80, marks=pytest.mark.slow)],
+    ("batches", "count"), [(BATCHES, 25), pytest.param(len(draw.BALLS), 80, marks=pytest.mark.slow)]
 )
 def test_random_drops(tmp_path, batches, count):
     jobs, expected = [], []

@@ -1,11 +1,13 @@
 """What the reference solvers share: their digits and their answer."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from mpmath import mpf
 
 Number = mpf
+Row = Sequence[Any]  # numbers of the balls, contacts or gaps, bottom first
 DIGITS = 50  # digits carried; thirty of them are wanted
 TINY = mpf(10) ** -40  # what counts as zero, in units of the problem's own length or speed
 

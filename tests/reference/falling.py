@@ -5,23 +5,17 @@ that rests on the floor or on a resting ball and -g for any other. A collision i
 the difference of two parabolas. Several at once: the lowest approaching contact first.
 """
 
-from collections.abc import Sequence
 from typing import Any
 
 from mpmath import mp, mpf
 
-from reference.common import DIGITS, TINY
+from reference.common import DIGITS, TINY, Row
 from reference.rigid import Collision, collide, restitution_of
 
 
 @mp.workdps(DIGITS)
 def fall(
-    masses: Sequence[Any],
-    restitutions: Sequence[Any],
-    gaps: Sequence[Any],
-    velocities: Sequence[Any],
-    gravity: Any,
-    until: Any,
+    masses: Row, restitutions: Row, gaps: Row, velocities: Row, gravity: Any, until: Any
 ) -> tuple[list[Collision], list[mpf], list[mpf]]:
     """Return the collisions up to a time, and heights and velocities then; no floor: e[0] None."""
     masses, gaps, v = ([mpf(x) for x in row] for row in (masses, gaps, velocities))

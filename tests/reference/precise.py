@@ -21,7 +21,7 @@ from typing import Any
 from mpmath import mp, mpf
 
 from reference.bernstein import roots, sign_after_zero, slope, value
-from reference.common import Interval, Number, Outcome, kinetic
+from reference.common import Interval, Number, Outcome, Row, kinetic
 from reference.laws import Curve, Law, read
 from reference.taylor import (
     BITS,
@@ -220,11 +220,7 @@ class Stack:
     """The balls, the contacts and the problem's scales."""
 
     def __init__(
-        self,
-        masses: Sequence[Number],
-        contacts: Sequence[Contact | None],
-        gravity: Number,
-        speed: Number,
+        self, masses: Row, contacts: Sequence[Contact | None], gravity: Number, speed: Number
     ) -> None:
         self.masses, self.contacts, self.gravity, self.speed = masses, contacts, gravity, speed
         self.closed = [x for x in contacts if x]

@@ -8,14 +8,13 @@ inelastic collapse.
 Several contacts closing at once: the lowest approaching one collides first.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from mpmath import mp, mpf
 
-from reference.common import DIGITS, TINY
+from reference.common import DIGITS, TINY, Row
 
 
 @dataclass(frozen=True)
@@ -43,11 +42,7 @@ class RigidOutcome:
 
 @mp.workdps(DIGITS)
 def run(
-    masses: Sequence[Any],
-    restitutions: Sequence[Any],
-    gaps: Sequence[Any],
-    velocities: Sequence[Any],
-    limit: int = 100_000,
+    masses: Row, restitutions: Row, gaps: Row, velocities: Row, limit: int = 100_000
 ) -> RigidOutcome:
     """Collide until nothing approaches, at most `limit` times; no floor: first restitution None."""
     exact = isinstance(masses[0], Fraction)

@@ -41,6 +41,17 @@ def test_balls_are_dropped_by_button_space_or_click_and_then_comes_the_answer(vi
     assert "#" not in page.url
 
 
+def test_balls_let_go_before_the_last_frames_arrive_fly_on(visit):
+    page = visit.open("")
+    page.evaluate("() => whole.then(() => null)")
+    page.evaluate("""() => { store.set({ drop: { ...state.drop, gaps: [0.02] } });
+        document.querySelector("[data-part=go]").click(); }""")
+    visit.ready()
+    assert page.evaluate("() => clock.playing")
+    page.evaluate("() => clock.rewind()")
+    page.locator("[data-part=go]").wait_for()  # they can be let go again
+
+
 def test_look_closer_opens_the_whole_page_and_the_address_remembers_it(visit):
     page = visit.open("")
     page.get_by_role("button", name="Look closer").click()

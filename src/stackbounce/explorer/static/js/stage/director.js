@@ -21,12 +21,13 @@ export function direct(store, clock, calm) {
     if (asks(state) && !asks(before) && clock.film) clock.rewind();
     if (state.result === before.result) return;
     const film = filmOf(state.result, state.until);
+    const refined = ["drop", "until"].every((name) => state.resultOf[name] === before.resultOf?.[name]); // more frames of the same
     const again = clock.film === null || film.whole !== whole || state.replay !== replay;
     const moment = again ? film.begin : sameMoment(clock.film, clock.time, film);
     const ended = !again && !clock.playing && clock.time >= clock.end && state.result.drop !== before.result.drop;
     clock.show(film, [...new Set(film.events.map(({ time }) => time))], wanted ?? moment);
     if (wanted !== null) clock.pause();
-    else if (asks(state) && state.until === null) clock.rewind();
+    else if (asks(state) && state.until === null && !refined) clock.rewind();
     else if (again && !calm() && state.view === "play") clock.play();
     clearTimeout(waits);
     if (ended && !calm() && state.view === "play" && !asks(state)) waits = setTimeout(() => clock.time >= clock.end && clock.replay(), REST);

@@ -39,6 +39,10 @@ export function mountGuess(root, store, clock) {
     if (!isAsked() || store.get().guess !== null || !place || !clock.film) return;
     if (clock.time >= (clock.film.tops.at(-1)?.time ?? clock.end)) store.set({ guess: height ?? NaN });
     else if (clock.playing && !flies) letGo();
+    else if (flies && !clock.playing && clock.time <= clock.begin) {
+      flies = false; // rewound: they can be let go again
+      show();
+    }
   };
   const set = (value) => {
     height = Math.min(Math.max(value, 0), most());
