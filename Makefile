@@ -1,6 +1,9 @@
 # Everything here needs Python 3.11 or later and make, nothing else: each target sets up .venv itself.
 # Another interpreter: make PYTHON=python3.12 ...
 
+# Tests start some hundred processes: what these import is compiled once, also where this variable is set.
+unexport PYTHONDONTWRITEBYTECODE
+
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
