@@ -17,11 +17,13 @@ FOLDER ?=
 SEED ?= 1
 ATTACKS ?= signals kills pairs stores disks
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal
-# Not the tests of the project's own rules, of the engine (kernels), of the page's scripts, of pages, benchmarks and kept answers, and none of libraries' warnings of what comes.
+# The examples of all functions, and the tests of what leans on libraries: not those of the project's own rules, of the engine (kernels), laws and analyses, of the page's
+# scripts, of pages, benchmarks and kept answers. None of libraries' warnings of what comes.
 OF_LOWEST := bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal -m 'not slow' \
   --hypothesis-profile=quick -W ignore::DeprecationWarning -W ignore::PendingDeprecationWarning \
-  -W ignore::FutureWarning tests --ignore=tests/house --ignore=tests/pages --ignore=tests/frozen --ignore=tests/fuzz \
-  --ignore=tests/explorer/browser --ignore=tests/explorer/page --ignore=tests/explorer/test_openapi.py --ignore=tests/test_impacts.py --ignore=tests/engine
+  -W ignore::FutureWarning src/stackbounce tests --ignore=tests/house --ignore=tests/pages --ignore=tests/frozen --ignore=tests/fuzz --ignore=tests/engine \
+  --ignore=tests/model --ignore-glob='tests/measure/test_*' --ignore=tests/explorer/browser --ignore=tests/explorer/page --ignore=tests/explorer/test_openapi.py \
+  --ignore=tests/explorer/test_serve.py --ignore=tests/test_impacts.py
 # 3: kernels cannot be compiled on this machine, plain Python runs. 4: no compiler is in the environment, but pip's build has one.
 COMPILE := { PYTHONPATH=src $(BIN)/python -m kernel_build; case $$? in 0|3) ;; 4) $(EDITABLE) ;; *) exit 1 ;; esac; }
 EDITABLE := $(INSTALL) --no-deps --editable .
@@ -56,7 +58,7 @@ explorer: kernels  ## write the explorer as one HTML file, build/explorer.html
 test: $(DEV) kernels  ## run the fast tests of every kind, in under three minutes on two cores
 	@$(PYTEST) -m 'not slow' --hypothesis-profile=quick
 
-lowest: kernels  ## the fast tests with the lowest versions of all dependencies that pyproject.toml allows
+lowest: kernels  ## examples and fast tests with the lowest versions of all dependencies that pyproject.toml allows
 	@rm -rf build/lowest
 	@$(PYTHON) -m venv build/lowest
 	@$(BIN)/python .ci/requirements.py lowest > build/lowest/requirements.txt

@@ -27,6 +27,7 @@ extensions = [
     "docs._extensions.lesson",
     "docs._extensions.mathml",
     "docs._extensions.measure_options",
+    "docs._extensions.notebooks",
     "docs._extensions.offline",
     "docs._extensions.validation",
     "matplotlib.sphinxext.plot_directive",

@@ -17,6 +17,8 @@ _WRITTEN = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
 _TERM = r"[^\W\d_]+(?:(?:\*\*|\^)-?\d(?:\.\d{1,3})?)?"
 _WITH_ERROR = re.compile(r"±|\+/-|[0-9] ?\([0-9.]+\)")  # 63 ± 1 cm, 63(1) cm
 _COMMA = re.compile(r"\s*[-+]?\d+,\d")  # 1,5 m
+_POWER = re.compile(r"(?<=[^\W\d_])(?=-\d)|(?<=[ms])(?=[23]\b)")  # m s-1, kg/m3
+_SIGNS = str.maketrans("⁻¹²³μ", "-123µ")  # m s⁻¹; a Greek letter for the sign of micro
 _UNIT = re.compile(rf"%|{_TERM}(?:\s*[*/·\s]\s*{_TERM}){{0,5}}")
 _KINDS = {
     "": ("a pure number", "0.78"),
@@ -44,9 +46,8 @@ _HANDY = {  # unit: (from this value on, its name, how many of it the unit has),
 # The SI units that columns of measurements come in, and how programs write the commonest ones.
 _SI = ("s", "m", "N", "V", "1", "m/s", "m/s^2", "kg", "J", "Pa", "Hz", "A", "N/m", "N s", "kg m/s")
 _WRITTEN_OUT = {
-    "m/s²": "m/s^2", "m/s/s": "m/s^2", "ms^-2": "m/s^2", "m/s2": "m/s^2", "g0": "standard_gravity",
     "S": "s", "sec": "s", "secs": "s", "second": "s", "seconds": "s", "Second": "s", "Seconds": "s",
-    "msec": "ms", "us": "µs", "μs": "µs", "μm": "µm", "μV": "µV",
+    "m/s/s": "m/s^2", "ms^-2": "m/s^2", "ms^-1": "m/s", "msec": "ms", "us": "µs",
     "Volt": "V", "Volts": "V", "volt": "V", "volts": "V", "newton": "N", "Newton": "N", "lbs": "lb",
 }  # fmt: skip
 # What needs no pint, whose import takes a quarter of a second: decimal powers of the prefixes, and
@@ -155,8 +156,8 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
         return finite(name, float(number), unit)
     from decimal import Decimal  # its arithmetic makes "24.8 g" exactly 0.0248
 
-    factor = _factor(written, unit, _message(name, value, unit))
-    return finite(name, float(Decimal(number) * Decimal(repr(factor))), unit)
+    times = factor(written, unit, name, value)
+    return finite(name, float(Decimal(number) * Decimal(repr(times))), unit)
 
 
 def in_unit(value: object, unit: str, name: str) -> Any:
@@ -231,7 +232,12 @@ def unit_written(text: str) -> str | None:
     ('mm', '')
     """
     found = _WRITTEN.fullmatch(text.strip())
-    return found[2] if found and (not found[2] or _UNIT.fullmatch(found[2])) else None
+    return found[2] if found and (not found[2] or _UNIT.fullmatch(_powers(found[2]))) else None
+
+
+def _powers(written: str) -> str:
+    """Return a unit in which the mark of a power stands before each: m s-1 -> m s^-1."""
+    return _POWER.sub("^", written.translate(_SIGNS))
 
 
 def count_written(text: str) -> int | None:
@@ -245,15 +251,37 @@ def count_written(text: str) -> int | None:
     return int(text) if text.isdecimal() and len(text) <= 18 else None
 
 
-def factor(written: str, unit: str, name: str = "value") -> float:
+def factor(written: str, unit: str, name: str = "value", of: str | None = None) -> float:
     """Return the factor that converts a unit to an SI unit; see `quantity`.
+
+    Messages show the quantity that it is of, or else the unit.
 
     Examples
     --------
-    >>> factor("g", "kg")
-    0.001
+    >>> factor("g", "kg"), factor("kg m-3", "kg/m**3")
+    (0.001, 1.0)
     """
-    return _factor(written, unit, _message(name, written, unit))
+    message, written = _message(name, of or written, unit), _powers(written)
+    if not _UNIT.fullmatch(written):
+        raise UnitError(message)
+    known, right = _decimal(written), _decimal(unit)
+    if known and right:
+        if known[1] != right[1]:
+            raise UnitError(message)
+        if (power := known[0] - right[0]).is_integer():
+            return float(f"1e{power:.0f}")
+    import pint
+
+    registry = _registry()
+    try:
+        units = registry.parse_units(written.replace("·", "*"))
+        if registry.Quantity(0.0, units).m_as(unit) != 0.0:  # decibels and the like
+            raise UnitError(message)
+        return float(registry.Quantity(1.0, units).m_as(unit))
+    except pint.UndefinedUnitError as error:
+        raise UnitError(f"{message}, of unknown unit") from error
+    except (pint.PintError, ArithmeticError, ValueError) as error:  # ValueError: of "nan"
+        raise UnitError(message) from error
 
 
 @functools.lru_cache(maxsize=1000)
@@ -278,15 +306,17 @@ def in_si(written: str, *, common: bool = False) -> tuple[float, str] | None:
     --------
     >>> in_si("ms"), in_si("kN"), in_si("px")
     ((0.001, 's'), (1000.0, 'N'), None)
+    >>> in_si("m s-1"), in_si("m s⁻¹"), in_si("ms-2"), in_si("m/s²")
+    ((1.0, 'm/s'), (1.0, 'm/s'), (1.0, 'm/s^2'), (1.0, 'm/s^2'))
     """
-    written = _WRITTEN_OUT.get(written.strip(), written.strip())
+    written = _WRITTEN_OUT.get(plain := _powers(written.strip()), plain)
     if written in _COMMON or common:
         return _COMMON.get(written)
     if not written or len(written) > 30 or _PIXEL.fullmatch(written):
         return None
     for unit in _SI:
         try:
-            return _factor(written, unit, ""), unit
+            return factor(written, unit), unit
         except UnitError:
             continue
     return None
@@ -311,29 +341,6 @@ def _decimal(written: str) -> tuple[float, tuple[float, ...]] | None:
         power += times * _NAMED[name][0]
         powers = [old + times * own for old, own in zip(powers, _NAMED[name][1], strict=True)]
     return power, tuple(powers)
-
-
-def _factor(written: str, unit: str, message: str) -> float:
-    if not _UNIT.fullmatch(written):
-        raise UnitError(message)
-    known, right = _decimal(written), _decimal(unit)
-    if known and right:
-        if known[1] != right[1]:
-            raise UnitError(message)
-        if (power := known[0] - right[0]).is_integer():
-            return float(f"1e{power:.0f}")
-    import pint
-
-    registry = _registry()
-    try:
-        units = registry.parse_units(written.replace("·", "*"))
-        if registry.Quantity(0.0, units).m_as(unit) != 0.0:  # decibels and the like
-            raise UnitError(message)
-        return float(registry.Quantity(1.0, units).m_as(unit))
-    except pint.UndefinedUnitError as error:
-        raise UnitError(f"{message}, of unknown unit") from error
-    except (pint.PintError, ArithmeticError, ValueError) as error:  # ValueError: of "nan"
-        raise UnitError(message) from error
 
 
 def _message(name: str, value: object, unit: str) -> str:

@@ -58,6 +58,7 @@ def test_two_columns_of_heights_in_many_forms(table, text):
         "v (m/s),e\n2,0.80\n3,0.75\n",
         "impact speed (m/s);COR\n2;0,80\n3;0,75\n",
         "v_in,v_out\n2,1.60\n3,2.25\n",
+        "v [m s-1],e\n2,0.80\n3,0.75\n",
     ],
 )
 def test_speeds_and_restitutions(table, text):

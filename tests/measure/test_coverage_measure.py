@@ -73,7 +73,7 @@ def can_be(share, count):
 @pytest.mark.slow
 @pytest.mark.parametrize("case", chosen(sound.CASES, "ugly sound, all of it, 44.1 kHz"))
 def test_sound(case):
-    seeds = range(60 if case in UGLY else 400)
+    seeds = range(40 if case in UGLY else 400)
     for quantity, share in shares(sound.CASES[case], seeds).items():
         if case in UGLY and quantity not in POOLED:  # one a record
             assert can_be(share.within_one, len(seeds)), quantity

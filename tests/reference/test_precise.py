@@ -13,8 +13,8 @@ from reference import data, precise
         *(
             pytest.param(name, indices, marks=pytest.mark.slow)
             for name, indices in [
-                ("hysteretic", range(0, 42, 8)),
-                ("laws", range(28, 148, 24)),
+                ("hysteretic", range(0, 42, 14)),
+                ("laws", range(28, 148, 40)),
                 ("gentle", (1,)),
             ]
         ),

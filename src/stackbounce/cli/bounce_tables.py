@@ -6,7 +6,7 @@ from typing import Any
 from rich.table import Table
 
 from stackbounce.cli.tables import add_columns, new_table, number, percent, with_error, write_count
-from stackbounce.model.drawing import meeting, names_of
+from stackbounce.model.drawing import meetings, names_of
 from stackbounce.prediction import Prediction
 from stackbounce.run.result import Result
 
@@ -56,13 +56,12 @@ class Bounce:
         """Return the table of the contacts."""
         title = "Contacts, with peak force and peak compression"
         table = new_table(title, ["\ncontact"], ["times\nclosed", *_CONTACTS])
-        for i, count in enumerate(self.result.collisions):
-            counts = [int(count)]
+        for i, names in enumerate(meetings(self.result.drop.balls)):
+            counts = [int(self.result.collisions[i])]
             if self.prediction is not None and self.prediction.reason:
                 counts = sorted(self.prediction.collisions[i])
             ends = dict.fromkeys((counts[0], counts[-1]))
             cells = [self._cell(heading, i) for heading in _CONTACTS]
-            names = meeting(self.result.drop.balls, i)
             table.add_row(names, "–".join(map(write_count, ends)), *cells)
         return table
 

@@ -9,7 +9,7 @@ from stackbounce.cli.scenario import Scenario
 from stackbounce.cli.tables import number, percent, write_count
 from stackbounce.model import Tabulated
 from stackbounce.model.catalogue import DEFAULT_HEIGHT
-from stackbounce.model.drawing import meeting, names_of
+from stackbounce.model.drawing import meetings, names_of
 from stackbounce.prediction import Prediction
 from stackbounce.run.result import Result, Status
 
@@ -37,15 +37,15 @@ def print_simulation(
 
     With a prediction, the numbers have errors instead.
     """
-    drop = scenario.drop
+    drop, names = scenario.drop, meetings(scenario.drop.balls)
     console.print(incidence(scenario), style="bold")
     for i, source in enumerate(scenario.contact_sources):
         law = drop.contacts[i]
         words = "none" if law is None else law.described()
-        console.print(f"  contact {i}, {meeting(drop.balls, i)}: {words}  [{source}]")
+        console.print(f"  contact {i}, {names[i]}: {words}  [{source}]")
     for i, source in enumerate(scenario.gap_sources):
         gap = f"{drop.gaps[i] * 1e3:.6g} mm"
-        console.print(f"  gap {i}, {meeting(drop.balls, i + 1)}: {gap}  [{source}]")
+        console.print(f"  gap {i}, {names[i + 1]}: {gap}  [{source}]")
     bounce = Bounce(result, prediction)
     for table in (bounce.balls(textbook), bounce.contacts(), bounce.apexes()):
         if table is not None:

@@ -24,21 +24,17 @@ _RATIOS: dict[str, tuple[Fit, int]] = {
 """The claims on a ball's rebound ratio in a fit: the fit and the ball."""
 
 
-def _nearer(drop: Drop) -> Drop:
-    """The drop with its balls closer together."""
-    return drop.replace(gaps=(_SHORTER * drop.gaps[0],))
+def _nearer(drop: Drop, shorter: float) -> Drop:
+    """The drop with its balls closer together by a factor."""
+    return drop.replace(gaps=(shorter * drop.gaps[0],))
 
 
 def _rebound_ratio(fit: Fit, ball: int) -> Compute:
     return lambda b: b.simulate(fit(b, b("B1.mass"))).rebound_ratios[ball]
 
 
-def _with_105(fit: Fit, ball: int) -> Compute:
-    return lambda b: b.simulate(fit(b, heavier_b1(b))).rebound_ratios[ball]
-
-
-def _with_105_nearer(fit: Fit, ball: int) -> Compute:
-    return lambda b: b.simulate(_nearer(fit(b, heavier_b1(b)))).rebound_ratios[ball]
+def _with_105(fit: Fit, ball: int, shorter: float) -> Compute:
+    return lambda b: b.simulate(_nearer(fit(b, heavier_b1(b)), shorter)).rebound_ratios[ball]
 
 
 def _exponent(b: Bench) -> float:
@@ -67,5 +63,5 @@ COMPUTED: dict[str, Compute] = {
 }
 
 READINGS: dict[str, tuple[Compute, ...]] = {
-    name: (_with_105(*given), _with_105_nearer(*given)) for name, given in _RATIOS.items()
+    name: (_with_105(*given, 1.0), _with_105(*given, _SHORTER)) for name, given in _RATIOS.items()
 }

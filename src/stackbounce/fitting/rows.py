@@ -3,7 +3,7 @@
 import os
 import re
 
-from stackbounce.errors import FileError, InvalidValue
+from stackbounce.errors import FileError, InvalidValue, shown
 from stackbounce.files import content_of
 from stackbounce.measure.reading.limits import BYTES, COLUMNS, LINE, refuse_others
 from stackbounce.measure.reading.tables import from_xlsx
@@ -21,7 +21,7 @@ _GROUPED = re.compile(r"[1-9]\d{0,2}(?:,\d{3})+")
 
 
 def rows_of(path: File) -> tuple[str, list[Row]]:
-    r"""Return the name of a table and those of its rows that are not blank.
+    r"""Return a table's name, with its sheet if there are several, and the rows that are not blank.
 
     Parameters
     ----------
@@ -45,7 +45,9 @@ def rows_of(path: File) -> tuple[str, list[Row]]:
     content = bytearray(content)
     try:
         if content.startswith(b"PK\x03\x04"):
-            content = bytearray(next(iter(from_xlsx(content).members.values())))
+            (sheet, table), *others = from_xlsx(content).members.items()
+            name += f", first sheet {shown(sheet)}" * bool(others)
+            content = bytearray(table)
         refuse_others(content)
         return name, _split(decode(content))
     except FileError as error:

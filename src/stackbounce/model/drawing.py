@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Sequence
 from html import escape
+from itertools import pairwise
 
 from stackbounce.model.ball import Ball
 
@@ -71,13 +72,12 @@ def draw_stack(balls: Sequence[Ball], gaps: Sequence[float], *, floor: bool) -> 
     return f'<svg role="img" aria-label="{said}" {size}>{drawn}</svg>'
 
 
-def meeting(balls: Sequence[Ball], contact: int) -> str:
-    """Return the two sides of a contact: the floor or the ball below, and the ball above.
+def meetings(balls: Sequence[Ball]) -> list[str]:
+    """Return the two sides of each contact: the floor or the ball below, and the ball above.
 
     Examples
     --------
-    >>> meeting([Ball(0.6), Ball(0.057, name="tennis")], 1)
-    'ball 0 – tennis'
+    >>> meetings([Ball(0.6), Ball(0.057, name="tennis")])
+    ['floor – ball 0', 'ball 0 – tennis']
     """
-    names = ["floor", *names_of(balls)]
-    return f"{names[contact]} – {names[contact + 1]}"
+    return [f"{below} – {above}" for below, above in pairwise(["floor", *names_of(balls)])]

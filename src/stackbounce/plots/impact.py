@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.library_types import Axes, Figure
-from stackbounce.model.drawing import meeting, names_of
+from stackbounce.model.drawing import meetings, names_of
 from stackbounce.plots.style import WIDTH, check_kind, color_of, into_axes, panels, written
 from stackbounce.run.quantities import Array
 from stackbounce.run.result import STOPPED, Result
@@ -140,10 +140,10 @@ def _draw_bands(
 
 def _draw_contacts(axes: Axes, result: Result, times: Array, forces: Array) -> None:
     """Draw the force at each contact, or each impulse of a rigid stack as a stem."""
-    for i, law in enumerate(result.drop.contacts):
+    for i, name in enumerate(map(written, meetings(result.drop.balls))):
+        law, color = result.drop.contacts[i], color_of(i)
         if law is None:
             continue
-        color, name = color_of(i), written(meeting(result.drop.balls, i))
         if law.rigid:
             rows = result.intervals[result.intervals["contact"] == i]
             name += f" ({_count(int(result.collisions[i]))})"

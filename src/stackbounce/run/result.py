@@ -16,7 +16,7 @@ from stackbounce.errors import InvalidType, InvalidValue, finite, no_attribute, 
 from stackbounce.files import shipped_table
 from stackbounce.library_types import Dataset
 from stackbounce.model import STANDARD_GRAVITY, Drop
-from stackbounce.model.drawing import meeting, names_of
+from stackbounce.model.drawing import meetings, names_of
 from stackbounce.run.conditioning import amplification, known_until
 from stackbounce.run.paths import Array
 from stackbounce.run.sideways import leave_sideways
@@ -184,9 +184,10 @@ class Result(Shown):
             (name, *map(_short, own))
             for name, *own in zip(names_of(drop.balls), *numbers, strict=True)
         ]
+        counts = ("∞" if count < 0 else str(count) for count in self.collisions)
         contacts = [
-            (meeting(drop.balls, i), "∞" if count < 0 else str(count), *map(_short, own))
-            for i, (count, *own) in enumerate(zip(self.collisions, *times_ms, strict=True))
+            (name, count, *map(_short, own))
+            for name, count, *own in zip(meetings(drop.balls), counts, *times_ms, strict=True)
         ]
         speeds = ("upward speeds", "before m/s", "after m/s", "after/v0", "height m")
         times = ("contact", "collisions", "first touch ms", "last release ms")

@@ -10,6 +10,7 @@ import pytest
 
 from measure import make_files as made
 from stackbounce.errors import FileError, InvalidValue, MissingExtra
+from stackbounce.fitting.rows import rows_of
 from stackbounce.measure.reading import tables
 
 TIMES = 0.01 * np.arange(8)
@@ -50,14 +51,15 @@ def test_the_sheet_of_raw_data_comes_before_others_like_it(read):
 
 
 def test_a_sheet_is_chosen_by_its_name(read):
-    runs = {f"Run {k}": [["t", "x", "y"], [0, 1, k], ["0,5", 2, 3]] for k in (1, 2)}
-    content = xlsx(runs)
+    content = xlsx({f"Run {k}": [["t", "x", "y"], [0, 1, k], ["0,5", 2, 3]] for k in (1, 2)})
     data = read(content)
     assert data.y.values[0, 0] == 1.0
     assert data.time.values.tolist() == [0.0, 0.5]  # a number that is text with a decimal comma
     assert read(content, table="Run 2").y.values[0, 0] == 2.0
     with pytest.raises(InvalidValue, match="table must be one in the file, got 'Run 3'"):
         read(content, table="Run 3")
+    name, rows = rows_of(("runs.xlsx", content))
+    assert (name, len(rows)) == ("runs.xlsx, first sheet 'Run 1'", 3)
 
 
 def test_what_a_spreadsheet_cannot_be(read, monkeypatch):
