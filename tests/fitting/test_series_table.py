@@ -138,6 +138,10 @@ def test_an_error_told_beside_the_table_and_half_a_digit_without(table):
         0.0005 * 0.5 / series.values / [0.5, 1.0], rel=1e-6
     )
     assert "half of the step in which it was written, 0.5 mm" in read.notes[-1]
+    read = table("v (m/s),e\n2,0.8012345678\n3,0.7512345678\n")  # computed, not read
+    assert (
+        "is 1 % of the largest, which has more digits than can be read, 0.00801" in read.notes[-1]
+    )
 
 
 def test_a_reading_far_from_the_others_is_named_and_kept(table):

@@ -73,7 +73,7 @@ def test_a_gap_of_its_own_for_each_drop(table):
     ("errors", "rows", "error", "note"),
     [
         ([], "60,120,1\n60,124,1\n", 0.04 / 2**0.5, "scatter of repeated drops, with 1 degree of"),
-        ([], "60,120,1\n90,184,2\n", 0.005, "half of the step in which they were written, 5 mm"),
+        ([], "60,120,1\n90,184,2\n", 0.005, "half of the step in which it was written, 5 mm"),
         (["2 cm"], "60,120,1\n60,124,1\n", 0.02, "The balls are stacked basketball below tennis."),
     ],
 )

@@ -27,6 +27,7 @@ _RIGHT = "'drop height (cm)' and 'rebound height (cm)', or 'v (m/s)' and 'e'"
 _NUMBER = re.compile(r"[-+]?[\d.,]*\d(?:[eE][-+]?\d+)?\s*([^\W\d_]{1,3}|%|±.*|\+/-.*|\(.*)?")
 _DIGITS = re.compile(r"\d*\.?\d+(?:[eE][-+]?\d+)?")
 _SIZES = ((500.0, "mm"), (5.0, "cm"), (0.0, "m"))  # of the largest height, where no unit is told
+_FINE = 1e-5  # of the largest number: nobody reads in such steps, and what has them was computed
 _ENOUGH = 5  # numbers that all end in 0, or in 0 and 5, were not read more finely
 _SUCCESSIVE = 0.5  # of the logarithm of the first ratio of heights: bounces in turn fall by more
 
@@ -186,6 +187,13 @@ def _numbers(column: Column, columns: Sequence[Column], body: Sequence[Row], usu
     last = min((int(number.as_tuple().exponent) for number in read), default=0)
     one = quantity(f"1 {written}".strip(), unit, column.text)
     return Numbers(values, errors, _step(values, one * 10.0 ** max(last, -300)))
+
+
+def assumed_error(values: Array, step: float) -> tuple[float, str]:
+    """Return the error of numbers that are told without one, and where it comes from."""
+    if step < _FINE * (size := float(np.nanmax(np.abs(values)))):
+        return 0.01 * size, "1 % of the largest, which has more digits than can be read"
+    return 0.5 * step, "half of the step in which it was written"
 
 
 def _step(values: Array, digit: float) -> float:

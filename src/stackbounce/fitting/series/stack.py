@@ -10,7 +10,7 @@ import numpy as np
 from stackbounce.errors import FileError, InvalidValue, counted, placed
 from stackbounce.fitting.rows import Row, rows_of
 from stackbounce.fitting.series.columns import UNITS, Column, columns_of
-from stackbounce.fitting.series.readings import Numbers, headed, numbers_in
+from stackbounce.fitting.series.readings import Numbers, assumed_error, headed, numbers_in
 from stackbounce.fitting.series.table import told_errors
 from stackbounce.fitting.tables import drop_of
 from stackbounce.model import Drop
@@ -135,8 +135,7 @@ def _errors(
             groups.setdefault(tuple(f"{number:.{_SAME}g}" for number in place), []).append(value)
     apart = [value - np.mean(group) for group in groups.values() for value in group]
     freedom, unit = len(apart) - len(groups), UNITS[column.role]
-    estimate = 0.5 * own.digit
-    why = "half of the step in which they were written"
+    estimate, why = assumed_error(own.values, own.digit)
     if freedom and (scatter := math.sqrt(float(np.sum(np.square(apart))) / freedom)) > estimate:
         why = f"the scatter of repeated drops, with {counted(freedom, 'degree of freedom')}"
         estimate = scatter

@@ -10,7 +10,7 @@ import numpy as np
 from stackbounce.errors import InvalidValue, counted, nearest, placed, positive, shown
 from stackbounce.fitting.rows import File, rows_of
 from stackbounce.fitting.series.columns import UNITS, role_of
-from stackbounce.fitting.series.readings import MEASURED, STARTS, readings_of
+from stackbounce.fitting.series.readings import MEASURED, STARTS, assumed_error, readings_of
 from stackbounce.library_types import DataFrame, Dataset
 from stackbounce.measure.reading.dataset import dataset_of
 from stackbounce.run.quantities import Array
@@ -119,6 +119,7 @@ def _dataset(
 ) -> Dataset:
     """Return the readings of a group as a data set, those of the same thing in one row."""
     start = str(readings.start_role.iloc[0])
+    what, before = measured.replace("_", " "), start.replace("_", " ")
     readings = readings.assign(
         error=readings.error.fillna(told.get(measured, told.get("", math.nan))),
         start_error=readings.start_error.fillna(told.get(start, math.nan)),
@@ -126,9 +127,7 @@ def _dataset(
     some = readings.error.notna()
     if some.any() and not some.all():
         line = readings.line[~some].iloc[0]
-        raise InvalidValue(
-            f"row {line} has no error of the {measured.replace('_', ' ')}; others do"
-        )
+        raise InvalidValue(f"row {line} has no error of the {what}; others do")
     digit = float(readings.digit.max())
     merged = _repeated(readings) if not some.any() else None
     scatter = 0.0 if merged is None else _pooled(merged[1])
@@ -147,19 +146,17 @@ def _dataset(
     if rows.start_error.notna().all():
         data[f"{start}_error"] = "row", rows.start_error.to_numpy()
     else:
-        what = start.replace("_", " ")
-        notes.append(f"The {what}s are taken as exact, unless an error of theirs is given.")
+        notes.append(f"The {before}s are taken as exact, unless an error of theirs is given.")
     if some.any():
         data[f"{measured}_error"] = "row", rows.error.to_numpy()
     elif values.ndim == 2:
         notes.append(_said_of_scatter(readings, values, scatter, measured))
     else:
-        half = 0.5 * digit
-        data[measured][2]["assumed_error"] = half
+        error, why = assumed_error(values, digit)
+        data[measured][2]["assumed_error"] = error
         notes.append(
-            "No error is told and no reading repeated: the error of a "
-            f"{measured.replace('_', ' ')} is half of the step in which it was written, "
-            f"{handy_text(half, unit, 3)}, unless another is given."
+            f"No error is told and no reading repeated: the error of a {what} is {why}, "
+            f"{handy_text(error, unit, 3)}, unless another is given."
         )
     return dataset_of(data, {})
 
