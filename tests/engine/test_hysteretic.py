@@ -90,6 +90,7 @@ def test_several_cycles_in_one_interval_follow_the_rule():
     assert seen >= 20
 
 
+@pytest.mark.slow
 def test_a_vibration_loses_energy_in_more_cycles_than_are_remembered():
     """The loss of a small cycle is as its third power, so that the amplitude falls as 1/t."""
     laws = [sb.Hysteretic(1.0, restitution=0.9), sb.Hysteretic(1000.0, restitution=0.9)]

@@ -301,6 +301,7 @@ def two_balls():
     return found
 
 
+@pytest.mark.slow
 def test_processor_levels(at_level):
     known, library = levels()
     if len(known) < 2:

@@ -59,7 +59,7 @@ def test_a_port_that_is_taken(capsys):
     assert f"127.0.0.1, port {port} cannot be used" in capsys.readouterr().err
 
 
-@pytest.mark.fast_cases(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
 def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
     with running([*APP, "--json", "--port", "0"], stderr=subprocess.PIPE) as process:

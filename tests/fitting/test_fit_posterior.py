@@ -66,7 +66,7 @@ def test_between_wide_bounds_every_logarithm_is_as_probable():
     assert np.log10(found.quantiles("balls.0.mass", at)) == pytest.approx(-2.0 + 2.0 * at, abs=0.08)
 
 
-@pytest.mark.fast_cases(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("bounds", [(0.02, 0.98), (0.2, 0.98)])
 def test_a_prior_is_all_that_is_known_beforehand(bounds):
     """Also where bounds are so wide that the number is searched by its logarithm."""

@@ -366,7 +366,7 @@ def requests(seed, count, log):
 
 @pytest.mark.parametrize(
     ("seed", "count"),
-    [(SEED, 60), pytest.param(SEED + 1, 1000, marks=[pytest.mark.slow, pytest.mark.release])],
+    [(SEED, 30), pytest.param(SEED + 1, 1000, marks=[pytest.mark.slow, pytest.mark.release])],
 )
 @pytest.mark.parametrize("log", [False, True])
 def test_maps_are_the_same(asked, seed, count, log):
