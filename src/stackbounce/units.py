@@ -18,7 +18,8 @@ _TERM = r"[^\W\d_]+(?:(?:\*\*|\^)-?\d(?:\.\d{1,3})?)?"
 _WITH_ERROR = re.compile(r"±|\+/-|[0-9] ?\([0-9.]+\)")  # 63 ± 1 cm, 63(1) cm
 _COMMA = re.compile(r"\s*[-+]?\d+,\d")  # 1,5 m
 _POWER = re.compile(r"(?<=[^\W\d_])(?=-\d)|(?<=[ms])(?=[23]\b)")  # m s-1, kg/m3
-_SIGNS = str.maketrans("⁻¹²³μ", "-123µ")  # m s⁻¹; a Greek letter for the sign of micro
+_SIGNS = str.maketrans("⁻¹²³μ", "-123µ", "{}")  # m s⁻¹, s^{-1}, a Greek letter for micro
+_DOT = re.compile(r"(?<=[^\W\d_])\.(?=[^\W\d_])")  # m.s-1
 _UNIT = re.compile(rf"%|{_TERM}(?:\s*[*/·\s]\s*{_TERM}){{0,5}}")
 _KINDS = {
     "": ("a pure number", "0.78"),
@@ -178,7 +179,7 @@ def in_unit(value: object, unit: str, name: str) -> Any:
             part if type(part) is float else in_unit(part, unit, f"{name}.{i}")
             for i, part in enumerate(value)
         ]
-    if getattr(value, "ndim", 0) and hasattr(value, "m_as"):
+    if getattr(value, "ndim", 0):
         return magnitude(value, unit, name)
     own = isinstance(value, str) or hasattr(value, "m_as") or hasattr(value, "std_dev")
     return quantity(value, unit, name) if own else value
@@ -209,7 +210,9 @@ def checked(check: Callable[..., float], name: str, value: object, of: str = "")
 
 
 def magnitude(value: Any, unit: str, name: str) -> Any:
-    """Return the number, or what else it has, of a quantity of pint; anything else as it is.
+    """Return the number, or numbers, in `unit` of a quantity of pint or an array of xarray.
+
+    What has no unit, of pint or as the attribute ``units``, is returned as it is.
 
     Examples
     --------
@@ -217,10 +220,15 @@ def magnitude(value: Any, unit: str, name: str) -> Any:
     >>> magnitude(pint.Quantity([1.0, 2.0], "mm"), "m", "gaps").tolist()
     [0.001, 0.002]
     """
-    try:
-        return value.m_as(unit) if hasattr(value, "m_as") else value
-    except Exception:  # each registry has classes of its own
-        raise UnitError(_message(name, str(value), unit)) from None
+    if hasattr(value, "m_as"):
+        try:
+            return value.m_as(unit)
+        except Exception:  # each registry has classes of its own
+            raise UnitError(_message(name, str(value), unit)) from None
+    written = str(getattr(value, "attrs", {}).get("units", ""))
+    if written in ("", "1", unit):
+        return value
+    return factor(written, unit, name) * getattr(value, "values", value)
 
 
 def unit_written(text: str) -> str | None:
@@ -237,7 +245,7 @@ def unit_written(text: str) -> str | None:
 
 def _powers(written: str) -> str:
     """Return a unit in which the mark of a power stands before each: m s-1 -> m s^-1."""
-    return _POWER.sub("^", written.translate(_SIGNS))
+    return _DOT.sub("·", _POWER.sub("^", written.translate(_SIGNS)))
 
 
 def count_written(text: str) -> int | None:

@@ -128,7 +128,11 @@ QUIET = np.random.default_rng(1).normal(0.0, 0.5, len(TIMES))
         ((TIMES, FORCE, 0.5, 1.0), InvalidType, "must be a DataArray over time"),
         ((TIMES, FORCE, 0.0), InvalidValue, "'s error must be a positive number, got 0"),
         ((TIMES, FORCE, np.nan), InvalidValue, "'s error must be a positive number, got nan"),
-        (xr.DataArray(np.ones((3, 3)), dims=("time", "x")), InvalidValue, "dimension time alone"),
+        (
+            xr.DataArray(np.ones((3, 3)), dims=("time", "x")),
+            InvalidValue,
+            "force over the time alone",
+        ),
     ],
 )
 def test_records_that_cannot_be_used(value, kind, message):

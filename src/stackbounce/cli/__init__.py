@@ -43,16 +43,10 @@ def stackbounce(
 
 
 _COMMANDS: dict[str, Callable[..., None]] = {
-    "simulate": simulate.run,
-    "sweep": sweep.run,
-    "measure": measure.run,
-    "fit": fit.run,
-    "highest": highest.run,
-    "balls": balls.run,
-    "datasets": datasets.run,
-    "paper": paper.run,
+    "simulate": simulate.run, "sweep": sweep.run, "measure": measure.run, "fit": fit.run,
+    "highest": highest.run, "balls": balls.run, "datasets": datasets.run, "paper": paper.run,
     "app": explorer.run,
-}
+}  # fmt: skip
 for _name, _run in _COMMANDS.items():
     add_command(app, _name, _run)
 

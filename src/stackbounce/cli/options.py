@@ -16,14 +16,9 @@ DROP = ("height", "speed", "gap", "contact", "gravity")
 """The options that change a drop, as `stackbounce.cli.scenario.read` takes them."""
 
 _FORMS: dict[str, Any] = {
-    "text": str,
-    "texts": list[str],
-    "number": float,
-    "count": int,
-    "flag": bool,
-    "file": Path,
+    "text": str, "texts": list[str], "number": float, "count": int, "flag": bool, "file": Path,
     "files": list[Path],
-}
+}  # fmt: skip
 
 
 def add_command(app: typer.Typer, name: str, run: Callable[..., None]) -> None:

@@ -16,25 +16,17 @@ Values: TypeAlias = Mapping[str, Array]
 Formula: TypeAlias = Callable[[Values], Any]
 
 _LONGEST = 500  # characters
-_TOKEN = re.compile(
-    r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|(?P<word>[A-Za-z_]\w*(?:\.\w+)*)", re.ASCII
-)
+_TOKEN = re.compile(r"(?a)(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|(?P<word>[A-Za-z_]\w*(?:\.\w+)*)")
 _CONSTANTS = {"pi": math.pi}
 _FUNCTIONS: dict[str, tuple[Any, int]] = {
-    "sqrt": (np.sqrt, 1),
-    "exp": (np.exp, 1),
-    "log": (np.log, 1),
-    "minimum": (np.minimum, 2),
-    "maximum": (np.maximum, 2),
-}
+    "sqrt": (np.sqrt, 1), "exp": (np.exp, 1), "log": (np.log, 1),
+    "minimum": (np.minimum, 2), "maximum": (np.maximum, 2),
+}  # fmt: skip
 _SIGNS: dict[type[ast.AST], Any] = {ast.UAdd: np.positive, ast.USub: np.negative}
 _OPERATIONS: dict[type[ast.AST], Any] = {
-    ast.Add: np.add,
-    ast.Sub: np.subtract,
-    ast.Mult: np.multiply,
-    ast.Div: np.divide,
+    ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply, ast.Div: np.divide,
     ast.Pow: np.power,
-}
+}  # fmt: skip
 OWN_WORDS = frozenset((*_CONSTANTS, *_FUNCTIONS))
 """The reserved names of formulas: no parameter can have one of them."""
 

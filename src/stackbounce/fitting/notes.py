@@ -55,7 +55,7 @@ def describe_undetermined(names: Sequence[str], sizes: Array, directions: Array)
 
 def _describe_direction(names: list[str]) -> str:
     if len(names) == 1:
-        return f"the data do not determine {names[0]}: nothing changes within its bounds"
+        return f"the data do not determine {names[0]}: near its best value it hardly matters"
     listed = f"{', '.join(names[:-1])} and {names[-1]}"
     return f"the data do not determine {listed} separately: they can change together without effect"
 

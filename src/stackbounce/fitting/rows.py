@@ -17,6 +17,7 @@ Row = tuple[int, list[str]]
 
 _MARKED = re.compile(r"\d*(?:[.,]\d+)+")  # decimal mark, or marks between thousands
 _MOST = 1000  # rows of a table
+_TWO = re.compile(rb"(?m)(?:^|\t)\d[^\t\n]*\t(?:[^\n]*\t)?\d")  # cells with numbers in one row
 _GROUPED = re.compile(r"[1-9]\d{0,2}(?:,\d{3})+")
 
 
@@ -27,7 +28,7 @@ def rows_of(path: File) -> tuple[str, list[Row]]:
     ----------
     path : str or path-like, or (str, bytes)
         A file, or its name and its content: text with tabs, semicolons or commas between its cells,
-        or an Excel file, of which the first sheet is read.
+        or an Excel file, of which the first sheet with two numbers in a row is read.
 
     Raises
     ------
@@ -45,9 +46,11 @@ def rows_of(path: File) -> tuple[str, list[Row]]:
     content = bytearray(content)
     try:
         if content.startswith(b"PK\x03\x04"):
-            (sheet, table), *others = from_xlsx(content).members.items()
-            name += f", first sheet {shown(sheet)}" * bool(others)
-            content = bytearray(table)
+            sheets = from_xlsx(content).members
+            first = next((s for s, table in sheets.items() if _TWO.search(table)), "")
+            first = first or next(iter(sheets))
+            name += f", sheet {shown(first)}" * (len(sheets) > 1)
+            content = bytearray(sheets[first])
         refuse_others(content)
         return name, _split(decode(content))
     except FileError as error:

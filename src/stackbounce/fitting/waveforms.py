@@ -7,10 +7,13 @@ import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, placed, positive, shown, unmasked
 from stackbounce.fitting.quantities import read_index
+from stackbounce.measure.finding import force_channels
 from stackbounce.measure.kinds.waveform.analysis import waveform as analysed
 from stackbounce.measure.kinds.waveform.result import Waveform as Analysed
+from stackbounce.measure.samples import columns
 from stackbounce.model import Drop
 from stackbounce.run.quantities import Array
+from stackbounce.units import in_si, magnitude
 
 # The fit seeks the touch this far from where the analysis finds it: the largest of the three.
 _NEAR = 0.1  # of the first contact's duration
@@ -140,11 +143,16 @@ def _begins(found: Analysed, index: int) -> tuple[float, float]:
 
 def _arrays(value: Any, path: str) -> tuple[Any, Any, Any, bool]:
     """Return times, forces, their error, and whether the scale is free."""
+    if hasattr(value, "data_vars"):
+        value = next((value[name] for name in force_channels(value)), value)
     if hasattr(value, "dims"):
         if value.dims != ("time",):
-            raise InvalidValue(f"{path} must have the dimension time alone, got {value.dims}")
-        error, unit = value.attrs.get("error"), value.attrs.get("units", "")
-        return value["time"].values, value.values, error, unit != "N"
+            got = tuple(map(str, value.dims))
+            raise InvalidValue(f"{path} must be a force over the time alone, got {got}")
+        times, force = columns((value["time"], value), ("time", "force"))
+        error, known = value.attrs.get("error"), in_si(str(value.attrs.get("units", "")))
+        error = known[0] * error if known and error is not None else error
+        return times, force, error, not known or known[1] != "N"
     unmasked(path, value)
     try:
         times, force, error = value if len(value) == 3 else (*value, None)
@@ -153,4 +161,5 @@ def _arrays(value: Any, path: str) -> tuple[Any, Any, Any, bool]:
             f"{path} must be a DataArray over time, or times, forces and their error, "
             f"got {shown(value)}"
         ) from problem
-    return times, force, error, False
+    error = error if error is None else magnitude(error, "N", f"{path}'s error")
+    return magnitude(times, "s", path), magnitude(force, "N", path), error, False

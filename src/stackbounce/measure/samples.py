@@ -7,8 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, shown, unmasked
+from stackbounce.errors import InvalidType, InvalidValue, UnitError, shown, unmasked
 from stackbounce.measure.quantities import Array, Mask
+from stackbounce.units import in_si, magnitude
+
+_UNITS = {"time": "s", "knock": "s", "force": "N", "compression": "m", "x": "m", "y": "m"}
+_UNITS |= {"acceleration": "m/s^2"}
 
 # Set by hand on records of oscilloscopes and rulers (`tests/measure/test_samples.py`).
 _MOST_NUMBERS = 2**18  # of which the step is looked for
@@ -38,6 +42,8 @@ def columns(data: Any, names: Sequence[str]) -> list[Array]:
 
     Raises
     ------
+    UnitError
+        If a unit, of pint or in the attribute ``units`` of xarray, is of another dimension.
     InvalidType
         If `data` is neither, lacks a variable, or holds something else than numbers, or masked
         ones.
@@ -48,11 +54,20 @@ def columns(data: Any, names: Sequence[str]) -> list[Array]:
     --------
     >>> columns(([0, 1], [2, 3]), ("time", "force"))
     [array([0., 1.]), array([2., 3.])]
+    >>> import pint, xarray
+    >>> columns((pint.Quantity([0, 1], "ms"), pint.Quantity([2, 3], "kN")), ("time", "force"))
+    [array([0.   , 0.001]), array([2000., 3000.])]
+    >>> held = {"compression": ("i", [0, 2], {"units": "mm"}), "force": ("i", [0, 9])}
+    >>> columns(xarray.Dataset(held), ("compression", "force"))
+    [array([0.   , 0.002]), array([0., 9.])]
     """
     unmasked("data", data)
     try:
         given = [data[name] for name in names] if hasattr(data, "data_vars") else list(data)
+        given = [_in_si(array, *names[k : k + 1]) for k, array in enumerate(given)]
         arrays = [np.asarray(array, dtype=np.float64) for array in given]
+    except UnitError:
+        raise
     except (KeyError, TypeError, ValueError):
         got = ", ".join(map(str, getattr(data, "data_vars", ()))) or shown(data)
         raise InvalidType(
@@ -67,6 +82,13 @@ def columns(data: Any, names: Sequence[str]) -> list[Array]:
             f"data must hold {' and '.join(names)} of one length, got shapes {shapes}"
         )
     return arrays
+
+
+def _in_si(array: Any, name: str = "") -> Any:
+    """Return an array in SI units, by its unit if it has one."""
+    known = in_si(str(getattr(array, "attrs", {}).get("units", "")))
+    unit = known[1] if known else _UNITS.get(name.partition("_")[0], "")
+    return magnitude(array, unit, name or "data") if known or hasattr(array, "m_as") else array
 
 
 def runs(mask: Mask) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

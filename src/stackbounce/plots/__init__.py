@@ -9,16 +9,8 @@ from stackbounce.plots.model_comparison import compared
 from stackbounce.plots.sweep_curves import heatmap, highest, lines
 
 __all__ = [
-    "bounce",
-    "compared",
-    "corner",
-    "fit",
-    "fitted",
-    "heatmap",
-    "highest",
-    "lines",
-    "measured",
+    "bounce", "compared", "corner", "fit", "fitted", "heatmap", "highest", "lines", "measured",
     "restitutions",
-]
+]  # fmt: skip
 
 need("a picture", "matplotlib")

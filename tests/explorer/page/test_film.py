@@ -291,3 +291,11 @@ def test_a_ball_off_the_middle_leaves_at_its_angle_and_lands_on_the_floor(shown_
     assert np.diff(beside[flies]) / np.diff(time[flies]) == pytest.approx(0.18399, rel=1e-4)
     assert 0.24 < beside[-1] < 0.25
     assert film["shown"][-1]["position"][1] == pytest.approx(-0.16)
+
+
+def test_a_track_is_laid_on_the_drop_also_if_it_could_be_laid_beside_it(page, tmp_path):
+    times = np.arange(-0.45, 3.0, 1.0 / 30.0)
+    heights = np.where(times < 0.0, -times, np.exp(-times) * np.abs(np.sin(4.0 * times))).tolist()
+    line, track = ({"time": (times + late).tolist(), "values": heights} for late in (0.0, 0.65))
+    asked = {"track": track, "line": line, "reach": 3.0, "until": 1.2}
+    assert run_node("ask_shift", page, asked, tmp_path) == pytest.approx(-0.65, abs=0.01)

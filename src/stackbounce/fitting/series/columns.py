@@ -3,12 +3,16 @@
 import re
 from dataclasses import dataclass
 
+from stackbounce.errors import InvalidValue
 from stackbounce.files import shipped_table
 from stackbounce.measure.reading.roles import heading
 from stackbounce.model.catalogue import ENTRIES
 from stackbounce.units import in_si
 
 _KNOWN = shipped_table(__package__, "columns.toml")
+WORDS = {of: re.compile(pattern) for of, pattern in _KNOWN.pop("words").items()}
+"""What names of columns, and cells, tell besides the role of a column, each a pattern."""
+
 _ROLES = {role: re.compile(known["words"]) for role, known in _KNOWN.items()}
 
 UNITS: dict[str, str] = {role: known["unit"] for role, known in _KNOWN.items()}
@@ -17,22 +21,7 @@ UNITS: dict[str, str] = {role: known["unit"] for role, known in _KNOWN.items()}
 _NUMBERED = re.compile(
     r"(.*?[^\d\s_.#])[\s_.#]*\(?(\d{1,2})\)?|(\d{1,2})(?:st|nd|rd|th|e|er|\.|º|ª) (.*)"
 )
-_BOUNCE = re.compile(
-    r"(height |höhe |hauteur |altura |altezza )?((of|after|nach|après|de|del|di|do) )?(the )?"
-    r"(bounces?|rebounds?|hop|bounce height|rebound height|height|h|aufprall|sprung|prall"
-    r"|rücksprung|rücksprunghöhe|sprunghöhe|rebonds?|hauteur|bote|rebote|altura|rimbalzo|altezza)"
-)
-_ERRORS = re.compile(
-    r"±|\+/-|σ|δ|(?:^|\b)(?:error|err|uncertainty|unc|sigma|std|sd|s\.d|stdev|stddev|standard"
-    r" (?:error|deviation)|fehler|unsicherheit|messunsicherheit|incertitude|erreur|incertidumbre"
-    r"|incerteza|error|errore|incertezza|delta|d(?=h\b|v\b|e\b))(?:\b|$)|Δ"
-)
 _READING = re.compile(rf"(.* )?({_KNOWN['reading']['words']})")
-_RATIO = re.compile(r"ratio|v ?/ ?v|verhältnis|rapport|relación|rapporto")  # of speeds
-_MEAN = re.compile(
-    r"^(average|mean|avg\.?|mittelwert|mittlere|durchschnitt\w*|moyenne|media|promedio|média)\b ?"
-)
-_FILLER = re.compile(r"\b(of|in|on|the|der|des|von|de|du|sur|la|le|del|di|su)\b|[()\[\]:._-]")
 _TOLD = re.compile(r"\s*\(?\s*(?:±|\+/-)\s*([\d.,]*\d)\s*([^\W\d_]*)\s*\)?")
 
 
@@ -86,16 +75,16 @@ def columns_of(headings: list[str]) -> list[Column]:
         error = _TOLD.search(text)
         told = f"{error[1]} {error[2]}".strip() if error else ""
         rest = f"{text[: error.start()]} {text[error.end() :]}".strip() if error else text
-        if (not error and _ERRORS.search(text.casefold())) or (error and not rest):
+        if (not error and WORDS["errors"].search(text.casefold())) or (error and not rest):
             found.append(_error(index, text, found))
             continue
         said = heading(f"{rest})" if rest.count("(") > rest.count(")") else rest)
         name, unit = said.name.casefold(), said.unit or (error[2] if error else "")
-        bare = _MEAN.sub("", name)
+        bare = WORDS["mean"].sub("", name)
         role, number = _role(bare, unit) if bare else ("reading", 0)
         ball = "" if role else _ball(bare)
         if ball:
-            role = "rebound_ratio" if _RATIO.search(bare) else "rebound_height"
+            role = "rebound_ratio" if WORDS["ratio"].search(bare) else "rebound_height"
         found.append(Column(index, text, role, unit, number, told, ball))
     return found
 
@@ -127,7 +116,7 @@ def _role(name: str, unit: str) -> tuple[str, int]:
             return role, 0
     if numbered := _NUMBERED.fullmatch(name):
         word, number = (numbered[1], numbered[2]) if numbered[1] else (numbered[4], numbered[3])
-        if _BOUNCE.fullmatch(word.strip()):
+        if WORDS["bounce"].fullmatch(word.strip()):
             return "bounces", int(number)
         if _READING.fullmatch(word.strip()):
             return "readings", int(number)
@@ -136,11 +125,16 @@ def _role(name: str, unit: str) -> tuple[str, int]:
 
 def _error(index: int, text: str, before: list[Column]) -> Column:
     """Return a column of errors: of the one that its name tells, or of the one to its left."""
+    if WORDS["twice"].search(text.casefold()):
+        raise InvalidValue(f"column {text!r} has two standard deviations: give one, as 'error'")
     said = heading(text)
-    bare = " ".join(_FILLER.sub(" ", _ERRORS.sub(" ", said.name.casefold())).split())
+    whole = WORDS["errors"].sub(" ", said.name.casefold())
+    bare = " ".join(WORDS["filler"].sub(" ", whole).split())
     whose = next((c.index for c in reversed(before) if bare and _same(bare, c)), None)
     if whose is None:
         whose = next((c.index for c in reversed(before) if c.role not in ("", "error")), -1)
+    if said.unit == "%" and not any(c.index == whose and c.unit == "%" for c in before):
+        raise InvalidValue(f"column {text!r} must have errors in the unit of what they belong to")
     return Column(index, text, "error", said.unit, whose)
 
 

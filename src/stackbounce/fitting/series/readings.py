@@ -12,7 +12,7 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue
 from stackbounce.fitting.rows import Row, decimal_comma
-from stackbounce.fitting.series.columns import UNITS, Column, columns_of
+from stackbounce.fitting.series.columns import UNITS, WORDS, Column, columns_of
 from stackbounce.library_types import DataFrame
 from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.measure.reading.roles import is_unit
@@ -27,6 +27,7 @@ _RIGHT = "'drop height (cm)' and 'rebound height (cm)', or 'v (m/s)' and 'e'"
 _NUMBER = re.compile(r"[-+]?[\d.,]*\d(?:[eE][-+]?\d+)?\s*([^\W\d_]{1,3}|%|±.*|\+/-.*|\(.*)?")
 _DIGITS = re.compile(r"\d*\.?\d+(?:[eE][-+]?\d+)?")
 _SIZES = ((500.0, "mm"), (5.0, "cm"), (0.0, "m"))  # of the largest height, where no unit is told
+_THOUSANDS = re.compile(r"[1-9]\d{0,2}\.\d{3}")
 _FINE = 1e-5  # of the largest number: nobody reads in such steps, and what has them was computed
 _ENOUGH = 5  # numbers that all end in 0, or in 0 and 5, were not read more finely
 _SUCCESSIVE = 0.5  # of the logarithm of the first ratio of heights: bounces in turn fall by more
@@ -43,6 +44,9 @@ def readings_of(rows: Sequence[Row]) -> tuple[DataFrame, str, list[str]]:
 
     notes: list[str] = []
     head, body = headed(rows)
+    sums = [line for line, cells in body if any(map(WORDS["summary"].fullmatch, cells))]
+    notes += [f"Row {line} has means or sums: left out." for line in sums]
+    body = [row for row in body if row[0] not in sums]
     _carry_down(columns_of(head), body, notes)
     columns, words = _resolved(columns_of(head), body, notes)
     numbers = numbers_in(columns, body, notes)
@@ -101,7 +105,8 @@ def _resolved(
     words: list[int] = []
     for column in columns:
         cells = list(filter(None, (_cell(row, column.index) for _, row in body)))
-        numeric = 2 * sum(bool(_NUMBER.fullmatch(cell)) for cell in cells) > len(cells)
+        count = sum(bool(_NUMBER.fullmatch(cell)) for cell in cells)
+        numeric = 2 * count > len(cells) or (count > 0 and column.role not in ("", "group"))
         if column.role == "group" or (cells and not numeric and column.role != "error"):
             if len(set(cells)) == len(cells) > 2 and column.role != "group":
                 notes.append(f"The words of column {column.text!r} differ in each row: not used.")
@@ -174,6 +179,13 @@ def _numbers(column: Column, columns: Sequence[Column], body: Sequence[Row], usu
     written = column.unit or (of.unit if of is not column else "")
     if not written and unit == "m":
         written = usual
+    if written == "mm" and cells and all(map(_THOUSANDS.fullmatch, filter(None, cells))):
+        raise InvalidValue(f"{texts[0][1]}: {cells[0]} mm can be read in two ways: write no point")
+    filled = [(_NUMBER.fullmatch(cell), where) for cell, where in texts if cell]
+    bare = [where for found, where in filled if found and not found[1]]
+    has_units = any(found and (found[1] or "")[:1].isalpha() for found, _ in filled)
+    if bare and has_units and not column.unit:
+        raise InvalidValue(f"{bare[0]} has no unit, but others of its column have one")
     values, errors = np.full((2, len(cells)), math.nan)
     for k, (cell, (_, where)) in enumerate(zip(cells, texts, strict=True)):
         if cell:
@@ -229,11 +241,21 @@ def _by_drop(
     starts = [column for column in columns if column.role in STARTS]
     if not starts:
         raise InvalidValue(f"no column is a drop height or an impact speed: {_listed(columns)}")
-    start = starts[0]
     measured = next((column.role for column in columns if column.role in MEASURED), "")
     if not measured:
         raise InvalidValue(f"no column is what was measured after a bounce: {_listed(columns)}")
     read = sorted((c for c in columns if c.role == measured), key=lambda column: column.number)
+    kind = "" if measured == "restitution" else measured.removeprefix("rebound")
+    start = next((column for column in starts if column.role.endswith(kind)), None)
+    if start is None:
+        both = f"{starts[0].text!r} and {read[0].text!r}"
+        raise InvalidValue(f"{both} are a height and a speed: give heights, or speeds, of both")
+    if two := [column.text for column in starts if column.role == start.role][1:]:
+        raise InvalidValue(
+            f"{start.text!r} and {two[0]!r} are of two tables: give each its own file"
+        )
+    left_out = [c for c in columns if c.role in (*STARTS, *MEASURED) and c not in (start, *read)]
+    notes += [f"Column {c.text!r} is not used: {read[0].text!r} is." for c in left_out]
     in_turn = _in_turn(read, numbers, start)
     if len(read) > 1 and read[0].number:  # no heading says which
         what = "those of bounces in turn" if in_turn else "repeated readings of one bounce"
@@ -291,11 +313,12 @@ def _check(readings: DataFrame, measured: str) -> None:
                 )
             most = 1.0 if measured == "restitution" else before
             if value > most:
-                got, right = (handy_text(one, UNITS[measured], 3) for one in (value, most))
+                got = handy_text(value, UNITS[measured], 3)
+                after = f" after {handy_text(most, UNITS[measured], 3)}" * bool(UNITS[measured])
                 raise InvalidValue(
-                    f"row {line}: the {measured.replace('_', ' ')} is {got} after "
-                    f"{right}: one ball does not gain speed in a bounce; the "
-                    "columns may be exchanged, or it is the upper ball of a stack"
+                    f"row {line}: the {measured.replace('_', ' ')} is {got}{after}: one ball does "
+                    "not gain speed in a bounce; the columns may be exchanged, or it is the upper "
+                    "ball of a stack"
                 )
             in_turn = measured == "rebound_height" and drop.number.max() > 1
             before = value if in_turn else before

@@ -10,10 +10,8 @@ _BEFORE = re.compile(r"(Latest|(?:Run|Data Set|Durchgang|Lauf)\b[^:]{0,40}|[^:(\
 _AFTER = re.compile(r"(.+?)[\s,]+((?:Run|Durchgang|Lauf|Ensayo|Essai)\s+#?\d{1,6})")
 _BRACKETS = re.compile(r"(.*?)\s*(?:\(([^()]*(?:\([^()]*\)[^()]*)?)\)|\[([^\[\]]*)\])")
 _WORDS = re.compile(r"(.+?)(?:\s*/\s*|,\s*|\s+in\s+|\s+|_)(\S{1,20})")
-_UNIT_NAME = re.compile(
-    r"(sec|seconds?|volts?|newtons?|met(?:er|re)s?)(?: ?\d{1,2})?", re.IGNORECASE
-)
-_SURE = re.compile(r"(.+?)(?:\s*/\s*|,\s*|\s+in\s+)(\S{1,20})")
+_UNIT_NAME = re.compile(r"(?i)(sec|seconds?|volts?|newtons?|met(?:er|re)s?)(?: ?\d{1,2})?")
+_SURE = re.compile(r"(.+?)(?:\s*/\s*|,\s*|\s+in\s+)(\S{1,20}(?: [^\W\d_]{1,2}[\^⁻-]\S{1,3})?)")
 FRAME, PIXEL = "frame", "px"
 """The units of time and of length in a video whose frame rate and scale are not known."""
 
@@ -87,7 +85,7 @@ def heading(text: str, unit: str | None = None) -> Heading:
         return Heading(text, name, unit.strip(" ()[]"), run)
     if found := _BRACKETS.fullmatch(name):
         return Heading(text, found[1].rstrip("/ "), (found[2] or found[3] or "").strip(), run)
-    for found in filter(None, (_WORDS.fullmatch(name), _SURE.fullmatch(name))):
+    for found in filter(None, (_SURE.fullmatch(name), _WORDS.fullmatch(name))):
         if in_si(found[2], common=not _SURE.fullmatch(name)):
             return Heading(text, found[1], found[2], run)
     if found := _UNIT_NAME.fullmatch(name):

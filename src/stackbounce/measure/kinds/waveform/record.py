@@ -12,6 +12,7 @@ from stackbounce.library_types import Dataset
 from stackbounce.measure.finding import force_channels
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns, resolution, spikes
+from stackbounce.units import in_si
 
 _LEAST_SAMPLES = 8  # of a record
 _UNEVEN = 0.01  # of a step, by which one may differ before a note says so
@@ -110,7 +111,8 @@ def _channel(data: Any) -> tuple[Array, Array, str, list[str]]:
     names.sort(key=lambda name: name.startswith("voltage"))  # forces come first
     times, values = columns(data, ("time", names[0]))
     shown = [str(data[name].attrs.get("long_name", name)) for name in names]
-    return times, values, str(data[names[0]].attrs.get("units", "")), shown
+    written = str(data[names[0]].attrs.get("units", ""))
+    return times, values, (in_si(written) or (1.0, written))[1], shown
 
 
 def undrooped(times: Array, values: Array, time_constant: float) -> Array:

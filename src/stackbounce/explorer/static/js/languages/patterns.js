@@ -11,11 +11,11 @@ export const PATTERNS = [
   "rebound speed of {ball} over v₀",
   "rebound height of {ball}",
   "collisions of {contact}",
-  "gap above {ball}",
+  "gap above {ball}", "height of flight {place}",
   "{number} of {place}",
   "ball {place}",
   "{lower} and {upper} in series",
 ];
 
 /** What stands at a place of these, such as the balls of a contact; a sentence of its own can look the same by chance. */
-export const PARTS = ["floor and {ball}", "{lower} and {upper}", "ball", "lower ball", "upper ball"];
+export const PARTS = ["bounce {place}", "flight {place}", "floor and {ball}", "{lower} and {upper}", "ball", "lower ball", "upper ball"];

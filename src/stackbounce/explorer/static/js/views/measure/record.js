@@ -72,7 +72,7 @@ export function matched(curves, simulated) {
  */
 export function bestShift(curves, simulated, reach, until) {
   const cost = (shift) => shifted(curves, shift).reduce((sum, curve, i) => sum + distance(curve, simulated[i], until), 0);
-  let [best, least] = [0, cost(0)];
+  let [best, least] = [0, Infinity];
   for (let wide = reach, middle = 0; wide > reach / 1000; wide /= 20, middle = best) {
     for (let i = -TRIES / 4; i <= TRIES / 4; i += 1) {
       const shift = middle + (wide * i * 4) / TRIES;
@@ -87,7 +87,7 @@ export function bestShift(curves, simulated, reach, until) {
 function distance(curve, line, until) {
   const apart = differences(curve, line, until);
   const middle = mean(differences(curve, line, 0));
-  return apart.reduce((sum, difference) => sum + (difference - middle) ** 2, 0) / Math.max(apart.length, 1);
+  return apart.length ? apart.reduce((sum, difference) => sum + (difference - middle) ** 2, 0) / apart.length ** 2 : Infinity; // a few points lie on it by chance
 }
 
 /** Return curve minus line, until a time, wherever the line is. */
