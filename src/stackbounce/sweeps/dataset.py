@@ -218,11 +218,11 @@ def _named(number: Number, value: Any) -> DataArray:
     unmasked(number.path, value)
     if isinstance(value, str) and {*value} & {*":,"}:
         value = _spaced(number, value)
-    value = in_unit(value, number.unit, number.path)
     if isinstance(value, xr.DataArray):
         data = in_unit(value.data, number.unit, number.path)
         array = value if data is value.data else value.copy(data=data)
     else:
+        value = in_unit(value, number.unit, number.path)
         try:
             plain = np.asarray(value) if not hasattr(value, "dask") else value
         except ValueError as error:
