@@ -100,7 +100,7 @@ def test_words_are_groups_and_remarks_are_not(table):
     rows = "golf,100,70,a\ngolf,50,36,b\ntennis,100,53,c\n"
     read = table("ball,drop height (cm),rebound (cm),remark\n" + rows)
     assert list(read.groups) == ["golf", "tennis"]
-    assert "The words of column 'remark' differ in each row: not used." in read.notes
+    assert "The words of column 'remark' are not used: no groups." in read.notes
 
 
 ERRORS = (  # one error of 1 cm at heights of 100 and 50 cm, told in many ways

@@ -26,20 +26,13 @@ from stackbounce.extras import MEASURING, need
 # Each name is imported when it is first used: the command line's help needs only the options.
 # Checkers of types read `__init__.pyi`.
 _MODULES = {
-    "measurement": "analyse",
-    "constants": "dynamic_stiffness law_constants one_ball one_law",
-    "drag": "Drag",
-    "kinds.acceleration.analysis": "accelerometer",
-    "kinds.bounces.analysis": "bounces",
-    "kinds.heights.analysis": "heights",
-    "kinds.press.analysis": "press",
-    "kinds.press.series": "split_series",
-    "kinds.sound.analysis": "knocks",
-    "kinds.track.analysis": "track",
-    "kinds.waveform.analysis": "waveform",
-    "kinds.waveform.gap": "gap_from_delay sensor_gap",
-    "reading": "read",
-}
+    "measurement": "analyse", "constants": "dynamic_stiffness law_constants one_ball one_law",
+    "drag": "Drag", "kinds.acceleration.analysis": "accelerometer",
+    "kinds.bounces.analysis": "bounces", "kinds.heights.analysis": "heights",
+    "kinds.press.analysis": "press", "kinds.press.series": "split_series",
+    "kinds.sound.analysis": "knocks", "kinds.track.analysis": "track", "reading": "read",
+    "kinds.waveform.analysis": "waveform", "kinds.waveform.gap": "gap_from_delay sensor_gap",
+}  # fmt: skip
 _HOMES = {name: module for module, names in _MODULES.items() for name in names.split()}
 __all__ = list(_HOMES)
 

@@ -351,3 +351,8 @@ def test_long_files_are_read_as_short_ones_are(tmp_path, monkeypatch, name, end)
     assert list(parts.variables) == list(whole.variables)
     for variable in whole.variables:
         assert parts[variable].values.tobytes() == whole[variable].values.tobytes()
+
+
+def test_a_first_row_with_a_remark_is_no_header(read):
+    data = read(b"t (ms),F (N),comment\n0,1.5,start\n1,2.5,\n2,3.5,\n")
+    assert (data.attrs["holds"], data.force.values.tolist()) == ("waveform", [1.5, 2.5, 3.5])

@@ -108,8 +108,9 @@ def _resolved(
         count = sum(bool(_NUMBER.fullmatch(cell)) for cell in cells)
         numeric = 2 * count > len(cells) or (count > 0 and column.role not in ("", "group"))
         if column.role == "group" or (cells and not numeric and column.role != "error"):
-            if len(set(cells)) == len(cells) > 2 and column.role != "group":
-                notes.append(f"The words of column {column.text!r} differ in each row: not used.")
+            differ = len(set(cells)) == len(cells) > 2 and column.role != "group"
+            if differ or WORDS["remark"].fullmatch(column.text.casefold()):
+                notes.append(f"The words of column {column.text!r} are not used: no groups.")
             else:
                 words.append(column.index)
         elif column.role not in ("", "reading") and column.number >= 0:

@@ -213,12 +213,24 @@ def _numbers(text: Text, first: int, width: int) -> Array:
 
 
 def _body(text: Text) -> int:
-    """Return the index of the first row of numbers that has the most frequent width."""
+    """Return the index of the first row of numbers that has the most frequent width.
+
+    Rows above it that begin with a number and have another are of the table, too, with a remark.
+    """
     first_row(text)
     rows = [row for row in text.head if count_numbers(row, text.decimal)]
     widths = Counter(map(len, rows))
     usual = max(widths, key=lambda width: (widths[width], width))
-    return next(k for k, row in enumerate(text.head) if len(row) == usual and row in rows)
+    first = next(k for k, row in enumerate(text.head) if len(row) == usual and row in rows)
+    while first and _begins_with_numbers(text.head[first - 1], text.decimal):
+        first -= 1
+    return first
+
+
+def _begins_with_numbers(row: list[str], decimal: str) -> bool:
+    """Return whether a row begins with a number and has another, whatever else is in it."""
+    known = [cell != "" and number(cell, decimal) is not None for cell in row]
+    return known[:1] == [True] and sum(known) > 1
 
 
 def _width(text: Text, first: int) -> int:
