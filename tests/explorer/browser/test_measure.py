@@ -222,3 +222,11 @@ def test_a_record_can_be_taken_away(visit, page):
     assert not page.locator('section[aria-label="What was found"]').is_visible()
     page.get_by_role("tab", name="Play").click()
     assert "of the whole drop" not in page.locator(".options").inner_text()
+
+
+def test_a_german_page_takes_decimal_commas_also_in_options(visits):
+    page = opened(visits(locale="de-DE"))
+    page.locator('input[type="file"]').first.set_input_files(LAB / "tennis.wav")
+    change = "(one) => { one.value = '1,20 m'; one.dispatchEvent(new Event('change')); }"
+    page.locator('[name="height"]').evaluate(change)
+    page.wait_for_function("() => document.querySelector('.measure-in').innerText.includes('1,2 m')")

@@ -3,6 +3,7 @@
 import { h } from "../../dom.js";
 import { choice } from "../../set_up/fields.js";
 import { translated } from "../../words/language.js";
+import { pointed } from "../../words/words.js";
 
 /**
  * Fill the form of `parts` with a list of options `{name, form, label, example, says, rare, choices}`; returns `{options()}`.
@@ -29,8 +30,7 @@ function chooseField({ name, label, example, choices }, set) {
 }
 
 function inputField({ name, form, label, says, example }, set) {
-  const isFlag = form === "flag";
-  const attributes = isFlag ? { type: "checkbox" } : { type: "text", placeholder: example, spellcheck: "false" };
-  const input = h("input", { name, ...attributes, onchange: () => set(isFlag ? input.checked : input.value.trim()) });
+  const attributes = form === "flag" ? { type: "checkbox" } : { type: "text", placeholder: example, spellcheck: "false" };
+  const input = h("input", { name, ...attributes, onchange: () => set(form === "flag" ? input.checked : pointed(input.value.trim())) });
   return h("label", { class: "option", title: translated(says) }, h("span", { text: translated(label) }), input);
 }
