@@ -78,7 +78,7 @@ class Waveform:
 
 
 def read_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
-    """Return a force record, from a DataArray over time or a pair or triple of arrays.
+    """Return a force record, of a DataArray over time, what `read` returns, or two or three arrays.
 
     Parameters
     ----------

@@ -43,7 +43,7 @@ def columns(data: Any, names: Sequence[str]) -> list[Array]:
     Raises
     ------
     UnitError
-        If a unit, of pint or in the attribute ``units`` of xarray, is of another dimension.
+        If a unit of pint is of another dimension than the variable.
     InvalidType
         If `data` is neither, lacks a variable, or holds something else than numbers, or masked
         ones.

@@ -106,7 +106,8 @@ def _resolved(
     for column in columns:
         cells = list(filter(None, (_cell(row, column.index) for _, row in body)))
         count = sum(bool(_NUMBER.fullmatch(cell)) for cell in cells)
-        numeric = 2 * count > len(cells) or (count > 0 and column.role not in ("", "group"))
+        known = column.role not in ("", "group", "reading")
+        numeric = 2 * count > len(cells) or (count > 0 and known)
         if column.role == "group" or (cells and not numeric and column.role != "error"):
             differ = len(set(cells)) == len(cells) > 2 and column.role != "group"
             if differ or WORDS["remark"].fullmatch(column.text.casefold()):
@@ -252,9 +253,7 @@ def _by_drop(
         both = f"{starts[0].text!r} and {read[0].text!r}"
         raise InvalidValue(f"{both} are a height and a speed: give heights, or speeds, of both")
     if two := [column.text for column in starts if column.role == start.role][1:]:
-        raise InvalidValue(
-            f"{start.text!r} and {two[0]!r} are of two tables: give each its own file"
-        )
+        raise InvalidValue(f"{start.text!r} and {two[0]!r} are of two tables: give each a file")
     left_out = [c for c in columns if c.role in (*STARTS, *MEASURED) and c not in (start, *read)]
     notes += [f"Column {c.text!r} is not used: {read[0].text!r} is." for c in left_out]
     in_turn = _in_turn(read, numbers, start)

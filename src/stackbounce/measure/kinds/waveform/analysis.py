@@ -40,6 +40,8 @@ _MOST_CONTACTS = 120  # of a record of bounces
 _FEW_SAMPLES = 6  # of a contact, below which a note says so
 _CLEAR_DROP = 5.0  # standard errors by which the baseline is lower after a contact
 _STEEP = 0.85  # exponent of a touch that is too small for any spring
+_SOFT = 2.5  # exponent of a release, above which its errors are too small (Hysteretic, 0.7: 2.8)
+_SOFT_END = "the force ends so softly that the release may be off by more than its error"
 _CLEARLY_STEEP = 3.0  # standard errors by which it is below 1
 
 
@@ -92,7 +94,8 @@ def waveform(
     as lossy contacts end softly. The prior matters only where samples are few or noise is high; the
     error bars include it. They do not include touches that begin with a jump (`Dashpot`) or as the
     root of the time (`Viscoelastic`), which are found too early, nor releases of very lossy
-    contacts (a restitution below 0.8 or so): give the law there.
+    contacts (a restitution below 0.75 or so, or below 0.85 if another ball still presses), which a
+    note tells by their exponent: give the law there, if no other ball presses.
 
     A law that is given is taken as exact: the errors are those for this law, and for a ball that
     touches no other ball at its touch and release. Where the noise is as low as 0.1 % of the peak,
@@ -139,6 +142,8 @@ def waveform(
         notes += _droops(seen, record.step)
     if ends == UNTOLD:
         notes += _steep(contacts)
+        ends_as = [contact.exponents[1] for contact in contacts]
+        notes += [_SOFT_END] * any(power and power.nominal_value > _SOFT for power in ends_as)
     zero = seen.zero
     return Waveform(
         contacts=contacts,
