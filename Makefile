@@ -62,7 +62,7 @@ lowest: kernels  ## examples and fast tests with the lowest versions of all depe
 	@rm -rf build/lowest
 	@$(PYTHON) -m venv build/lowest
 	@$(BIN)/python .ci/requirements.py lowest > build/lowest/requirements.txt
-	@build/lowest/bin/python -m pip --disable-pip-version-check install --quiet --quiet \
+	@build/lowest/bin/python -m pip --disable-pip-version-check install --quiet --quiet --no-compile \
 	  --requirement build/lowest/requirements.txt
 	@PYTHONPATH=$(CURDIR)/src build/lowest/$(OF_LOWEST)
 
@@ -80,7 +80,7 @@ bench: $(DEV) kernels  ## growth, accuracy, speed, and the benchmark of impacts,
 
 check: lint types imports docs test  ## everything but what only a release needs: lint, types, import rules, documentation, tests, some in a browser
 	@tests/explorer/browser/browsers.sh
-	@$(PYTEST) -m '(slow or hypothesis) and not release'
+	@$(PYTEST) -m '(slow or hypothesis) and not release' tests
 
 fuzz: $(DEV) kernels  ## random drops and files in great number: make fuzz DROPS=1000000 FILES=5000 FOLDER= SEED=1
 	@cd tests && PYTHONPATH=.. ../$(BIN)/python -m fuzz --drops $(DROPS) --seed $(SEED)

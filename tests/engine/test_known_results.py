@@ -129,9 +129,9 @@ CONTACTS = {
     ),
 }
 AXES = {
-    "gaps.0": np.linspace(0.0, 8e-3, 5_000),
-    "balls.1.mass": np.geomspace(0.005, 1.0, 5_000),
-    "impact_speed": np.geomspace(0.1, 10.0, 5_000),
+    "gaps.0": np.linspace(0.0, 8e-3, 3_000),
+    "balls.1.mass": np.geomspace(0.005, 1.0, 3_000),
+    "impact_speed": np.geomspace(0.1, 10.0, 3_000),
 }
 SUSPECTS = 6  # steps between neighbours that are looked at closely
 FINEST = 1e-15  # of a value

@@ -31,7 +31,7 @@ ANALYSES = (
     Analysis(stiffness.CASES, tuple(stiffness.CASES), 200, fast=1),
     Analysis(press.CASES, ("noise that remembers", "coarse digits"), 200),
     Analysis(track.CASES, ("track, 60 frames per second",), 400),  # of 200 one in fifty is outside
-    Analysis(UNTOLD, ("hysteretic of restitution 0.9",), 220),
+    Analysis(UNTOLD, ("hysteretic of restitution 0.9",), 160),
     Analysis(waveform.HUMMING, (), 150),
     Analysis(TOLD, ("told: dashpot",), 100),
 )

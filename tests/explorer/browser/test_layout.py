@@ -5,7 +5,7 @@ from page_build.examples import list_examples
 
 from stackbounce.cross2007.cases import explorer_address
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.release]
 FORMS = ("served",)
 PHONE = {"viewport": {"width": 360, "height": 740}, "has_touch": True, "is_mobile": True}
 [CANNON] = [explorer_address(one.drop, {}) for one in list_examples() if one.name == "cannon"]

@@ -296,6 +296,7 @@ BROKEN = [
 ]
 
 
+@pytest.mark.release
 @pytest.mark.parametrize("fragment", BROKEN)
 def test_a_broken_link_shows_a_page_all_the_same(visit, fragment):
     page = visit.open(fragment)

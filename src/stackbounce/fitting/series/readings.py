@@ -106,8 +106,8 @@ def _resolved(
     for column in columns:
         cells = list(filter(None, (_cell(row, column.index) for _, row in body)))
         count = sum(bool(_NUMBER.fullmatch(cell)) for cell in cells)
-        known = column.role not in ("", "group", "reading")
-        numeric = 2 * count > len(cells) or (count > 0 and known)
+        of_numbers = column.role not in ("", "group", "reading")
+        numeric = 2 * count > len(cells) or (count > 0 and of_numbers)
         if column.role == "group" or (cells and not numeric and column.role != "error"):
             differ = len(set(cells)) == len(cells) > 2 and column.role != "group"
             if differ or WORDS["remark"].fullmatch(column.text.casefold()):
