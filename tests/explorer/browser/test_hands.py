@@ -102,8 +102,8 @@ def test_a_finger_that_swipes_over_a_ball_scrolls_and_one_that_rests_on_it_drags
     page = opened(phone)
     x, y, _ = body(page, 1)
     touch(page, (x, y), 80)
+    page.wait_for_function("() => scrollY > 20")
     assert phone.state("drop.gaps") == [0]
-    assert page.evaluate("() => scrollY") > 20
     page.evaluate("() => scrollTo(0, 0)")
     x, y, _ = body(page, 1)
     touch(page, (x, y), 30, rest=400)

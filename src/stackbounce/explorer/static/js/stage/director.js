@@ -21,8 +21,8 @@ export function direct(store, clock, calm) {
     if (asks(state) && !asks(before) && clock.film) clock.rewind();
     if (state.result === before.result) return;
     const film = filmOf(state.result, state.until);
-    const refined = ["drop", "until"].every((name) => state.resultOf[name] === before.resultOf?.[name]); // more frames of the same
     const again = clock.film === null || film.whole !== whole || state.replay !== replay;
+    const refined = !again && ["drop", "until"].every((name) => state.resultOf[name] === before.resultOf?.[name]); // more frames of the same
     const moment = again ? film.begin : sameMoment(clock.film, clock.time, film);
     const ended = !again && !clock.playing && clock.time >= clock.end && state.result.drop !== before.result.drop;
     clock.show(film, [...new Set(film.events.map(({ time }) => time))], wanted ?? moment);
