@@ -1,43 +1,52 @@
-"""The page in three texts, HTML, styles and script, for those of its forms that no server makes."""
+"""The page in three texts: HTML, styles and script."""
 
 import functools
 import json
 import re
-from collections.abc import Mapping
 from pathlib import Path
 
 from page_build.bundle import bundle
+from page_build.data import laws_js
 from stackbounce import explorer
 
 _STATIC = Path(explorer.__file__).parent / "static"
-_SERVED = "js/origin/served.js"
-_LANGUAGES = "made/languages.js"  # a server has a file of each instead
+_ORIGIN = "js/origin/web.js"
 _STYLE = re.compile(r'\s*<link rel="stylesheet" href="([^"]+)">')
 _SCRIPT = re.compile(r'\s*<script type="module" src="([^"]+)"></script>')
 _CHARSET = '<meta charset="utf-8">'
 
 
-def assemble(origin: str, made: Mapping[str, bytes]) -> tuple[str, str, str]:
+def assemble(origin: str) -> tuple[str, str, str]:
     """Return the page's HTML without its styles and its script, the styles, and one classic script.
 
     Parameters
     ----------
     origin : str
-        The module of ``js/origin/`` that takes the place of ``served``.
-    made : mapping
-        The modules of ``made/``, by their names.
+        The module of ``js/origin/`` by which the page comes: ``web`` or ``one_file``.
 
     Examples
     --------
-    >>> assemble("one_file", {"laws.js": b"export const LAW_CODE = {};"})[0][:15]
+    >>> assemble("one_file")[0][:15]
     '<!doctype html>'
     """
     page = read_static("index.html")
     begin = _SCRIPT.search(page)
     assert begin is not None
     styles = "".join(read_static(name) for name in _STYLE.findall(page))
+    made = made_modules()
     script = bundle(functools.partial(_module, origin, made), begin[1], "js/engine/worker.js")
     return _SCRIPT.sub("", _STYLE.sub("", page)), styles, script
+
+
+def made_modules() -> dict[str, str]:
+    """Return the modules that are made of the package and of tables of words, by their paths.
+
+    Examples
+    --------
+    >>> sorted(made_modules())
+    ['made/languages.js', 'made/laws.js']
+    """
+    return {"made/laws.js": laws_js(), "made/languages.js": _language_module(_tables())}
 
 
 def with_policy(html: str, policy: str) -> str:
@@ -64,14 +73,11 @@ def read_static(name: str) -> str:
     return (_STATIC / name).read_text("utf-8")
 
 
-def _module(origin: str, made: Mapping[str, bytes], path: str) -> str:
+def _module(origin: str, made: dict[str, str], path: str) -> str:
     """Return the text of a module."""
-    folder, _, name = path.partition("/")
-    if path == _LANGUAGES:
-        return _language_module(_tables())
-    if folder == "made":
-        return made[name].decode()
-    return read_static(f"js/origin/{origin}.js" if path == _SERVED else path)
+    if path in made:
+        return made[path]
+    return read_static(f"js/origin/{origin}.js" if path == _ORIGIN else path)
 
 
 def _language_module(tables: dict[str, dict[str, str]]) -> str:

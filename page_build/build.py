@@ -48,13 +48,14 @@ def is_up_to_date(engine: Path, folder: Path) -> bool:
 
 def list_files(engine: Path) -> dict[str, bytes]:
     """Return all files by their names."""
-    from page_build.data import laws_js, model_json, options_json
-    from page_build.folder import folder_files, one_file
+    from page_build.assembly import read_static
+    from page_build.data import model_json, options_json
+    from page_build.folder import one_file, web_files
 
-    texts = {"laws.js": laws_js(), "model.json": model_json(), "options.json": options_json()}
-    parts = {name: text.encode() for name, text in texts.items()} | _read_engine(engine)
-    form = {name: content for name, content in folder_files(parts).items() if "/" not in name}
-    return parts | form | {made.ONE_FILE: one_file(parts).encode()}
+    texts = {"model.json": model_json(), "options.json": options_json()}
+    data = {name: text.encode() for name, text in texts.items()} | _read_engine(engine)
+    other = {made.ONE_FILE: one_file(data), made.WAITING: read_static(made.WAITING)}
+    return web_files(data) | {name: text.encode() for name, text in other.items()}
 
 
 def has_engine(folder: Path) -> bool:

@@ -12,13 +12,12 @@ from collections.abc import Callable
 from stackbounce.errors import InvalidValue
 
 _IMPORT = re.compile(r'^import\s+(\w+|\*\s*as\s+\w+|\{[^}]*\})\s*from\s*"([^"]+)";$', re.MULTILINE)
-_LATER = re.compile(r'\bimport\("([^"]+)"\)')
 _PASSED = re.compile(r'^export\s*\{([^}]*)\}(?:\s*from\s*"([^"]+)")?;$', re.MULTILINE)
 _DECLARED = re.compile(
     r"^export ((?:async )?function\*?|class|const|let) (\{[^}]*\}|\w+)", re.MULTILINE
 )
 _COMMENT = re.compile(r"^\s*(?://.*|/\*(?:(?!Copyright)[^*]|\*(?!/))*\*/)[^\S\n]*\n", re.MULTILINE)
-_LEFT = re.compile(r"^\s*(?:import|export)\b(?!\()|\bimport\.meta\b", re.MULTILINE)
+_LEFT = re.compile(r"^\s*(?:import|export)\b|\bimport\b\s*[.(]", re.MULTILINE)
 
 
 def bundle(read: Callable[[str], str], page: str, worker: str) -> str:
@@ -98,7 +97,6 @@ def _rewritten(path: str, text: str) -> tuple[str, list[str]]:
         return f"{kind} {name}"
 
     text = _IMPORT.sub(imported, _COMMENT.sub("", text))  # an export in a comment is none
-    text = _LATER.sub(lambda match: f"Promise.resolve().then(() => {used(match[1])})", text)
     text = _DECLARED.sub(declared, _PASSED.sub(passed, text))
     left = _LEFT.search(text)
     if left:

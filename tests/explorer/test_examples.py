@@ -52,11 +52,10 @@ def test_the_last_ball_of_the_cradle_takes_most_of_the_speed():
 
 
 # --- the records that the explorer offers for a try are those that `example_records` makes
-RECORDS = files("stackbounce.explorer") / "static" / "examples"
-MADE = {
-    "floor-force.csv": (floor_force, 0.1, "waveform"),
-    "two-tracks.csv": (two_tracks, 1e-4, "track"),
-}
+STATIC = files("stackbounce.explorer") / "static"
+RECORDS = STATIC / "examples"
+FORCE, TRACKS = (floor_force, 0.1, "waveform"), (two_tracks, 1e-4, "track")
+MADE = {"floor-force.csv": FORCE, "two-tracks.csv": TRACKS}
 
 
 def _numbers(text):
@@ -74,13 +73,12 @@ def test_a_record_is_as_it_is_made_to_its_last_digit_and_read_as_what_it_is(name
 
 
 def test_the_page_offers_each_record_and_no_other():
-    said = (RECORDS.parent / "index.html").read_text(encoding="utf-8")
+    said = (STATIC / "index.html").read_text(encoding="utf-8")
     offered = set(re.findall(r'data-example="(.+?)"', said))
     assert offered == set(MADE) == {path.name for path in RECORDS.iterdir()}
 
 
 # --- the colours of balls: each known ball has its own, and each curve is seen on its card
-STATIC = files("stackbounce.explorer") / "static"
 SCRIPT = (STATIC / "js/stage/looks.js").read_text("utf-8")
 STYLES = [(STATIC / name).read_text("utf-8") for name in ("style.css", "css/looks.css")]
 LOOKS = re.findall(r'^  "?([\w-]+)"?: \{ balls: \[(.*?)\]', SCRIPT, re.MULTILINE)

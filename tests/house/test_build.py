@@ -174,7 +174,7 @@ def test_a_page_is_up_to_date_until_something_changes(monkeypatch, tmp_path):
     monkeypatch.setattr(native, "digest_of_sources", lambda: "another")
     assert not page_builder.has_engine(engine)
     monkeypatch.setattr(made, "FOLDER", tmp_path)
-    with pytest.raises(FileError, match=r"index\.html is not in this installation"):
+    with pytest.raises(FileError, match=r"folder\.html is not in this installation"):
         made.folder_files()
 
 

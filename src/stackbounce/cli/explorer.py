@@ -71,11 +71,12 @@ def _write(path: str, framed_by: list[str], overwrite: bool, as_json: bool) -> N
         kind, files = "file", {out.name: one_file().encode()}
         check_place(out)
         write_file(out, files[out.name], overwrite)
+        size = out.stat().st_size  # with its seal
     else:
         kind, files = "folder", folder_files()
         prepare_folder(out, files, overwrite)
         write_folder(out, files, overwrite)
-    size = sum(map(len, files.values()))
+        size = sum(map(len, files.values()))
     header = f"Content-Security-Policy: {frame_rule(framed_by)}" if framed_by else None
     if as_json:
         known = {} if header is None else {"header": header}

@@ -12,8 +12,8 @@ workers     worker processes, with limits of time and memory for each job
 schema      the schema of requests, in pydantic
 paper_pages the paper's pages, computed at the first request
 answers/    the functions that compute answers in the worker processes
-static/     the page: HTML, CSS, plain ES modules, and uPlot
-made        the files of the page that were made when the package was built
+static/     the sources of the page: HTML, CSS, plain ES modules, and uPlot
+made        the page itself: the files that were made of it when the package was built
 =========== ================================================================
 """
 

@@ -1,6 +1,7 @@
 """The server's addresses: what each takes, and the function that computes its answer."""
 
 import contextlib
+import mimetypes
 import tempfile
 from collections.abc import AsyncIterator, Callable, Sequence
 from pathlib import Path
@@ -18,12 +19,11 @@ from stackbounce.explorer.addresses import Place
 from stackbounce.explorer.answers import predictions, records
 from stackbounce.explorer.guard import add_guard
 from stackbounce.explorer.limits import Limits
-from stackbounce.explorer.made import KINDS, made_file
+from stackbounce.explorer.made import FOLDER, MEASURING, PAGE, PLAYING
 from stackbounce.explorer.paper_pages import Papers
 from stackbounce.explorer.workers import AGAIN_SECONDS, Busy, Workers
 from stackbounce.version import __version__
 
-_STATIC = Path(__file__).parent / "static"
 _PROBLEMS: dict[int | str, dict[str, Any]] = {
     status: {"model": schema.Problem, "description": meaning}
     for status, meaning in {
@@ -153,13 +153,15 @@ def _add_pages(app: FastAPI) -> None:
         papers: Papers = request.app.state.papers
         return await papers.page(name, request.scope)
 
-    @app.get("/made/{name}", include_in_schema=False)
-    def made(name: str) -> Response:
-        if name not in KINDS:
-            raise HTTPException(404)
-        return Response(made_file(name), media_type=KINDS[name])
+    mimetypes.add_type("text/javascript", ".js")  # Windows may say text/plain: then none runs it
+    files = StaticFiles(directory=FOLDER)
 
-    app.mount("/", StaticFiles(directory=_STATIC, html=True), name="static")
+    @app.api_route("/{name:path}", methods=["GET", "HEAD"], include_in_schema=False)
+    async def page_file(request: Request, name: str) -> Response:
+        name = name or PAGE
+        if name not in (PAGE, *PLAYING, *MEASURING):
+            raise HTTPException(404)
+        return await files.get_response(name, request.scope)
 
 
 def _add_errors(app: FastAPI) -> None:

@@ -1,8 +1,7 @@
 """The files of the page that were made when the package was built: they are only read here.
 
-The folder `made` holds the explorer as one file, that of the folder form, and what the page has in
-its folder `made/`: the engine, data, formulas of laws, and options of measurements. `page_build` in
-the repository makes them.
+The folder `made` holds the explorer as one file, and as files for a web server: page, styles,
+script, engine and data. `page_build` in the repository makes them.
 """
 
 import base64
@@ -13,14 +12,13 @@ from stackbounce.errors import FileError
 
 FOLDER = Path(__file__).with_suffix("")
 ONE_FILE = "explorer.html"
-KINDS = {
-    "engine.wasm": "application/wasm",
-    "layout.json": "application/json",
-    "laws.js": "text/javascript; charset=utf-8",
-    "model.json": "application/json",
-    "options.json": "application/json",
-}
-"""The files of the page's folder `made/`, with their media types."""
+WAITING = "waiting.html"  # while the paper is being computed
+PAGE = "index.html"
+PLAYING = "explorer.css explorer.js icon.svg engine.wasm layout.json model.json".split()
+"""What the page asks any server for."""
+
+MEASURING = "options.json microphone_worklet.js floor-force.csv two-tracks.csv".split()
+"""What it asks a server of stackbounce for, besides."""
 
 PAGE_POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; "
@@ -42,8 +40,8 @@ HEADERS = {
 }
 """The headers of every answer; its content security policy depends on the page."""
 
-_FORM = "index.html explorer.css explorer.js explorer.webmanifest icon.svg offline.js".split()
-_OF_FORM = ("engine.wasm", "layout.json", "model.json")  # in its folder made/
+FOLDER_PAGE = "folder.html"  # the page where any other server has it, in a folder
+OF_FOLDER = (*PLAYING, "explorer.webmanifest", "offline.js")
 
 
 def made_file(name: str) -> bytes:
@@ -95,10 +93,9 @@ def folder_files() -> dict[str, bytes]:
     Examples
     --------
     >>> sorted(folder_files())[:3]
-    ['explorer.css', 'explorer.js', 'explorer.webmanifest']
+    ['engine.wasm', 'explorer.css', 'explorer.js']
     """
-    own = {name: made_file(name) for name in _FORM}
-    return own | {f"made/{name}": made_file(name) for name in _OF_FORM}
+    return {PAGE: made_file(FOLDER_PAGE)} | {name: made_file(name) for name in OF_FOLDER}
 
 
 def digest(content: bytes) -> str:

@@ -10,10 +10,9 @@ from starlette.responses import FileResponse, RedirectResponse, Response
 from starlette.staticfiles import StaticFiles
 
 from stackbounce import cross2007
-from stackbounce.explorer.made import digest
+from stackbounce.explorer.made import FOLDER, WAITING, digest
 from stackbounce.explorer.workers import Workers
 
-_STATIC = Path(__file__).parent / "static"
 _SCRIPT = re.compile(rb"<script>(.*?)</script>", re.DOTALL)
 _AGAIN = "2"  # s, after which the waiting page reloads itself
 _POLICY = (
@@ -61,7 +60,7 @@ class Papers:
             self._job = asyncio.create_task(self._write())
             self._job.add_done_callback(lambda job: job.cancelled() or job.exception())  # seen
         if not self._job.done():
-            return FileResponse(_STATIC / "waiting.html", headers={"refresh": _AGAIN})
+            return FileResponse(FOLDER / WAITING, headers={"refresh": _AGAIN})
         job = self._job
         if job.exception():
             self._job = None

@@ -19,7 +19,7 @@ from stackbounce.errors import FileError, InvalidValue, whole
 from stackbounce.explorer.addresses import Place, list_places, url
 from stackbounce.explorer.framing import frame_rule
 from stackbounce.explorer.limits import Limits
-from stackbounce.explorer.made import HEADERS, one_file
+from stackbounce.explorer.made import HEADERS, PAGE, made_file, one_file
 from stackbounce.extras import is_installed
 
 HOST = "127.0.0.1"
@@ -109,6 +109,7 @@ def _measuring_server(
                 task.cancel()
             await super().shutdown(sockets)
 
+    made_file(PAGE)  # if there is none, it is told now
     logging.getLogger("python_multipart").setLevel(logging.CRITICAL)  # of forms that are none
     config = uvicorn.Config(
         create_app(limits, others, framed_by),

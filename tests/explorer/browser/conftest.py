@@ -20,9 +20,7 @@ BROWSERS = {
     "firefox": ("firefox-esr", "firefox"),
 }
 ASKED = os.environ.get("STACKBOUNCE_BROWSERS", "").split()
-IN_BOTH = (
-    "test_one_file",
-)  # `make browsers` runs the others, too, in Firefox, where they are slow
+IN_BOTH = ["test_one_file"]  # the others are slow in Firefox: only `make browsers` runs them there
 FORMS = ("served", "one file")
 LAPTOP = {"width": 1366, "height": 768}
 [PAPER] = [explorer_address(one.drop, {}) for one in list_cases() if one.name == "figure-9"]

@@ -1,15 +1,15 @@
 """The explorer as a folder on a web server: it plays, after a visit without a network too."""
 
-import shutil
 from pathlib import Path
 
 import pytest
 from page_build import assembly
-from page_build import folder as page_folder
+from page_build.build import build
 
 import stackbounce as sb
 from stackbounce.cli import main
-from stackbounce.explorer.made import KINDS, folder_files, made_file
+from stackbounce.engine import native
+from stackbounce.explorer import made
 from stackbounce.files import write_folder
 
 pytestmark = [pytest.mark.slow, pytest.mark.release]
@@ -21,13 +21,13 @@ KEPT = "() => navigator.serviceWorker.ready.then(() => caches.keys())"
 @pytest.fixture
 def folder(site):
     """Return the address of a folder with the explorer, further down on a server."""
-    write_new(site.folder, folder_files())
+    write_new(site.folder, made.folder_files())
     return f"http://127.0.0.1:{site.server_port}/class/explorer/"
 
 
 def write_new(folder, files):
     place = folder / "class" / "explorer"
-    (place / "made").mkdir(parents=True, exist_ok=True)
+    place.mkdir(parents=True, exist_ok=True)
     write_folder(place, files)
 
 
@@ -55,12 +55,11 @@ def test_a_newer_version_takes_the_place_of_an_older_one(
     visit, page, site, in_firefox, tmp_path, monkeypatch
 ):
     (old,) = page.evaluate(KEPT)
-    newer = tmp_path / "static"
-    shutil.copytree(assembly._STATIC, newer)
-    text = (newer / "index.html").read_text("utf-8")
-    (newer / "index.html").write_text(text.replace("the explorer</title>", "newer</title>"))
-    monkeypatch.setattr(assembly, "_STATIC", newer)
-    write_new(site.folder, page_folder.folder_files({name: made_file(name) for name in KINDS}))
+    read, title = assembly.read_static, ("the explorer</title>", "newer</title>")
+    monkeypatch.setattr(assembly, "read_static", lambda name: read(name).replace(*title))
+    build(Path(native.FOLDER), tmp_path / "made")
+    monkeypatch.setattr(made, "FOLDER", tmp_path / "made")
+    write_new(site.folder, made.folder_files())
     page.reload()  # the page is still the older one, and the browser looks for a newer
     assert page.title() == "stackbounce: the explorer"
     # Without a window Chromium looks for it in its second minute, but at a new address at once.
@@ -80,7 +79,7 @@ def test_a_newer_version_takes_the_place_of_an_older_one(
 
 
 def test_nothing_in_it_has_an_absolute_address():
-    for name, content in folder_files().items():
+    for name, content in made.folder_files().items():
         if not name.endswith(".wasm"):
             text = content.decode().replace("http://www.w3.org/", "")
             assert "http://" not in text, name
@@ -101,7 +100,7 @@ def test_the_page_of_the_server_has_no_service_worker(visit, address_of_server):
 
 
 def test_a_folder_that_is_opened_from_a_disk_says_what_it_needs(visit, tmp_path):
-    write_new(tmp_path, folder_files())
+    write_new(tmp_path, made.folder_files())
     visit.address = (tmp_path / "class" / "explorer").as_uri()
     visit.page.goto(f"{visit.address}/index.html")
     told = visit.page.locator("#old")
@@ -117,6 +116,6 @@ def test_a_folder_is_written_whole_and_again(tmp_path, capsys):
         assert main(["app", "--export", str(place)]) == 0
     assert capsys.readouterr().out.startswith(f"{place}: the explorer in 9 files, ")
     assert {str(Path(path).relative_to(place)) for path in place.rglob("*") if path.is_file()} == {
-        *folder_files(),
+        *made.folder_files(),
         "stackbounce.sha256",
     }

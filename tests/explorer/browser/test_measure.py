@@ -110,7 +110,7 @@ def test_a_law_that_is_new_is_offered_with_its_loss(visit):
         model["laws"].append(spring | new | {"loss": "softness", "fields": [field]})
         route.fulfill(json=model)
 
-    page.route("**/made/model.json", add)
+    page.route("**/model.json", add)
     opened(visit)
     assert "Clay" in page.locator('[data-key="law-0"] option').all_inner_texts()
     page.evaluate(
@@ -126,7 +126,7 @@ def test_a_law_that_is_new_is_offered_with_its_loss(visit):
 
 def test_the_form_has_a_field_for_every_option(page, server):
     form = page.locator("form.measure-options")
-    for option in server.get("/made/options.json").json()["options"]:
+    for option in server.get("/options.json").json()["options"]:
         name = option["name"]
         assert form.locator(f'[name="{name}"], [data-key="option-{name}"]').count() == 1
         assert option["label"] in form.text_content()

@@ -423,10 +423,10 @@ def test_a_server_that_is_gone_is_not_missed(visit, page):
 @pytest.mark.forms("served")
 def test_an_engine_that_cannot_be_loaded_is_told_and_tried_again(visit):
     page = visit.page
-    page.route("**/made/engine.wasm", lambda route: route.abort())
+    page.route("**/engine.wasm", lambda route: route.abort())
     page.goto(visit.address)
     page.locator("#banner").wait_for(state="visible")
-    page.unroute("**/made/engine.wasm")
+    page.unroute("**/engine.wasm")
     page.get_by_role("button", name="Try again").click()
     visit.ready()
     page.locator("#banner").wait_for(state="hidden")

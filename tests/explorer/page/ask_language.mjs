@@ -5,9 +5,8 @@
 import { readFileSync, writeFileSync } from "node:fs";
 
 const [page, questions, answers, language] = process.argv.slice(2);
-globalThis.document = {}; // where there is none the page speaks English
+globalThis.document = { documentElement: { dataset: {} }, currentScript: {} }; // where there is none the page speaks English
 globalThis.navigator ??= {};
-globalThis.fetch = async (address) => Response.json(JSON.parse(readFileSync(address, "utf8"))); // of files
 globalThis.location = { hash: `#view=play&lang=${language}` };
 const found = [];
 for (const [module, name, ...given] of JSON.parse(readFileSync(questions, "utf8"))) {

@@ -6,8 +6,10 @@ import subprocess
 from importlib.resources import files
 from pathlib import Path
 
+from page_build.assembly import made_modules
+
 from stackbounce.explorer import LIMITS
-from stackbounce.explorer.made import KINDS, made_file
+from stackbounce.explorer.made import made_file
 
 
 def lay_out(folder):
@@ -15,7 +17,9 @@ def lay_out(folder):
     shutil.copytree(str(files("stackbounce.explorer") / "static"), folder, dirs_exist_ok=True)
     (folder / "package.json").write_text('{"type": "module"}')
     (folder / "made").mkdir()
-    for name in KINDS:
+    for path, text in made_modules().items():
+        (folder / path).write_text(text)
+    for name in ("engine.wasm", "layout.json", "model.json"):
         (folder / "made" / name).write_bytes(made_file(name))
     return folder
 

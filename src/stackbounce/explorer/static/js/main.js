@@ -17,9 +17,13 @@ import { mountHistory } from "./state/history.js";
 import { t, translated, translatePage, writeTold } from "./words/language.js";
 import { mountLanguage } from "./words/language_view.js";
 import { mountLessons } from "./lessons/lessons.js";
+import { mount as mountLine } from "./views/line/line.js";
+import { mount as mountMap } from "./views/map/map.js";
+import { mount as mountMeasure } from "./views/measure/measure.js";
 import { mountMomentum } from "./stage/momentum.js";
 import { mountNumbers } from "./views/numbers.js";
-import { hasServer } from "./origin/served.js";
+import { mount as mountPaper } from "./views/paper.js";
+import { hasServer } from "./origin/web.js";
 import { mountPlots } from "./plots/plots.js";
 import { carryErrors } from "./asking/prediction.js";
 import { retry } from "./asking/retry.js";
@@ -67,16 +71,11 @@ mountHands(place("stage"), store, clock, api);
 mountEmbed(place("transport"), store);
 mountFullScreen(place("play"), place("stage"));
 const giveLessons = mountLessons({ root: place("lesson"), button: place("lessons-open") }, store);
-const loadLine = () => import("./views/line/line.js");
-const loadMap = () => import("./views/map/map.js");
-const loadPaper = () => import("./views/paper.js");
-const MEASURE = "./views/measure/measure.js"; // by its name: a page without a server does not have it
-const loadMeasure = () => import(MEASURE);
 mountTabs(store, {
-  line: (section) => open(loadLine, section),
-  map: (section) => open(loadMap, section),
-  measure: (section) => open(loadMeasure, section),
-  paper: (section) => open(loadPaper, section),
+  line: (section) => open(mountLine, section),
+  map: (section) => open(mountMap, section),
+  measure: (section) => open(mountMeasure, section),
+  paper: (section) => open(mountPaper, section),
 });
 place("closer").addEventListener("click", () => {
   store.set({ closer: true, predict: false });
@@ -102,22 +101,20 @@ const endShow = store.subscribe(({ result, error }) => {
 const end = store.subscribe(({ result }) => {
   if (!result) return;
   end();
-  const views = [loadLine, loadMap, loadPaper].map((load) => load().catch(() => null)); // what fails is tried again when it is opened
-  window.stackbounce.whole = Promise.all([api.prepare(result.drop), ...views]); // from here on nothing is loaded
+  window.stackbounce.whole = api.prepare(result.drop); // from here on nothing is loaded
 });
 addEventListener("beforeprint", () => (place("intervals").closest("details").open = true));
 showBanner();
 markStale(store, document.body);
 const catalogueAgain = loadCatalogue();
 
-/** Build a view from its own module when it is first opened; where that fails, say so and offer to show the page anew. */
-async function open(load, section) {
+/** Build a view when it is first opened; where that fails, say so and offer to show the page anew. */
+async function open(mount, section) {
   try {
-    const { mount } = await load();
     await mount(section, store, api, clock);
     placeSetUp();
   } catch (error) {
-    const reason = error instanceof TypeError ? t("The server does not answer.") : translated(error.message); // a module was not loaded
+    const reason = translated(error.message);
     const said = h("p", { class: "field-error", role: "alert", text: t("This view could not be opened yet: {reason}", { reason }) });
     section.append(h("div", { class: "unopened" }, said, button(t("Try again"), () => location.reload(), { class: "small" })));
   }

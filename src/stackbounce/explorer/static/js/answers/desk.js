@@ -10,7 +10,7 @@ import { LineJob } from "./lines.js";
 import { MapJob, listPaths } from "./maps.js";
 import { playDrop } from "./play.js";
 
-/** Return the functions that answer; `engine`, `layout` and `model` are the contents of the files in made/. */
+/** Return the functions that answer; `engine`, `layout` and `model` are the contents of the files of these names. */
 export async function openDesk({ engine, layout, model }) {
   learn(model);
   useEngine(await loadEngine(engine, layout));

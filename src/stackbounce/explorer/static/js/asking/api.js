@@ -5,7 +5,7 @@ import { Client } from "../engine/client.js";
 import { aligned } from "../model/drop.js";
 import { pictureOf } from "../plots/export_picture.js";
 import { t } from "../words/language.js";
-import { hasServer, loadParts, startWorker } from "../origin/served.js";
+import { hasServer, loadParts, startWorker } from "../origin/web.js";
 
 let loaded = null;
 
@@ -76,7 +76,7 @@ async function ask(path, options) {
 
 /** Return the addresses of the page that others can type, with their QR codes; none without a server. */
 export const places = async () => (hasServer ? (await ask("api/places")).places : []);
-export const measureOptions = () => ask("made/options.json");
+export const measureOptions = () => ask("options.json");
 export const measure = (form) => ask("api/measure", { method: "POST", body: form });
 export const fit = (form) => ask("api/fit", { method: "POST", body: form });
 

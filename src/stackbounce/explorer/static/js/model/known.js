@@ -1,4 +1,4 @@
-/** What the package tells the page: balls, laws, cases, units, limits. Filled once, from made/model.json. */
+/** What the package tells the page: balls, laws, cases, units, limits. Filled once, from model.json. */
 
 export const known = {};
 

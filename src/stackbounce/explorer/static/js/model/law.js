@@ -1,4 +1,4 @@
-/** The contact laws: made/model.json has the fields of each, their limits, and what the engine takes. */
+/** The contact laws: model.json has the fields of each, their limits, and what the engine takes. */
 
 import { LAW_CODE } from "../../made/laws.js";
 import { InvalidValue, between, fraction, general, within, writeFloat } from "./errors.js";

@@ -1,6 +1,6 @@
 /** The views as tabs: arrows move between them, a view is built when it is first opened. */
 
-import { hasServer } from "../origin/served.js";
+import { hasServer } from "../origin/web.js";
 import { VIEWS } from "../state/store.js";
 import { ELSEWHERE } from "./measure/dropped.js";
 

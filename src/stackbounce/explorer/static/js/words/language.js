@@ -6,7 +6,7 @@
 import { put, write } from "../dom.js";
 import { language } from "./language_choice.js";
 import { PARTS, PATTERNS } from "../languages/patterns.js";
-import { sentences } from "../origin/served.js";
+import { sentences } from "../origin/web.js";
 
 /** Return a sentence of the page, with values at its {places}. */
 export function t(sentence, values = null) {

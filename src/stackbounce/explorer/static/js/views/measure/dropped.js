@@ -1,6 +1,6 @@
 /** A file that is dropped anywhere on the page: it opens where files are measured, and never takes the page away. */
 
-import { hasServer } from "../../origin/served.js";
+import { hasServer } from "../../origin/web.js";
 import { t } from "../../words/language.js";
 
 /** What a page without a server says of measuring. */

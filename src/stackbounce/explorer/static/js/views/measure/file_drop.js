@@ -17,7 +17,7 @@ export function fileDrop(root, take) {
   const load = async (file) => {
     sayProblem(problem);
     try {
-      const answer = await fetch(`examples/${file}`);
+      const answer = await fetch(file);
       if (!answer.ok) throw new Error(t("{file} could not be loaded.", { file }));
       take(new File([await answer.blob()], file, { type: "text/csv" }), EXAMPLES[file]);
     } catch (error) {

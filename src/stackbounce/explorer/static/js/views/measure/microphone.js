@@ -63,7 +63,7 @@ async function record(heard) {
   };
   let loudest = 0;
   try {
-    await context.audioWorklet.addModule(new URL("./microphone_worklet.js", import.meta.url));
+    await context.audioWorklet.addModule("microphone_worklet.js");
     await context.resume();
     const recorder = new AudioWorkletNode(context, "recorder", { numberOfOutputs: 0, channelCount: 1, channelCountMode: "explicit" });
     recorder.port.onmessage = ({ data }) => {
