@@ -8,7 +8,7 @@ from stackbounce.measure.quantities import Array, Samples
 
 # Set by hand on the recordings of `benchmarks/coverage/sound.py` and `docs/lab`.
 _HOP_SECONDS = 0.5e-3  # s, step of the search
-_SETTLING_SECONDS = 0.03  # s at the start, in which no noise rises above that of the recording
+_SETTLING_SECONDS = 0.03  # s after silence at the start: no noise rises above the recording's own
 _QUIET_PERCENT = 20.0  # of the recording are quieter than its noise, or hardly louder
 _HOPS_AFTER, _HOPS_BEFORE, _HOPS_BETWEEN = 4, 16, 1  # whose loudness is compared, and between them
 _FALSE_ALARMS = 0.01  # rises of stationary noise in a recording, on average
@@ -80,10 +80,11 @@ def _around(energy: Array, rounded: float) -> tuple[Array, Array]:
     after = hops[::-1].rolling(_HOPS_AFTER, min_periods=1).mean()[::-1].to_numpy()
     earlier = hops.rolling(_HOPS_BEFORE, min_periods=1).mean()
     before = earlier.shift(1 + _HOPS_BETWEEN, fill_value=np.inf).to_numpy(copy=True)
-    # At first a codec is silent or a gain settles; digital silence is given a little noise.
-    first = before[: round(_SETTLING_SECONDS / _HOP_SECONDS)]
+    # At first a microphone or a codec is silent, or a gain settles; silence has a little noise.
+    least = max(rounded, 1e-9 * float(energy.max()), 1e-30)
+    first = before[: np.argmax(energy > least) + round(_SETTLING_SECONDS / _HOP_SECONDS)]
     first[:] = np.maximum(first, np.percentile(energy, _QUIET_PERCENT))
-    return np.maximum(before, max(rounded, 1e-9 * float(energy.max()), 1e-30)), after
+    return np.maximum(before, least), after
 
 
 def _least(freedom: int, count: int) -> float:
