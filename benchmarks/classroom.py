@@ -7,7 +7,6 @@ all begin at the same moment, and nobody waits between two requests, as people d
 
 import argparse
 import asyncio
-import re
 import subprocess
 import sys
 from collections import defaultdict
@@ -19,6 +18,8 @@ import httpx
 import numpy as np
 from rich.console import Console
 from rich.table import Table
+
+from stackbounce.explorer.made import PLAYING
 
 __all__ = ["Seen", "run"]
 
@@ -50,8 +51,8 @@ async def user(client: httpx.AsyncClient, number: int, moves: int, seen: Seen) -
         seen[what].append((perf_counter() - start, response.status_code))
         return response
 
-    page = await ask("page", "GET", "/")
-    for file in re.findall(r'(?:src|href)="([\w./]+\.(?:js|css))"', page.text):
+    await ask("page", "GET", "/")
+    for file in PLAYING:
         await ask("its files", "GET", file)
     record = {"file": ("force.csv", RECORD.read_bytes())}
     await ask("a record", "POST", "/api/measure", files=record)

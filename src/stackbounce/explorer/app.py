@@ -158,10 +158,9 @@ def _add_pages(app: FastAPI) -> None:
 
     @app.api_route("/{name:path}", methods=["GET", "HEAD"], include_in_schema=False)
     async def page_file(request: Request, name: str) -> Response:
-        name = name or PAGE
-        if name not in (PAGE, *PLAYING, *MEASURING):
+        if name not in ("", PAGE, *PLAYING, *MEASURING):
             raise HTTPException(404)
-        return await files.get_response(name, request.scope)
+        return await files.get_response(name or PAGE, request.scope)
 
 
 def _add_errors(app: FastAPI) -> None:

@@ -103,8 +103,8 @@ def highest(
     Raises
     ------
     InvalidValue
-        If there are too few balls or too many stacks, the contacts of two balls cannot be combined
-        into one law, or a number is out of its range.
+        If there are too few balls or too many stacks, a Drop has a `count`, the contacts of two
+        balls cannot be combined into one law, or a number is out of its range.
     InvalidType
         If something has the wrong type.
 
@@ -124,6 +124,8 @@ def highest(
     [[1, 2], [2, 3], [3, 1]]
     """
     if isinstance(balls, Drop):
+        if count is not None or repeat:
+            raise InvalidValue("a Drop is one stack: count and repeat are for a choice of balls")
         names = tuple(ball.name or f"ball {i}" for i, ball in enumerate(balls.balls))
         stacks = [_Stack(names, balls)]
         widths = None if gaps is None else _checked_gaps(gaps)

@@ -178,28 +178,20 @@ def test_in_english_a_comma_may_part_thousands(asked):
     assert asked("en", ["words/words", "format", 1234.5, 5]) == ["1234.5"]
 
 
-MESSAGES = [
-    (refusal(StackbounceError, check, *given).removeprefix("number "), told)
+MESSAGES = {
+    refusal(StackbounceError, check, "n", *given).removeprefix("n "): f"Nötig ist {told} {given[0]}"
     for check, given, told in (
-        (
-            positive,
-            ("number", -1.0, "kilograms"),
-            "eine positive Zahl in Kilogramm, angegeben ist -1.0",
-        ),
-        (finite, ("number", math.inf, "m/s"), "eine endliche Zahl in m/s, angegeben ist inf"),
-        (
-            non_negative,
-            ("number", -1.0, "metres"),
-            "eine Zahl in Meter, 0 oder größer, angegeben ist -1.0",
-        ),
-        (between, ("number", 4.0, 1.0, 3.0), "eine Zahl von 1 bis 3, angegeben ist 4.0"),
+        (positive, (-1.0, "kilograms"), "eine positive Zahl in Kilogramm, angegeben ist"),
+        (finite, (math.inf, "m/s"), "eine endliche Zahl in m/s, angegeben ist"),
+        (non_negative, (-1.0, "metres"), "eine Zahl in Meter, 0 oder größer, angegeben ist"),
+        (between, (4.0, 1.0, 3.0), "eine Zahl von 1 bis 3, angegeben ist"),
     )
-]
+}
 
 
 def test_what_is_composed_in_english_is_translated_and_other_english_stays(asked):
     composed = {
-        **{text: f"Nötig ist {told}" for text, told in MESSAGES},
+        **MESSAGES,
         "mass of tennis": "Masse: Tennisball",
         "stiffness of floor and basketball": "Steifigkeit: Boden und Basketball",
         "gap above ball 2": "Abstand über: Ball 2",
@@ -207,11 +199,19 @@ def test_what_is_composed_in_english_is_translated_and_other_english_stays(asked
         "rebound speed of tennis over v₀": "Rückprallgeschwindigkeit durch v₀: Tennisball",
         "collisions of basketball and tennis": "Stöße: Basketball und Tennisball",
         "golf ball and marble in series": "Golfball und Murmel in Reihe",
+        "tennis: impact speed of bounce 1": "Tennisball: Aufprallgeschwindigkeit: Aufprall 1",
+        "golf: Hertz (refuted)": "golf: Hertz (widerlegt)",
     }
     others = ("a loss of contact and of energy", "Cross 2007, Table I", "my own ball", "")
     composed |= {text: text for text in others}
     said = asked("de", *(["words/language", "translated", text] for text in composed))
     assert said == list(composed.values())
+
+
+@pytest.mark.parametrize("code", CODES)
+def test_what_measurements_find_has_its_name_in_each_language(code):
+    text = (STATIC / "js/languages/patterns.js").read_text("utf-8").partition("FOUND = ")[2]
+    assert set(re.findall('"(.*?)"', text)) <= set(table(code))
 
 
 def test_the_address_goes_before_the_browser(asked):

@@ -14,7 +14,7 @@ from stackbounce.fitting.series.readings import MEASURED, STARTS, assumed_error,
 from stackbounce.library_types import DataFrame, Dataset
 from stackbounce.measure.reading.dataset import dataset_of
 from stackbounce.run.quantities import Array
-from stackbounce.units import handy_text, quantity, unit_written
+from stackbounce.units import checked, handy_text, quantity, unit_written
 
 _SAME = 6  # digits in which the heights of repeated drops are equal
 _FAR = 6.0  # robust standard deviations: a reading that differs so much is named
@@ -85,7 +85,7 @@ def read_table(
     with placed(f"{name}: "):
         told = told_errors(errors)
         known = {
-            key: positive(key, value, unit)
+            key: checked(positive, key, value, unit)
             for key, value, unit in (("mass", mass, "kg"), ("diameter", diameter, "m"))
             if value is not None
         }

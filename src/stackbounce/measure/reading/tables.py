@@ -71,11 +71,8 @@ def as_text(rows: Iterable[Sequence[object]]) -> bytes:
     >>> as_text([("t (s)", "y"), (0.5, None)])
     b't (s)\ty\n0.5\t\n'
     """
-    return "".join("\t".join(map(_cell, row)) + "\n" for row in rows).encode()
-
-
-def _cell(value: object) -> str:
-    return "" if value is None else " ".join(str(value).split())
+    cells = (("" if cell is None else " ".join(str(cell).split()) for cell in row) for row in rows)
+    return "".join("\t".join(row) + "\n" for row in cells).encode()
 
 
 def tables_in(content: bytearray) -> Tables | None:

@@ -183,7 +183,7 @@ def _moments(
 
     values = list(times.times) if isinstance(times, Knocks) else _plain(times)
     if error is not None:
-        error = positive("time_error", error, "seconds")
+        error = checked(positive, "time_error", error, "seconds")
     plain = np.array([nominal(time) for time in values])
     if len(plain) < least:
         many = "three bounces" if least == 3 else "two bounces where the drop height is known"

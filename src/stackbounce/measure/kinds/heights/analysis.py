@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.errors import InvalidValue, positive
 from stackbounce.measure.drag import Drag, speed_after_fall
 from stackbounce.measure.finding import Finding, rigid_contact
 from stackbounce.measure.messages import Message, OptionHint
@@ -16,6 +16,7 @@ from stackbounce.measure.quantities import Number, Row, deviation, known_to, mea
 from stackbounce.measure.setup import Place, lowest_point, places
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.units import checked
 
 
 @dataclass(frozen=True, repr=False)
@@ -152,7 +153,7 @@ def heights(
     points = places(measured_to)
     error = math.nan
     if height_error is not None:
-        error = deviation("height", positive("height_error", height_error, "metres"))
+        error = deviation("height", checked(positive, "height_error", height_error, "metres"))
 
     def counted_from_bottom(name: str, height: Any, point: Place) -> Number:
         known = measured(name, height, "metres")
@@ -174,10 +175,8 @@ def heights(
 
 
 def _listed(values: Any) -> list[Any]:
-    if isinstance(values, str | bytes):
-        raise InvalidType(f"bounce_heights must be numbers of metres, got {shown(values)}")
     try:
-        listed = list(values)
+        listed = [values] if isinstance(values, str | bytes) else list(values)
     except TypeError:
         listed = [values]
     if not listed:

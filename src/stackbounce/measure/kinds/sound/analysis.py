@@ -16,6 +16,7 @@ from stackbounce.measure.messages import PART, Message, OptionHint
 from stackbounce.measure.quantities import Array, Pair, Samples
 from stackbounce.measure.samples import columns, resolution, runs
 from stackbounce.measure.statistics.ar_noise import whitened
+from stackbounce.units import checked
 
 _LEAST_RATE = 400  # samples per second: with fewer an onset lies between two samples
 _DEAD_SECONDS = 8e-3  # s: two knocks closer than that are one impact
@@ -87,7 +88,7 @@ def knocks(
     """
     from uncertainties import ufloat
 
-    positive("longest_flight", longest_flight, "seconds")
+    longest_flight = checked(positive, "longest_flight", longest_flight, "seconds")
     heard, origin = _recording(data, rate)
     notes = _notes_on(heard.samples)
     rises = find_rises(heard.white, heard.rate, heard.rounded)
@@ -189,7 +190,7 @@ def _recording(data: Any, rate: float | None) -> tuple[_Recording, float]:
             rate = rate or (len(times) - 1) / (float(times.values[-1]) - origin)
     if rate is None:
         raise InvalidValue("rate must be given for plain samples, got None")
-    rate = positive("rate", rate, "samples per second")
+    rate = checked(positive, "rate", rate, "Hz")
     if rate < _LEAST_RATE:
         raise InvalidValue(
             f"sound must have {_LEAST_RATE} samples per second or more, got {rate:.3g}: "

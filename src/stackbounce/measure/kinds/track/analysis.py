@@ -141,7 +141,7 @@ def track(
         flown = _bouncing(found, up, gravity, units)
     left_out = [name for name in found.names if name not in {ball.name for ball in flown}]
     notes.extend(f"{name}: no bounce was found, and it is left out." for name in left_out)
-    level = None if floor is None else finite("floor", floor, "metres")
+    level = None if floor is None else checked(finite, "floor", floor, "metres")
 
     def found_at(tilt: float) -> list[Track]:
         seen = [ball.along(up._replace(tilt=tilt)) for ball in flown]

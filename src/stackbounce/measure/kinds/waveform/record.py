@@ -12,7 +12,7 @@ from stackbounce.library_types import Dataset
 from stackbounce.measure.finding import force_channels
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns, resolution, spikes
-from stackbounce.units import in_si
+from stackbounce.units import checked, in_si
 
 _LEAST_SAMPLES = 8  # of a record
 _UNEVEN = 0.01  # of a step, by which one may differ before a note says so
@@ -152,6 +152,6 @@ def undrooped(times: Array, values: Array, time_constant: float) -> Array:
     >>> float(np.abs(undrooped(times, leaked, 0.5) - 1.0).max().round(5))
     0.0
     """
-    share = np.diff(times) / positive("time_constant", time_constant, "seconds")
+    share = np.diff(times) / checked(positive, "time_constant", time_constant, "seconds")
     changes = (values[1:] - np.exp(-share) * values[:-1]) * share / -np.expm1(-share)
     return np.cumsum(np.concatenate([values[:1], changes]))

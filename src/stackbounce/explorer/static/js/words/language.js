@@ -59,7 +59,7 @@ function toldAs(text) {
 function byPattern(text, keys = PATTERNS) {
   for (const { key, names, form } of keys.map(readPattern)) {
     const found = key in sentences && form.exec(text);
-    const fits = found && names.every((name, i) => name !== "number" || found[i + 1] in sentences);
+    const fits = found && names.every((name, i) => name !== "number" || toldAs(found[i + 1]) !== null);
     if (fits) return filled(sentences[key], Object.fromEntries(names.map((name, i) => [name, partOf(found[i + 1])])));
   }
   return null;
