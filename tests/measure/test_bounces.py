@@ -173,7 +173,7 @@ def test_repeated_heights_scatter():
         ((-1.0, 0.5), {}, InvalidValue, "drop_height must be"),
         ((1.0, [0.5, -0.1]), {}, InvalidValue, "the height of bounce 2"),
         ((1.0, []), {}, InvalidValue, "at least one"),
-        ((1.0, "0.5"), {}, InvalidType, "numbers"),
+        ((1.0, "half"), {}, InvalidValue, "bounce 1 must be a length"),
         ((1.0, 0.5), {"measured_to": "top"}, InvalidValue, "diameter must be given"),
         ((1.0, 0.5), {"measured_to": "side"}, InvalidValue, "bottom, centre or top"),
         ((1.0, 0.5), {"measured_to": 3}, InvalidType, "bottom, centre or top"),

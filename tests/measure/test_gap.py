@@ -100,7 +100,7 @@ def test_channels_without_a_touch_are_named():
     record = record_of(
         sb.Drop(BALLS[:1], LAWS[:1], impact_speed=SPEED), rate=1e5, noise=0.4, seed=2
     )
-    whole, nothing = waveform(record), waveform((record.time, 0.0 * record.time))
+    whole, nothing = waveform(record), waveform((record.time, 0.0 * record.time.values))
     with pytest.raises(InvalidValue, match="balls must show a contact"):
         delay(whole, nothing)
     with pytest.raises(InvalidValue, match="floor must begin before"):
