@@ -52,7 +52,7 @@ KINDS = {
     "runs": _Kind(100, "/api/predict", lambda: {"json": LONG_RUN}),
     "fits": _Kind(100, "/api/fit", lambda: {"data": _FIT}),
     "uploads": _Kind(40, "/api/measure", _record),
-    "files": _Kind(150, "/style.css", dict),
+    "files": _Kind(150, "/explorer.css", dict),
 }
 """Kinds of flood."""
 
@@ -95,7 +95,7 @@ def _send_all(address: str, kind: _Kind) -> None:
 
 async def _watch(address: str, seconds: float) -> Seen:
     """Ask for a drop and a file in turn, each over a connection of its own."""
-    asked = [("POST", "/api/predict", {"json": _SMALL}), ("GET", "/style.css", {})]
+    asked = [("POST", "/api/predict", {"json": _SMALL}), ("GET", "/explorer.css", {})]
     seen = Seen([], [])
     end = perf_counter() + seconds
     while perf_counter() < end:
