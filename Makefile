@@ -17,20 +17,20 @@ FOLDER ?=
 SEED ?= 1
 ATTACKS ?= signals kills pairs stores disks
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal
-# The examples of all functions, and the tests of what leans on libraries: not those of the project's own rules, of the engine (kernels), laws and analyses, of the page's
-# scripts, of pages, benchmarks and kept answers. None of libraries' warnings of what comes.
+# The examples of all functions, and the tests of what leans on libraries. None of libraries' warnings of what comes.
 OF_LOWEST := bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal -m 'not slow' \
-  --hypothesis-profile=quick -W ignore::DeprecationWarning -W ignore::PendingDeprecationWarning \
-  -W ignore::FutureWarning src/stackbounce tests --ignore=tests/house --ignore=tests/pages --ignore=tests/frozen --ignore=tests/fuzz --ignore=tests/engine \
-  --ignore=tests/model --ignore-glob='tests/measure/test_*' --ignore=tests/explorer/browser --ignore=tests/explorer/page --ignore=tests/explorer/test_openapi.py \
-  --ignore=tests/explorer/test_serve.py --ignore=tests/test_impacts.py
+  --hypothesis-profile=quick -W ignore::DeprecationWarning -W ignore::PendingDeprecationWarning -W ignore::FutureWarning \
+  src/stackbounce $(addprefix tests/,cli fitting measure/reading plots prediction sweeps test_files.py test_shown.py test_units.py) \
+  $(addprefix tests/explorer/,test_framing.py test_guard.py test_notebook.py test_server.py)
 # 3: kernels cannot be compiled on this machine, plain Python runs. 4: no compiler is in the environment, but pip's build has one.
 COMPILE := { PYTHONPATH=src $(BIN)/python -m kernel_build; case $$? in 0|3) ;; 4) $(EDITABLE) ;; *) exit 1 ;; esac; }
 EDITABLE := $(INSTALL) --no-deps --editable .
 PAGE := { PYTHONPATH=src $(BIN)/python -m page_build || test $$? -eq 3; }
-# Two stamps: `make paper` needs the package with all its extras; most other targets the developers' tools, too.
+# Three stamps: `make paper` needs the package with all its extras; most other targets the developers' tools, too; `make lowest` an
+# environment of its own, which is installed while the kernels are compiled.
 RUNTIME := $(VENV)/runtime.stamp
 DEV := $(VENV)/dev.stamp
+LOWEST := build/lowest/installed.stamp
 
 .DEFAULT_GOAL := help
 .PHONY: help venv kernels paper study app explorer test lowest coverage browsers bench check lint types imports docs site format fuzz attack frozen constraints wheels \
@@ -58,12 +58,7 @@ explorer: kernels  ## write the explorer as one HTML file, build/explorer.html
 test: $(DEV) kernels  ## run the fast tests of every kind, in under three minutes on two cores
 	@$(PYTEST) -m 'not slow' --hypothesis-profile=quick
 
-lowest: kernels  ## examples and fast tests with the lowest versions of all dependencies that pyproject.toml allows
-	@rm -rf build/lowest
-	@$(PYTHON) -m venv build/lowest
-	@$(BIN)/python .ci/requirements.py lowest > build/lowest/requirements.txt
-	@build/lowest/bin/python -m pip --disable-pip-version-check install --quiet --quiet --no-compile \
-	  --requirement build/lowest/requirements.txt
+lowest: $(LOWEST) kernels  ## examples and fast tests with the lowest versions of all dependencies that pyproject.toml allows
 	@PYTHONPATH=$(CURDIR)/src build/lowest/$(OF_LOWEST)
 
 coverage: $(DEV) kernels  ## hold all error bars and comparisons to their claim (make check: some of them); an hour
@@ -142,6 +137,14 @@ distclean: clean  ## remove .venv too
 	@rm -rf $(VENV)
 
 venv: $(DEV)  ## set up .venv with the developers' tools
+
+$(LOWEST): pyproject.toml constraints.txt .ci/requirements.py
+	@rm -rf build/lowest
+	@$(PYTHON) -m venv build/lowest
+	@$(PYTHON) .ci/requirements.py lowest > build/lowest/requirements.txt
+	@build/lowest/bin/python -m pip --disable-pip-version-check install --quiet --quiet --no-compile \
+	  --requirement build/lowest/requirements.txt
+	@touch $@
 
 $(DEV): $(RUNTIME)
 	@echo "Installing the developers' tools into $(VENV)"

@@ -85,9 +85,9 @@ def columns(data: Any, names: Sequence[str]) -> list[Array]:
 
 
 def _in_si(array: Any, name: str = "") -> Any:
-    """Return an array in SI units, by its unit if it has one, which must fit its name."""
+    """Return an array in SI units, by its unit if it has one."""
     known = in_si(str(getattr(array, "attrs", {}).get("units", "")))
-    unit = _UNITS.get(name.partition("_")[0], known[1] if known else "")
+    unit = known[1] if known else _UNITS.get(name.partition("_")[0], "")
     return magnitude(array, unit, name or "data") if known or hasattr(array, "m_as") else array
 
 
