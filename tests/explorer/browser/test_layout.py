@@ -54,11 +54,11 @@ MOMENTS = ("begin * 0.2", "film.last / 3", "film.last + 0.05", "film.tops.at(-1)
 OVERLAPS = """() => {
   const seen = (one) => one.checkVisibility({ visibilityProperty: true, opacityProperty: true });
   const texts = [...document.querySelectorAll("#stage svg.scene text")].filter(seen);
-  const boxes = texts.map((one) => one.getBoundingClientRect()).filter(({ width }) => width);
+  const boxes = texts.map((one) => one.getBoundingClientRect()).filter((box) => box.width);
   const lie = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1
-    && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 3;
+    && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > Math.max(3, a.height - 16);
   return boxes.flatMap((a, i) => boxes.slice(i + 1).filter((b) => lie(a, b)));
-}"""
+}"""  # in Firefox the box of a text is a third higher than its letters
 
 
 def tower(count, law, speed):

@@ -138,8 +138,8 @@ def test_sides_and_what_is_shown_are_in_the_address(visit, page):
 
 def test_an_end_that_makes_no_side_is_told_where_it_stands(page):
     low = page.locator("[data-key=map-x-low]")
-    low.fill("-1")
-    low.blur()
+    low.fill("")
+    low.press_sequentially("-1\n")
     assert page.locator("#map-x-error").inner_text() == "A logarithmic axis needs limits above 0."
 
 
