@@ -5,8 +5,8 @@ build       all files that are made, and whether they are up to date
 data        laws, balls, cases, lessons, units and bounds, as JSON
 examples    what to drop with the balls that a class owns, and what to see
 lessons/    the lessons, for the page and the documentation
-folder      the whole explorer as one HTML file, or as a folder for any web server
-assembly    the texts that both are made of
+forms       the explorer as files for web servers, and as one HTML file
+assembly    the texts that all forms are made of
 bundle      ES modules to one classic script
 =========== ================================================================
 

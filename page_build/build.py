@@ -50,7 +50,7 @@ def list_files(engine: Path) -> dict[str, bytes]:
     """Return all files by their names."""
     from page_build.assembly import read_static
     from page_build.data import model_json, options_json
-    from page_build.folder import one_file, web_files
+    from page_build.forms import one_file, web_files
 
     texts = {"model.json": model_json(), "options.json": options_json()}
     data = {name: text.encode() for name, text in texts.items()} | _read_engine(engine)

@@ -12,7 +12,7 @@ from page_build.data import model_json, options_json
 
 from explorer.page.asking import run_node
 from refusals import refusal
-from stackbounce import StackbounceError
+from stackbounce import StackbounceError, measure
 from stackbounce.errors import between, finite, non_negative, positive
 
 STATIC = files("stackbounce.explorer") / "static"
@@ -192,15 +192,13 @@ MESSAGES = {
 def test_what_is_composed_in_english_is_translated_and_other_english_stays(asked):
     composed = {
         **MESSAGES,
-        "mass of tennis": "Masse: Tennisball",
         "stiffness of floor and basketball": "Steifigkeit: Boden und Basketball",
         "gap above ball 2": "Abstand über: Ball 2",
-        "gap above lower ball": "Abstand über: unterer Ball",
         "rebound speed of tennis over v₀": "Rückprallgeschwindigkeit durch v₀: Tennisball",
         "collisions of basketball and tennis": "Stöße: Basketball und Tennisball",
         "golf ball and marble in series": "Golfball und Murmel in Reihe",
         "tennis: impact speed of bounce 1": "Tennisball: Aufprallgeschwindigkeit: Aufprall 1",
-        "golf: Hertz (refuted)": "golf: Hertz (widerlegt)",
+        "from contact time": "aus: Kontaktzeit",
     }
     others = ("a loss of contact and of energy", "Cross 2007, Table I", "my own ball", "")
     composed |= {text: text for text in others}
@@ -210,8 +208,10 @@ def test_what_is_composed_in_english_is_translated_and_other_english_stays(asked
 
 @pytest.mark.parametrize("code", CODES)
 def test_what_measurements_find_has_its_name_in_each_language(code):
-    text = (STATIC / "js/languages/patterns.js").read_text("utf-8").partition("FOUND = ")[2]
-    assert set(re.findall('"(.*?)"', text)) <= set(table(code))
+    sources = [STATIC / "js/languages/patterns.js", *Path(measure.__path__[0]).rglob("*.py")]
+    text = "".join(path.read_text("utf-8") for path in sources)
+    named = re.findall(r'"(.*?)"', text.partition("FOUND = ")[2].partition("];")[0])
+    assert {*named, *re.findall(r'(?:Listed|Row)\("(.+?)"', text)} <= set(table(code))
 
 
 def test_the_address_goes_before_the_browser(asked):

@@ -14,7 +14,7 @@ export const PATTERNS = [
   "gap above {ball}", "height of flight {place}", "time of flight {place}", "flight after bounce {place}", "height after bounce {place}",
   "apex height after bounce {place}", "largest acceleration in bounce {place}",
   "{place} (agrees)", "{place} (doubtful)", "{place} (refuted)",
-  "{number} of {place}",
+  "from {number}", "{number} of {place}",
   "ball {place}",
   "{lower} and {upper} in series",
   "{place}: {number}",
@@ -36,5 +36,5 @@ export const FOUND = [
   "drop height, given", "drop height, inferred from the mean energy retained", "apex height", "time", "time of fall",
   "gravity of the flights", "restitution, mean", "restitution at 0 (linear)", "its fall per m/s (linear)",
   "restitution at 1 m/s (power law)", "exponent of its fall (power law)", "scatter of restitution from bounce to bounce",
-  "sounds left out", "loudness", "drag coefficient", "density of the air",
+  "law", "sounds left out", "loudness", "drag coefficient", "density of the air",
 ];
