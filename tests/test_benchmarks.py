@@ -108,5 +108,5 @@ def test_rigid_pairs_are_the_same_by_hand():
 @pytest.mark.slow
 def test_sweeps_of_all_sizes_are_measured(monkeypatch):
     monkeypatch.setattr(many, "LAWS", {"Hertz": "sb.Hertz(1e6)"})
-    found = many.measure(quiet, sizes=(1000,), shared=1000, largest=False)
+    found = many.measure(quiet, sizes=(1000,), shared=1000, threaded=1000, largest=False)
     assert [one.how for one in found] == ["memory"] * 3 + [many.FILE, many.WORKERS]
