@@ -1,7 +1,7 @@
 """Quantities with errors: read, of a function of measured numbers, and in rows of a result."""
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -143,6 +143,22 @@ def deviation(name: str, value: object, *, zero: bool = True) -> float:
     if found > LARGEST:
         raise InvalidValue(f"{name}'s error must be at most {LARGEST:g}, got {found:g}")
     return found
+
+
+def spread_of(values: Sequence[Number]) -> Array:
+    """Return how far each number changes by one standard deviation of each variable, (N, V).
+
+    Examples
+    --------
+    >>> from uncertainties import ufloat
+    >>> x = ufloat(1.0, 0.5)
+    >>> spread_of([x, 2.0 * x]).tolist()
+    [[0.5], [1.0]]
+    """
+    slopes = [value.derivatives for value in values]
+    sources = dict.fromkeys(source for slope in slopes for source in slope)
+    errors = [[slope.get(source, 0.0) * source.std_dev for source in sources] for slope in slopes]
+    return np.reshape(np.array(errors, dtype=float), (len(slopes), len(sources)))
 
 
 def measured_if_given(name: str, value: Any, of: str = "", **how: Any) -> Number | None:

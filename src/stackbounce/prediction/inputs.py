@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, finite, shown, unmasked
-from stackbounce.measure.quantities import deviation, known_to, quantity_with_error
+from stackbounce.measure.quantities import deviation, known_to, quantity_with_error, spread_of
 from stackbounce.model import Drop
 from stackbounce.run.options import Options
 from stackbounce.run.paths import Number, check, drop_at, number_at, value_in
@@ -72,11 +72,7 @@ class Inputs:
     @functools.cached_property
     def spread(self) -> Array:
         """(numbers, variables) change of each number by one standard deviation of a variable."""
-        variables = list(dict.fromkeys(v for error in self.errors for v in error.derivatives))
-        rows = [
-            [error.derivatives.get(v, 0.0) * v.std_dev for v in variables] for error in self.errors
-        ]
-        return np.reshape(rows, (len(rows), len(variables)))
+        return spread_of(self.errors)
 
     @property
     def covariance(self) -> Array:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stackbounce.measure.quantities import Array, Number
+from stackbounce.measure.quantities import Array, Number, spread_of
 
 _REPORTED_BELOW = 0.01  # p-value of chi squared: then an excess scatter is reported
 _LEAST_SCATTER = 0.1  # of the smallest error: the smallest excess scatter on the grid
@@ -37,10 +37,7 @@ def covariance_of(values: Sequence[Number]) -> Array:
     array([[0.25, 0.5 ],
            [0.5 , 1.  ]])
     """
-    slopes = [value.derivatives for value in values]
-    sources = dict.fromkeys(source for slope in slopes for source in slope)
-    errors = [[slope.get(source, 0.0) * source.std_dev for source in sources] for slope in slopes]
-    spread = np.reshape(np.array(errors, dtype=float), (len(slopes), len(sources)))
+    spread = spread_of(values)
     return np.array([[float(np.sum(column * other)) for other in spread] for column in spread])
 
 
