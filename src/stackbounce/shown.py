@@ -1,6 +1,6 @@
 """Values and results that show themselves: tables with remarks, as text and in a notebook."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import fields
 from html import escape
 from textwrap import fill, wrap
@@ -122,8 +122,8 @@ class Shown:
         return f"{self._drawing()}{tables}{listed}"
 
 
-def call_of(value: Any, derived: str = "") -> str:
-    """Return the call that makes a dataclass, without defaults and a field that is derived.
+def call_of(value: Any, *left_out: str, write: Callable[[Any], str] = repr) -> str:
+    """Return the call that makes a dataclass, without defaults and the fields that are left out.
 
     Examples
     --------
@@ -131,9 +131,9 @@ def call_of(value: Any, derived: str = "") -> str:
     >>> call_of(Ball(0.057, name="tennis"))
     "Ball(mass=0.057, name='tennis')"
     """
-    given = [field for field in fields(value) if field.init and field.name != derived]
+    given = [field for field in fields(value) if field.init and field.name not in left_out]
     numbers = [(field, getattr(value, field.name)) for field in given]
-    said = [f"{field.name}={own!r}" for field, own in numbers if own != field.default]
+    said = [f"{field.name}={write(own)}" for field, own in numbers if own != field.default]
     return f"{type(value).__name__}({', '.join(said)})"
 
 

@@ -18,7 +18,7 @@ calls that a row shows, and the data of a figure, are this record.
 
 import csv
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, is_dataclass, replace
 from functools import lru_cache
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -28,6 +28,7 @@ from stackbounce.library_types import Dataset, UFloat
 from stackbounce.model.drop import Drop
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
+from stackbounce.shown import call_of
 
 
 @dataclass(frozen=True)
@@ -179,15 +180,8 @@ def _text(value: Any) -> str:
         return f"[{', '.join(_text(member) for member in value)}]"
     if not is_dataclass(value):
         return repr(value)
-    derived = getattr(value, "derived", None)
-    given = []
-    for field in fields(value):
-        content = getattr(value, field.name)
-        default = None if field.default is MISSING else field.default
-        empty = field.name == "gaps" and not any(content)
-        if field.init and field.name != derived and content != default and not empty:
-            given.append(f"{field.name}={_text(content)}")
-    return f"sb.{type(value).__name__}({', '.join(given)})"
+    empty = () if any(getattr(value, "gaps", ())) else ("gaps",)
+    return f"sb.{call_of(value, getattr(value, 'derived', ''), *empty, write=_text)}"
 
 
 def propagate_error(compute: Callable[[Bench], float], data: Data, keys: list[str]) -> float:
