@@ -11,6 +11,7 @@ from stackbounce.errors import StackbounceError
 from stackbounce.fitting.series.family import Family, reason_to_skip
 from stackbounce.fitting.series.series import Series
 from stackbounce.library_types import DataFrame
+from stackbounce.measure.statistics.regression import least_squares
 from stackbounce.model.laws import LAWS
 from stackbounce.run.quantities import Array
 from stackbounce.shown import Shown, Table, table_of
@@ -338,12 +339,8 @@ def _fitted(
 def _power(series: Series) -> tuple[float, float, float | None]:
     """Return the exponent of the loss in the speed, its error, and p."""
     losses = 1.0 - series.values
-    scaled, change = np.log(losses), np.diag(1.0 / losses)
-    weight = np.linalg.inv(change @ series.covariance() @ change)
+    change = np.diag(1.0 / losses)
     design = np.column_stack([np.ones(losses.size), np.log(series.speeds)])
-    covariance = np.linalg.inv(design.T @ weight @ design)
-    best = covariance @ design.T @ weight @ scaled
-    apart = scaled - design @ best
-    freedom = losses.size - 2
-    p = _probability(float(apart @ weight @ apart), freedom, series) if freedom else None
-    return float(best[1]), float(np.sqrt(covariance[1, 1])), p
+    line = least_squares(design, np.log(losses), change @ series.covariance() @ change)
+    p = _probability(line.chi_squared, line.freedom, series) if line.freedom else None
+    return float(line.values[1]), float(np.sqrt(line.covariance[1, 1])), p
