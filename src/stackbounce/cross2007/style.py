@@ -5,8 +5,7 @@ apart, and so can readers of a print in grey; line styles and labels carry the s
 """
 
 import io
-from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import cache
 from html import escape
@@ -125,14 +124,11 @@ def read_words() -> dict[str, Any]:
     return shipped_table(__package__, "figures.toml")
 
 
-@contextmanager
-def use_style() -> Iterator[None]:
+def use_style() -> AbstractContextManager[None]:
     """Draw in the paper's style within this context."""
     import matplotlib as mpl
 
-    with mpl.rc_context():
-        mpl.rc_file(Path(__file__).with_name("paper.mplstyle"))
-        yield
+    return mpl.rc_context(fname=Path(__file__).with_name("paper.mplstyle"))
 
 
 def make_axes(
