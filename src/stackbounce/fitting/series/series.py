@@ -284,16 +284,29 @@ class _Column(NamedTuple):
     assumed: float
 
 
+def pooled_variance(values: Array) -> tuple[float, int]:
+    """Return the variance of repeated readings about the means of their rows, and its freedom.
+
+    Rows with fewer readings than others end with NaN.
+
+    Examples
+    --------
+    >>> pooled_variance(np.array([[1.0, 3.0], [2.0, np.nan]]))
+    (2.0, 1)
+    """
+    apart = values - np.nanmean(values, axis=1, keepdims=True)
+    freedom = int(np.isfinite(values).sum()) - len(values)
+    return float(np.nansum(apart**2)) / freedom, freedom
+
+
 def _read(data: Dataset, name: str) -> _Column:
     variable = data[name]
     values = np.asarray(variable.values, dtype=np.float64)
     scatter, freedom = np.zeros(len(values)), 0.0
-    if values.ndim == 2:  # rows with fewer readings than others end with NaN
-        counts = np.isfinite(values).sum(axis=1)
-        means = np.nanmean(values, axis=1)
-        freedom = float(counts.sum() - len(values))
-        scatter = float(np.nansum((values - means[:, None]) ** 2)) / freedom / counts
-        values = means
+    if values.ndim == 2:
+        variance, freedom = pooled_variance(values)
+        scatter = variance / np.isfinite(values).sum(axis=1)
+        values = np.nanmean(values, axis=1)
     errors = data[f"{name}_error"].values if f"{name}_error" in data else np.zeros(values.size)
     assumed = variable.attrs.get("assumed_error", 0.0)
     return _Column(values, np.asarray(errors) ** 2, scatter, freedom, assumed)

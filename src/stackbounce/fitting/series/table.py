@@ -11,6 +11,7 @@ from stackbounce.errors import InvalidValue, counted, nearest, placed, positive,
 from stackbounce.fitting.rows import File, rows_of
 from stackbounce.fitting.series.columns import UNITS, role_of
 from stackbounce.fitting.series.readings import MEASURED, STARTS, assumed_error, readings_of
+from stackbounce.fitting.series.series import pooled_variance
 from stackbounce.library_types import DataFrame, Dataset
 from stackbounce.measure.reading.dataset import dataset_of
 from stackbounce.run.quantities import Array
@@ -130,7 +131,7 @@ def _dataset(
         raise InvalidValue(f"row {line} has no error of the {what}; others do")
     digit = float(readings.digit.max())
     merged = _repeated(readings) if not some.any() else None
-    scatter = 0.0 if merged is None else _pooled(merged[1])
+    scatter = 0.0 if merged is None else math.sqrt(pooled_variance(merged[1])[0])
     if merged is None or scatter < digit / math.sqrt(12.0):  # equal as far as the digits tell
         rows = readings.sort_values(["start", "drop", "number"])
         values, dims = rows.value.to_numpy(), ["row"]
@@ -150,7 +151,7 @@ def _dataset(
     if some.any():
         data[f"{measured}_error"] = "row", rows.error.to_numpy()
     elif values.ndim == 2:
-        notes.append(_said_of_scatter(readings, values, scatter, measured))
+        notes.append(_said_of_scatter(readings, values, measured))
     else:
         error, why = assumed_error(values, digit)
         data[measured][2]["assumed_error"] = error
@@ -172,21 +173,14 @@ def _repeated(readings: DataFrame) -> tuple[DataFrame, Array] | None:
     return each[["start", "start_error"]].mean().reset_index(), read.to_numpy()
 
 
-def _pooled(values: Array) -> float:
-    """Return the standard deviation of repeated readings about their means, all rows together."""
-    apart = values - np.nanmean(values, axis=1, keepdims=True)
-    freedom = np.isfinite(values).sum() - len(values)
-    return math.sqrt(float(np.nansum(apart**2)) / freedom)
-
-
-def _said_of_scatter(readings: DataFrame, values: Array, scatter: float, measured: str) -> str:
+def _said_of_scatter(readings: DataFrame, values: Array, measured: str) -> str:
     """Return where errors come from, and which readings are far from the others."""
-    freedom = int(np.isfinite(values).sum() - len(values))
+    variance, freedom = pooled_variance(values)
     what, unit = measured.replace("_", " "), UNITS[measured]
     of = f" of {readings.group.iloc[0]}" if readings.group.iloc[0] else ""
     said = (
         f"The error of one {what}{of} is the scatter of repeated readings, "
-        f"{handy_text(scatter, unit, 3)}, with {counted(freedom, 'degree of freedom')}."
+        f"{handy_text(math.sqrt(variance), unit, 3)}, with {counted(freedom, 'degree of freedom')}."
     )
     several = values[np.isfinite(values).sum(axis=1) > 2]
     if not len(several):
