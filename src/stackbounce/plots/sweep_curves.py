@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
+from stackbounce.errors import InvalidType, InvalidValue, one_of, shown
 from stackbounce.library_types import Axes, DataArray, Dataset, Figure
 from stackbounce.plots.maps import draw_counts, draw_levels
 from stackbounce.plots.scales import is_flat, label, path_of, read_scale, show_in_handy_unit
@@ -224,8 +224,7 @@ def _prepared(
     from stackbounce.run.result import Status
 
     check_source(data, "status", "sweep")
-    if show not in SHOWN:
-        raise InvalidValue(f"show must name a result, got {shown(show)}; {nearest(show, SHOWN)}")
+    one_of(show, SHOWN, f"show must name a result, got {shown(show)}")
     dims = data["status"].dims
     if len(dims) != count:
         right = "one dimension" if count == 1 else "two dimensions"
