@@ -9,6 +9,7 @@ import pytest
 from explorer.conftest import ASKED
 from stackbounce.explorer import LIMITS, addresses, guard
 from stackbounce.explorer.addresses import Place
+from stackbounce.explorer.made import made_file
 
 HOSTS = [
     *("evil.example", "127.0.0.1.evil.example", "evil.example:8050", "", "[::1"),
@@ -57,7 +58,10 @@ def test_every_answer_has_the_headers(server, path):
     assert not {"set-cookie", "server"} & set(headers)
 
 
-def test_no_file_beside_the_page_is_served(server):
+def test_files_of_the_page_come_compressed_and_no_others(server):
+    script = server.get("/explorer.js")
+    assert script.headers["content-encoding"] == "gzip"
+    assert script.content == made_file("explorer.js")
     outside = ("/../app.py", "/%2e%2e/app.py", "/..%2fapp.py", "/js/../../app.py", "//etc/passwd")
     for path in outside:
         response = server.get(path)

@@ -63,8 +63,7 @@ def test_a_port_that_is_taken(capsys):
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
 def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
     with running([*APP, "--json", "--port", "0"], stderr=subprocess.PIPE) as process:
-        lines = [process.stdout.readline() for _ in range(6)]
-        told = json.loads("".join(lines))
+        told = json.loads("".join(process.stdout.readline() for _ in range(6)))
         address = told["address"]
         assert (told["others"], told["measures"]) == ([], True)
         httpx.post(f"{address}api/predict", json=ASKED, timeout=PATIENCE).raise_for_status()
@@ -96,8 +95,7 @@ def test_open_requests_do_not_keep_it_from_ending(how):
     with serving(stderr=subprocess.PIPE) as server, contextlib.ExitStack() as stack:
         httpx.post(f"{server.address}api/predict", json=ASKED, timeout=PATIENCE)
         for request in begun * 3:
-            connection = stack.enter_context(socket.create_connection(server.place))
-            connection.sendall(request)
+            stack.enter_context(socket.create_connection(server.place)).sendall(request)
         time.sleep(1.0)
         workers = server.children()
         assert workers
@@ -105,8 +103,7 @@ def test_open_requests_do_not_keep_it_from_ending(how):
         _, err = server.process.communicate(timeout=15)
         assert not left_of(workers)
     if how == signal.SIGTERM:
-        assert server.process.returncode == 0
-        assert err == ""
+        assert (server.process.returncode, err) == (0, "")
 
 
 @pytest.mark.slow
