@@ -137,23 +137,20 @@ def test_the_floor_of_a_track_of_the_centre_is_a_radius_below():
     assert same.balls[0].drop_height.nominal_value == true.nominal_value
 
 
-@pytest.mark.parametrize(
-    ("text", "value", "error"),
-    [
-        ("1.00 ± 0.01 m", 1.0, 0.01),
-        ("100 cm +/- 5 mm", 1.0, 0.005),
-        ("(1e2±1)cm", 1.0, 0.01),
-        ("70 cm ± 2", 0.7, 0.02),
-        ("70 cm ± 2 mm", 0.7, 0.002),
-        ("(70 ± 2) cm", 0.7, 0.02),
-        ("(70 cm ± 2)", 0.7, 0.02),
-        ("70(2) cm", 0.7, 0.02),
-        ("70.0(25) cm", 0.7, 0.025),
-        ("70.0(0.5) cm", 0.7, 0.005),
-        ("7.0(2)e1 cm", 0.7, 0.02),
-        ("0.7 ± 0.02", 0.7, 0.02),
-    ],
-)
+@pytest.mark.parametrize(("text", "value", "error"), [
+    ("1.00 ± 0.01 m", 1.0, 0.01),
+    ("100 cm +/- 5 mm", 1.0, 0.005),
+    ("(1e2±1)cm", 1.0, 0.01),
+    ("70 cm ± 2", 0.7, 0.02),
+    ("70 cm ± 2 mm", 0.7, 0.002),
+    ("(70 ± 2) cm", 0.7, 0.02),
+    ("(70 cm ± 2)", 0.7, 0.02),
+    ("70(2) cm", 0.7, 0.02),
+    ("70.0(25) cm", 0.7, 0.025),
+    ("70.0(0.5) cm", 0.7, 0.005),
+    ("7.0(2)e1 cm", 0.7, 0.02),
+    ("0.7 ± 0.02", 0.7, 0.02),
+])  # fmt: skip
 def test_numbers_with_errors(text, value, error):
     found = quantity_with_error(text, "m", "height")
     assert (found.nominal_value, found.std_dev) == (value, pytest.approx(error))

@@ -4,20 +4,13 @@ import base64
 import re
 from typing import TYPE_CHECKING
 
+from stackbounce.files import shipped_table
+
 if TYPE_CHECKING:
     import jinja2
     from markupsafe import Markup
 
-_SIGNS = (
-    (r"\b([mvekhrF])_?([0-4]|(?<=r_)[mk])\b", r"\1<sub>\2</sub>"),
-    (r"\b1e(\d+)\b", r"10<sup>\1</sup>"),
-    (r"(\d)e(\d+)\b", r"\1 × 10<sup>\2</sup>"),
-    (r"(\d) x (\d)", r"\1 × \2"),
-    (r"sqrt\((\d+)\)", r"√\1"),
-    (r" - ", " − "),
-    (r"(?<![^\s(])&#39;(?=\S)", "\N{LEFT SINGLE QUOTATION MARK}"),
-    (r"&#39;", "\N{RIGHT SINGLE QUOTATION MARK}"),
-)
+_SIGNS = shipped_table(__package__, "signs.toml")["signs"]
 
 
 def typeset(text: str) -> "Markup":

@@ -34,9 +34,9 @@ class NoCompiledCode(UserWarning):
 
 
 def digest_of_sources() -> str:
-    """Return a hash of all source files of the engine."""
+    """Return a hash of all source files of the engine, and of its tables."""
     digest = hashlib.sha256()
-    for name in sorted(file for file in os.listdir(_HERE) if file.endswith(".py")):
+    for name in sorted(file for file in os.listdir(_HERE) if file.endswith((".py", ".toml"))):
         digest.update(name.encode() + b"\0" + _content(name) + b"\0")
     return digest.hexdigest()
 

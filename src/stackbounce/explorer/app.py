@@ -20,20 +20,14 @@ from stackbounce.explorer.addresses import Place
 from stackbounce.explorer.answers import predictions, records
 from stackbounce.explorer.guard import add_guard
 from stackbounce.explorer.limits import Limits
-from stackbounce.explorer.made import FOLDER, MEASURING, PAGE, PLAYING
+from stackbounce.explorer.made import FOLDER, HTTP, MEASURING, PAGE, PLAYING
 from stackbounce.explorer.paper_pages import Papers
 from stackbounce.explorer.workers import AGAIN_SECONDS, Busy, Workers
 from stackbounce.version import __version__
 
 _PROBLEMS: dict[int | str, dict[str, Any]] = {
-    status: {"model": schema.Problem, "description": meaning}
-    for status, meaning in {
-        400: "The request cannot be read.",
-        411: "The request does not tell its length.",
-        413: "The request is too large.",
-        422: "A value makes no sense, or one request asks for too much; the detail says which.",
-        429: "This client asks for too much at once; the detail says when to try again.",
-    }.items()
+    int(status): {"model": schema.Problem, "description": meaning}
+    for status, meaning in HTTP["problems"].items()
 }
 _Options = Annotated[Json[dict[str, Any]] | None, Form()]
 

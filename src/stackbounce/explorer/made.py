@@ -9,6 +9,7 @@ import hashlib
 from pathlib import Path
 
 from stackbounce.errors import FileError
+from stackbounce.files import shipped_table
 
 FOLDER = Path(__file__).with_suffix("")
 ONE_FILE = "explorer.html"
@@ -20,24 +21,15 @@ PLAYING = "explorer.css explorer.js icon.svg engine.wasm layout.json model.json"
 MEASURING = "options.json microphone_worklet.js floor-force.csv two-tracks.csv".split()
 """What it asks a server of stackbounce for, besides."""
 
-PAGE_POLICY = (
-    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; "
-    "style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; manifest-src 'self'; "
-    "base-uri 'none'; form-action 'none'"
-)
+HTTP = shipped_table(__package__, "http.toml")
+"""What the servers of the page tell browsers."""
+
+PAGE_POLICY: str = HTTP["policy"]
 """The content security policy of the page where its files come from a server.
 
 It loads nothing from elsewhere, and runs no script that is not a file of its own."""
 
-HEADERS = {
-    "x-content-type-options": "nosniff",
-    "referrer-policy": "no-referrer",
-    "cross-origin-opener-policy": "same-origin",
-    "cross-origin-resource-policy": "same-origin",
-    "cross-origin-embedder-policy": "require-corp",
-    "permissions-policy": "camera=(), geolocation=(), microphone=(self)",
-    "cache-control": "no-cache",
-}
+HEADERS: dict[str, str] = HTTP["headers"]
 """The headers of every answer; its content security policy depends on the page."""
 
 FOLDER_PAGE = "folder.html"  # the page where any other server has it, in a folder

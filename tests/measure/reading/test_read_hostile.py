@@ -2,8 +2,10 @@
 
 import math
 import os
+import tomllib
 import tracemalloc
 import zipfile
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +20,8 @@ from refusals import refusal
 from stackbounce.errors import FileError, InvalidType, InvalidValue, StackbounceError
 from stackbounce.measure.reading import limits, numbers, tables
 from stackbounce.measure.reading.text import Text
+
+MARKS = tomllib.loads(Path(__file__).with_name("marks.toml").read_text("utf-8"))["tables"]
 
 
 def refused(read, content, message, error=FileError, **options):
@@ -153,22 +157,7 @@ def test_encodings(read, encoding, end):
     np.testing.assert_allclose(data.y[:, 0], [0.0015, 0.0025])
 
 
-@pytest.mark.parametrize(("text", "values", "doubtful"), [
-    ("t;F\n0,5;1,25\n1;2\n", [1.25, 2.0], False),
-    ("t;F\n0;1.234,5\n1;2,25\n", [1234.5, 2.25], False),
-    ("t;F\n0,0;1.234\n1,0;2,25\n", [1234.0, 2.25], False),
-    ("t;F\n0;1,234.5\n1;2.25\n", [1234.5, 2.25], False),
-    ("t;F\n0.5;1,234\n1;2.25\n", [1234.0, 2.25], False),
-    ("t;F\n0;1,234\n1;2,345\n", [1.234, 2.345], True),
-    ("t;F\n0;0,234\n1;2,345\n", [0.234, 2.345], False),
-    ("t;F\n0;1 234,5\n1;2,5\n", [1234.5, 2.5], False),
-    ("t;F\n0;1'234.5\n1;2.5\n", [1234.5, 2.5], False),
-    ("t;F\n0;1\u202f234\n1;2\n", [1234.0, 2.0], False),
-    ('t,F\n"0,5","1,5"\n"1,0","2,5"\n', [1.5, 2.5], False),
-    ("t F\n0,5 1,5\n1,0 2,5\n", [1.5, 2.5], False),
-    ("t,F\n0, 1e3\n1,\t-2E-1\n", [1e3, -0.2], False),
-    ("t;F\n0;−1.5\n1;.5\n", [-1.5, 0.5], False),
-])  # fmt: skip
+@pytest.mark.parametrize(("text", "values", "doubtful"), MARKS)
 def test_marks_in_numbers(read, text, values, doubtful):
     data = read(text, units={"t": "s", "F": "N"})
     np.testing.assert_allclose(data.force, values, rtol=1e-15)
