@@ -242,10 +242,11 @@ def whole(name: str, value: object, low: int = 0, high: float = math.inf) -> int
     return number
 
 
-def unmasked(name: str, values: _Given) -> _Given:
-    """Return numbers as they are if numpy masks none of them; raise otherwise.
+def all_real(name: str, values: _Given) -> _Given:
+    """Return numbers as they are if they are real and numpy masks none of them; raise otherwise.
 
-    A masked number is none, but its place in the array holds one, which numpy's functions take.
+    A masked number is none, but its place in the array holds one, which numpy's functions take, as
+    they take dates for a count of nanoseconds, and leave out imaginary parts.
 
     Parameters
     ----------
@@ -257,19 +258,22 @@ def unmasked(name: str, values: _Given) -> _Given:
     Raises
     ------
     InvalidType
-        If a number is masked.
+        If a number is masked, or complex, a date or a time of numpy.
 
     Examples
     --------
     >>> import numpy as np
-    >>> unmasked("gaps", np.ma.array([0.0, 9999.0], mask=[False, True]))
+    >>> all_real("gaps", np.ma.array([0.0, 9999.0], mask=[False, True]))
     Traceback (most recent call last):
         ...
     stackbounce.errors.InvalidType: gaps must have no masked numbers, got 1 of 2: leave them out
     """
     import numpy as np
 
-    for part in values if isinstance(values, list | tuple) else (values,):
+    for given in values if isinstance(values, list | tuple) else (values,):
+        part: Any = getattr(given, "magnitude", given)
+        if getattr(getattr(part, "dtype", None), "kind", "f") in "mMc":
+            raise InvalidType(f"{name} must be real numbers in SI units, got {part.dtype}")
         if isinstance(part, np.ma.MaskedArray) and (count := int(np.sum(part.mask))):
             right = f"{name} must have no masked numbers"
             raise InvalidType(f"{right}, got {count} of {part.size}: leave them out")

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from numbers import Real
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
-from stackbounce.errors import InvalidType, UnitError, finite, shown
+from stackbounce.errors import InvalidType, InvalidValue, UnitError, all_real, finite, shown
 from stackbounce.library_types import UnitRegistry
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?"
@@ -63,7 +63,8 @@ _NAMED = {
     p + unit: (_POWERS[p] + own[0], own[1]) for p in _POWERS for unit, own in _DECIMAL.items()
 }
 _NAMED |= {"%": (-2, (0, 0, 0, 0)), "1": (0, (0, 0, 0, 0))}
-_PIXEL = re.compile(r"px|pix|pixels?|dots?", re.IGNORECASE)  # pint takes these for lengths on paper
+# pint takes these for lengths on paper, and for grains, which are 65 mg
+_OTHERS = re.compile(r"px|pix|pixels?|dots?|grs?", re.IGNORECASE)
 _PREFIXES = {"k": 1e3, "": 1.0, "c": 1e-2, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
 _COMMON = {f"{p}{unit}": (size, unit) for p, size in _PREFIXES.items() for unit in "smNV"}
 _COMMON |= {unit: (1.0, unit) for unit in ("m/s", "m/s^2")}
@@ -181,7 +182,7 @@ def in_unit(value: object, unit: str, name: str) -> Any:
         ]
     if getattr(value, "ndim", 0):
         return magnitude(value, unit, name)
-    own = isinstance(value, str) or hasattr(value, "m_as") or hasattr(value, "std_dev")
+    own = isinstance(value, str) or any(hasattr(value, of) for of in ("m_as", "std_dev", "attrs"))
     return quantity(value, unit, name) if own else value
 
 
@@ -225,10 +226,45 @@ def magnitude(value: Any, unit: str, name: str) -> Any:
             return value.m_as(unit)
         except Exception:  # each registry has classes of its own
             raise UnitError(_message(name, str(value), unit)) from None
-    written = str(getattr(value, "attrs", {}).get("units", ""))
-    if written in ("", "1", unit):
+    if not (hasattr(value, "attrs") and hasattr(value, "dtype")):
         return value
-    return factor(written, unit, name) * getattr(value, "values", value)
+    import numpy as np
+
+    written, numbers = str(value.attrs.get("units") or "1"), np.asarray(value)[()]
+    return numbers if written in ("1", unit) else factor(written, unit, name) * numbers
+
+
+def numbers_in(values: object, unit: str, name: str) -> Any:
+    """Return numbers, which may have units of their own, as an array (n,) in an SI unit.
+
+    Raises
+    ------
+    InvalidType
+        If one is not a real number.
+    InvalidValue
+        If one is not finite, where they are no array, or they have more than one dimension.
+
+    Examples
+    --------
+    >>> numbers_in(["10 ms", 0.02], "s", "times").tolist()
+    [0.01, 0.02]
+    """
+    import numpy as np
+
+    given = in_unit(all_real(name, values), unit, name)
+    try:
+        # Without an array's type, numpy would make one of [1.0, True] and of [1.0, "2"].
+        table = np.asarray(given, dtype=None if hasattr(given, "dtype") else object)
+    except Exception:
+        raise InvalidType(f"{name} must be a list of numbers, got {shown(given)}") from None
+    if table.ndim > 1:
+        raise InvalidValue(f"{name} must be a list of numbers, got an array of {table.ndim} axes")
+    if table.dtype.kind in "iuf" and table.ndim:
+        return table.astype(float)
+    of = next((word for word, known in WORDS.items() if known == unit), unit)
+    if table.ndim == 0:
+        return np.array([finite(name, table[()], of)])
+    return np.array([finite(f"{name}.{i}", number, of) for i, number in enumerate(table)])
 
 
 def unit_written(text: str) -> str | None:
@@ -270,7 +306,7 @@ def factor(written: str, unit: str, name: str = "value", of: str | None = None) 
     (0.001, 1.0)
     """
     message, written = _message(name, of or written, unit), _powers(written)
-    if not _UNIT.fullmatch(written):
+    if not _UNIT.fullmatch(written) or _OTHERS.fullmatch(written):
         raise UnitError(message)
     known, right = _decimal(written), _decimal(unit)
     if known and right:
@@ -320,7 +356,7 @@ def in_si(written: str, *, common: bool = False) -> tuple[float, str] | None:
     written = _WRITTEN_OUT.get(plain := _powers(written.strip()), plain)
     if written in _COMMON or common:
         return _COMMON.get(written)
-    if not written or len(written) > 30 or _PIXEL.fullmatch(written):
+    if not written or len(written) > 30 or _OTHERS.fullmatch(written):
         return None
     for unit in _SI:
         try:

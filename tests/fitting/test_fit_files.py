@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
+from fitting.test_series_table import REFUSED
 from refusals import refusal
 from stackbounce.errors import FileError, InvalidType, InvalidValue, ScenarioError
 from stackbounce.fitting import FitProblem, Range, read_drops, read_question
@@ -121,23 +122,9 @@ def test_a_force_record_beside_the_file(write, tmp_path):
     assert np.interp(0.0, one.times, one.fitted) == pytest.approx(0.0, abs=2.0)
 
 
-@pytest.mark.parametrize(
-    ("change", "expected"),
-    [
-        (("[vary]", "[varied]"), "varied is not a known key; did you mean vary?"),
-        (("[measured]", "measured = 3\n[tie]"), "measured must be a table of names and values,"),
-        (("impact_speed", "impact"), "impact is not a known key; did you mean impact_speed?"),
-        (("prior =", "prier ="), "vary: gaps.0.prier is not a known key; did you mean prior?"),
-        (('low = "0 mm", ', ""), "vary: gaps.0 must have both low and high, got"),
-        (("3.53", "-1"), "impact_speed must be a positive number"),
-        (("[measured]", "[measured]\nforce.0 = 7"), "force.0 must be the name of a file with a"),
-        (("[measured]", "[measured]\nforce.0 = {file = 'a', unit = 'N'}"), "force.0.unit is not a"),
-        (("[vary]", "[[drops]]\nname = 'a'\n[vary]"), "measured belongs to one of the drops"),
-        (("gaps = [", "gaps = {"), "is not TOML"),
-    ],
-)
-def test_what_is_wrong_in_a_file_is_one_line_with_its_name(write, change, expected):
-    path = write((ONE + STACK).replace(*change))
+@pytest.mark.parametrize(("old", "new", "expected"), REFUSED["files"])
+def test_what_is_wrong_in_a_file_is_one_line_with_its_name(write, old, new, expected):
+    path = write((ONE + STACK).replace(old, new))
     message = refusal(ScenarioError, read_question, path)
     assert message.startswith(f"{path}")
     assert expected in message

@@ -13,7 +13,7 @@ from stackbounce.fitting.series import fit_series, read_table
 from stackbounce.fitting.series.series import make_series
 from stackbounce.model.drop import STANDARD_GRAVITY
 
-REFUSED = tomllib.loads(Path(__file__).with_name("refused.toml").read_text("utf-8"))["tables"]
+REFUSED = tomllib.loads(Path(__file__).with_name("refused.toml").read_text("utf-8"))
 HEIGHTS = Path(__file__).parents[2] / "docs" / "fit" / "heights.csv"
 
 
@@ -155,7 +155,7 @@ def test_a_reading_far_from_the_others_is_named_and_kept(table):
     assert np.nanmean(read.groups[""].rebound_height.values[1]) == pytest.approx(0.59675)
 
 
-@pytest.mark.parametrize(("text", "message"), REFUSED)
+@pytest.mark.parametrize(("text", "message"), REFUSED["tables"])
 def test_what_is_wrong_is_said_with_row_and_column(table, text, message):
     with pytest.raises(InvalidValue) as refused:
         table(text)

@@ -9,7 +9,7 @@ from typing import Any
 from stackbounce.cli import output
 from stackbounce.errors import InvalidValue, positive, shown
 from stackbounce.files import write_file
-from stackbounce.model import STANDARD_GRAVITY, Drop, law_named
+from stackbounce.model import STANDARD_GRAVITY, Drop
 from stackbounce.units import quantity
 
 
@@ -39,7 +39,7 @@ def run(
     else:
         named = [Drop.from_toml(name) if is_file(name) else name for name in what]
         chosen |= {"balls": named or None, "count": given["balls"], "repeat": given["repeat"]}
-        chosen["law"] = law_named(given["law"])
+        chosen["law"] = given["law"]
         chosen["impact_speed"] = _impact_speed(given["height"], given["speed"])
     data = highest(**chosen)
     if save is not None:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidType, InvalidValue, shown, unmasked, whole
+from stackbounce.errors import InvalidType, InvalidValue, all_real, shown, whole
 from stackbounce.fitting.quantities import find_quantity, read_with_error
 from stackbounce.fitting.waveforms import Waveform, read_waveform
 from stackbounce.model import Drop
@@ -145,7 +145,7 @@ def _one_by_one(drop: Drop, given: Mapping[Any, Any], path: str) -> list[tuple[s
         if not isinstance(name, str):
             raise InvalidType(f"{path or 'data '}must have names for keys, got {shown(name)}")
         if isinstance(value, np.ndarray):
-            value = unmasked(path + name, value).tolist()
+            value = all_real(path + name, value).tolist()
         known = QUANTITIES.get(name)
         if known is None or not known.part:
             found.append((name, value))

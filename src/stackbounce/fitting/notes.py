@@ -69,6 +69,9 @@ def list_notes(fit: "Fit") -> Iterator[str]:
             f"{count} runs of the search did not finish ({name}) and were taken as far from all "
             "data: give narrower bounds"
         )
+    for wave in fit.objective.waveforms:
+        if wave.left_out:
+            yield f"{wave.name} is clipped: {wave.left_out} samples at its top are left out"
     yield from fit.undetermined
     yield from _note_bounds(fit)
     if misfit := _describe_outlier(fit) or _describe_misfit(fit):

@@ -139,15 +139,16 @@ class Objective:
     def size(self) -> int:
         """The number of residuals."""
         numbers = sum(len(measured.data) for measured in self.measured.values()) + len(self.priors)
-        return numbers + sum(len(wave.times) for wave in self._waveforms)
+        return numbers + sum(len(wave.times) for wave in self.waveforms)
 
     @property
     def free(self) -> int:
         """The number of fitted numbers: parameters, and baselines and scales of force records."""
-        return len(self.parameters) + sum(1 + wave.scaled for wave in self._waveforms)
+        return len(self.parameters) + sum(1 + wave.scaled for wave in self.waveforms)
 
     @property
-    def _waveforms(self) -> list[Waveform]:
+    def waveforms(self) -> list[Waveform]:
+        """The force records of all drops."""
         return [wave for measured in self.measured.values() for wave in measured.waveforms]
 
     def values(self, x: Array) -> dict[str, Array]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, one_of, positive, shown, unmasked
+from stackbounce.errors import InvalidValue, instance, one_of, positive, shown
 from stackbounce.fitting import notes, posterior
 from stackbounce.fitting.covariance import estimate_covariance, find_directions
 from stackbounce.fitting.least_squares import Minimum
@@ -24,7 +24,7 @@ from stackbounce.run.options import run_options
 from stackbounce.run.paths import Number
 from stackbounce.run.quantities import Array, solve_quantities
 from stackbounce.shown import Shown
-from stackbounce.units import handy, rounded
+from stackbounce.units import handy, numbers_in, rounded
 from stackbounce.version import __version__
 
 _LINEARISED = 60  # evaluations with derivatives for an interval, about
@@ -251,7 +251,7 @@ class Fit(Shown):
         name : str
             The parameter.
         values : array_like
-            (n,) in SI units, between its bounds.
+            (n,) in SI units or with a unit, between its bounds.
 
         Returns
         -------
@@ -264,7 +264,8 @@ class Fit(Shown):
             If it was not varied, or a value lies outside the bounds.
         """
         k = self.names.index(self._known(name))
-        return Profile(self, k).evaluate(np.asarray(unmasked("values", values), dtype=float))
+        at = numbers_in(values, self.objective.parameters[k].unit, "values")
+        return Profile(self, k).evaluate(at)
 
     def sample(self, draws: int = 16_000, **options: Any) -> Posterior:
         """Return draws from the posterior distribution of the parameters.
@@ -359,6 +360,7 @@ class Fit(Shown):
         4800
         """
         columns = []
+        instance("posterior", posterior, Posterior)
         for parameter in self.objective.parameters:
             drawn = posterior.draws(parameter.name)
             columns.append(np.log(drawn) if parameter.logarithmic else drawn)

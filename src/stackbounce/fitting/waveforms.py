@@ -1,11 +1,12 @@
 """Force records as data: the force of a contact over time, in newtons or on an unknown scale."""
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidType, InvalidValue, placed, positive, shown, unmasked
+from stackbounce.errors import InvalidType, InvalidValue, all_real, placed, positive, shown
 from stackbounce.fitting.quantities import read_index
 from stackbounce.measure.finding import force_channels
 from stackbounce.measure.kinds.waveform.analysis import waveform as analysed
@@ -19,6 +20,7 @@ from stackbounce.units import in_si, magnitude
 _NEAR = 0.1  # of the first contact's duration
 _SIGMAS = 5.0  # of the standard error
 _SAMPLES = 3.0  # of the sampling interval
+_CLIPPED = 3.0  # times the noise: how far below its top a clipped record is whole
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +43,8 @@ class Waveform:
         Whether the scale, a factor between the record and newtons, is fitted.
     begins : (float, float)
         The bounds in s, on that clock, of the first touch of the floor.
+    left_out : int
+        How many samples were left out, because the record is clipped there.
 
     Examples
     --------
@@ -56,6 +60,7 @@ class Waveform:
     error: float
     scaled: bool
     begins: tuple[float, float]
+    left_out: int = 0
 
     def linear(self, predicted: Array) -> Array:
         """Return the residuals (n,) in errors, with the best baseline and, if free, scale.
@@ -104,7 +109,8 @@ def read_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
     Notes
     -----
     `stackbounce.measure.waveform` removes baseline, drift and hum, and finds the touch, around
-    which it is fitted. The record must end before the next bounce.
+    which it is fitted. Samples at the top of a clipped record are left out. The record must end
+    before the next bounce.
 
     Examples
     --------
@@ -127,7 +133,10 @@ def read_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
     sigma = found.noise if error is None else positive(f"{path}'s error", error)
     if not sigma > 0.0:
         raise InvalidValue(f"{path} must have the error of a sample: its own scatter is 0")
-    return Waveform(name, index, found.times, found.force, sigma, scaled, _begins(found, index))
+    clipped = any(contact.clipped for contact in found.contacts)
+    whole = found.force < (found.force.max() - _CLIPPED * found.noise if clipped else math.inf)
+    seen = found.times[whole], found.force[whole]
+    return Waveform(name, index, *seen, sigma, scaled, _begins(found, index), int(np.sum(~whole)))
 
 
 def _begins(found: Analysed, index: int) -> tuple[float, float]:
@@ -153,7 +162,7 @@ def _arrays(value: Any, path: str) -> tuple[Any, Any, Any, bool]:
         error, known = value.attrs.get("error"), in_si(str(value.attrs.get("units", "")))
         error = known[0] * error if known and error is not None else error
         return times, force, error, not known or known[1] != "N"
-    unmasked(path, value)
+    all_real(path, value)
     try:
         times, force, error = value if len(value) == 3 else (*value, None)
     except (TypeError, ValueError) as problem:

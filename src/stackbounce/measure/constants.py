@@ -3,9 +3,10 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from inspect import signature
 from typing import Any
 
-from stackbounce.errors import InvalidValue, finite, shown
+from stackbounce.errors import InvalidValue, finite, one_of, shown
 from stackbounce.measure.quantities import Number, Row, deviation, measured, propagate
 from stackbounce.model import Drop
 from stackbounce.model.laws import ContactLaw, law_named
@@ -150,7 +151,7 @@ def law_constants(
     from restitution: 0.750+/-0.020
     """
     given = {name: value for name, value in locals().items() if name != "law" and value is not None}
-    kind = law_named(law) if isinstance(law, str) else law
+    kind = law_named(law)
     if mass is not None:
         given["mass"] = _moving(mass)
     sources: dict[str, Number] = {
@@ -257,7 +258,9 @@ def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> 
     >>> print(f"{found.constants['dissipation']:.1uS} s/m at {found.given['impact_speed']:.1uS}")
     0.084(1) s/m at 4.43(1)
     """
-    kind = law_named(law) if isinstance(law, str) else law
+    kind, arguments = law_named(law), signature(law_constants).parameters
+    for name in given:
+        one_of(name, arguments, f"{name} is no argument of one_law")
     known: dict[str, Any] = {}
     for result in found:
         for name, value in result.law_arguments().items():

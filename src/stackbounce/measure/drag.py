@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, TypeVar
 
-from stackbounce.errors import InvalidValue, non_negative, shown
+from stackbounce.errors import InvalidValue, instance, non_negative, shown
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Number, Row, measured, nominal
 from stackbounce.model import drag
@@ -204,6 +204,11 @@ def drag_of(mass: Any, diameter: Any, drag_coefficient: Any, air_density: Any) -
         wrong = Message("a drag coefficient needs mass and diameter of the ball: give ", missing)
         raise InvalidValue(wrong)
     return Drag(mass, diameter, known, Air.density if air_density is None else air_density)
+
+
+def drag_given(drag: Drag | None) -> Drag | None:
+    """Return a drag, or None, as it is given; raise InvalidType if it is anything else."""
+    return drag if drag is None else instance("drag", drag, Drag)
 
 
 def with_error_of_drag(found: Found, found_with: Callable[[Drag], Found], drag: Drag) -> Found:

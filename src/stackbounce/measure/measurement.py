@@ -58,7 +58,8 @@ def analyse(
     diameter : float or ufloat, optional
         Of the ball, in m; needed where `measured_to` is not its bottom, and for drag.
     contact_time : float or ufloat, optional
-        Of the lower ball alone, in s, for the gap of a stack.
+        Of the lower ball alone, in s, for the gap of a stack; of a bouncing ball, which is
+        subtracted from each interval of knocks.
     law : ContactLaw, its class or its name, optional
         Of the contact in a force waveform; touch and release then have smaller errors.
     exponent : float, optional

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, UnitError, shown, unmasked
+from stackbounce.errors import InvalidType, InvalidValue, StackbounceError, all_real, shown
 from stackbounce.measure.quantities import Array, Mask
 from stackbounce.units import in_si, magnitude
 
@@ -61,12 +61,13 @@ def columns(data: Any, names: Sequence[str]) -> list[Array]:
     >>> columns(xarray.Dataset(held), ("compression", "force"))
     [array([0.   , 0.002]), array([0., 9.])]
     """
-    unmasked("data", data)
     try:
-        given = [data[name] for name in names] if hasattr(data, "data_vars") else list(data)
+        own = hasattr(data, "data_vars")  # what is a dimension only has no numbers
+        given = [data.variables[name] for name in names] if own else list(data)
+        all_real("data", given)
         given = [_in_si(array, *names[k : k + 1]) for k, array in enumerate(given)]
         arrays = [np.asarray(array, dtype=np.float64) for array in given]
-    except UnitError:
+    except StackbounceError:
         raise
     except (KeyError, TypeError, ValueError):
         got = ", ".join(map(str, getattr(data, "data_vars", ()))) or shown(data)

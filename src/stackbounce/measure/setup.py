@@ -1,12 +1,12 @@
 """What is known of a measurement besides its file: the ball, its drop, the place."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.measure.drag import Drag, drag_of, speed_after_fall
-from stackbounce.measure.quantities import Number, nominal
+from stackbounce.measure.quantities import Number, measured, nominal
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.model.laws import ContactLaw
 
@@ -119,7 +119,7 @@ def above_bottom(point: Place, diameter: Number | float | None = None) -> Number
     0.033
     """
     if diameter is not None:
-        return _DIAMETERS_UP[point] * _length("diameter", diameter)
+        return _DIAMETERS_UP[point] * told("diameter", diameter)
     if point != "bottom":
         raise InvalidValue(
             f"diameter must be given where a height was measured to the {point}, got None"
@@ -138,7 +138,8 @@ def lowest_point(
         If the lowest point is not above the floor, or the diameter is needed and missing.
     """
     up = above_bottom(point, diameter)
-    height = _length(name, height)
+    height = height if hasattr(height, "std_dev") else told(name, height)
+    positive(name, nominal(height), "metres")
     if nominal(height) <= nominal(up):
         raise InvalidValue(
             f"{name} must be more than the height of the ball's {point} on the floor "
@@ -147,6 +148,9 @@ def lowest_point(
     return height - up
 
 
-def _length(name: str, value: Number | float) -> Number | float:
-    positive(name, getattr(value, "nominal_value", value), "metres")
-    return value
+def told(
+    name: str, value: object, of: str = "metres", check: Callable[..., float] = positive
+) -> Number | float:
+    """Return a number as `measured` does, but one without an error as a float."""
+    known = measured(name, value, of, check)
+    return known if known.std_dev > 0.0 else known.nominal_value

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidValue
+from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.prediction.inputs import FEWEST, Inputs, of_draws
 from stackbounce.run.options import Options
 from stackbounce.run.quantities import QUANTITIES, Array, Solved
@@ -162,10 +162,10 @@ def carry(
 
     The results are of draws, or of `Inputs.neighbours`.
     """
-    answers = [function(result) for result in results]
+    answers = [_numbers_of(function(result)) for result in results]
     found = {}
     for name in dict.fromkeys(name for answer in answers for name in answer):
-        column = np.array([float(answer.get(name, np.nan)) for answer in answers])
+        column = np.array([answer.get(name, np.nan) for answer in answers])
         column[~np.isfinite(column)] = np.nan
         share = float(np.mean(np.isfinite(column)))
         if drawn or share < 1.0:
@@ -175,6 +175,14 @@ def carry(
             column[:] = column[0]
         found[name] = inputs.linear(float(column[0]), inputs.slopes(column)), share
     return found
+
+
+def _numbers_of(answer: Any) -> dict[Any, float]:
+    """Return the numbers that a user's function gives, by their names."""
+    try:
+        return {name: float(value) for name, value in dict(answer).items()}
+    except (TypeError, ValueError):
+        raise InvalidType(f"function must return a dict of numbers, got {shown(answer)}") from None
 
 
 def _changed_status(status: NDArray[np.int64]) -> str:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, finite, shown, unmasked
+from stackbounce.errors import InvalidType, InvalidValue, all_real, finite, shown
 from stackbounce.measure.quantities import deviation, known_to, quantity_with_error, spread_of
 from stackbounce.model import Drop
 from stackbounce.run.options import Options
@@ -285,7 +285,7 @@ def _with_error(number: Number, value: Any) -> Any:
 
 def _draws(path: str, value: Any) -> Array:
     """Return the draws of a number."""
-    draws = np.asarray(unmasked(path, value))
+    draws = np.asarray(all_real(path, value))
     if draws.ndim != 1 or len(draws) < FEWEST or draws.dtype.kind not in "iuf":
         raise InvalidValue(
             f"{path} must be a number with an error or an array of {FEWEST} draws or more, "

@@ -21,7 +21,7 @@ from stackbounce.run.quantities import QUANTITIES, Array, Solved
 from stackbounce.run.result import Result, Status
 from stackbounce.run.sideways import LIMIT, REMARK, UNITS
 from stackbounce.shown import Shown, Table
-from stackbounce.units import rounded
+from stackbounce.units import numbers_in, rounded
 from stackbounce.version import __version__
 
 _CURVES = ("position", "velocity", "force", "compression")
@@ -223,8 +223,10 @@ class Prediction(Shown):
         ndarray
             (n,) in SI units; nan if no draw has the number.
         """
-        _ = self[name]
-        return np.asarray(np.nanquantile(self._columns[name], at))
+        _, levels = self[name], numbers_in(at, "", "at").reshape(np.shape(at))
+        if not np.all((levels >= 0.0) & (levels <= 1.0)):
+            raise InvalidValue(f"at must be from 0 to 1, 0.5 for the median, got {shown(at)}")
+        return np.asarray(np.nanquantile(self._columns[name], levels))
 
     @functools.cached_property
     def sensitivity(self) -> DataArray:
@@ -434,7 +436,7 @@ class Prediction(Shown):
             If there is no such variable, or a time is not one of the run.
         """
         one_of(name, _CURVES, f"{shown(name)} is not a curve")
-        within = np.minimum(times, self.options.until)
+        within = np.minimum(numbers_in(times, "s", "times"), self.options.until)
         curves = np.array([result.sampled(within)[name] for result in self._results])
         if self.reason:
             low, high = np.nanquantile(curves, _ONE_SIGMA, axis=0)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stackbounce.engine import codes
 from stackbounce.engine.ratios import energy_kept
-from stackbounce.errors import InvalidType, InvalidValue, finite, no_attribute, shown, unmasked
+from stackbounce.errors import InvalidValue, no_attribute
 from stackbounce.files import shipped_table
 from stackbounce.library_types import Dataset
 from stackbounce.model import STANDARD_GRAVITY, Drop
@@ -21,7 +21,7 @@ from stackbounce.run.conditioning import amplification, known_until
 from stackbounce.run.paths import Array
 from stackbounce.run.sideways import leave_sideways
 from stackbounce.shown import Shown, Table
-from stackbounce.units import in_unit
+from stackbounce.units import numbers_in
 from stackbounce.version import __version__
 
 _COLUMNS = {  # of the log, by the field of an interval
@@ -48,14 +48,6 @@ _SAMPLED = (  # of `Result.sample`: name, dimensions, unit
 ROUND_OFF = 1e-15
 """Relative error that a step without a tolerance adds to a speed."""
 
-_UNITS = {  # of the variables of `Result.to_dataset`
-    "m/s": "rebound_speed lower_velocity upper_velocity",
-    "m": "rebound_height peak_compression height",
-    "s": "first_touch last_release start end peak_time time",
-    "N": "peak_force",
-    "N s": "impulse",
-    "1": "rebound_ratio collisions energy_retained status contact ball",
-}
 _KINDS = {codes.TOUCH: "touch", codes.RELEASE: "release", codes.COLLISION: "collision"}
 
 
@@ -436,7 +428,8 @@ class Result(Shown):
         parts = {"interval": self.intervals, "event": self.events, "apex": self.apexes}
         for dim, rows in parts.items():
             columns |= {(dim, f"{dim}_{name}"): rows[name] for name in rows.dtype.names or ()}
-        units = {name: unit for unit, names in _UNITS.items() for name in names.split()}
+        known = shipped_table(__package__, "units.toml")
+        units = {name: unit for unit, names in known.items() for name in names.split()}
         variables = {}
         for (dim, name), values in columns.items():
             unit = units.get(name) or units.get(name.removeprefix(f"{dim}_"))
@@ -556,7 +549,7 @@ class Result(Shown):
         return _frozen(out)
 
     def _times(self, times: ArrayLike) -> Array:
-        wanted = _numbers(times)
+        wanted: Array = numbers_in(times, "s", "times")
         stopped = self.status in STOPPED
         last = self.end_time if stopped else math.inf
         bad = wanted[~(np.isfinite(wanted) & (wanted >= 0.0) & (wanted <= last))]
@@ -607,24 +600,6 @@ def heights_of(velocities: Any, gravity: Any) -> Array:
     pull = np.where(np.greater(gravity, 0.0), gravity, STANDARD_GRAVITY)
     with np.errstate(all="ignore"):
         return np.asarray(velocities * np.abs(velocities) / (2.0 * pull))
-
-
-def _numbers(times: object) -> Array:
-    """Return times as an array of floats; raise if one is not a real number."""
-    unmasked("times", times)
-    times = in_unit(times, "s", "times")
-    try:
-        # Without an array's type, numpy would make one of [1.0, True] and of [1.0, "2"].
-        table = np.asarray(times, dtype=None if hasattr(times, "dtype") else object)
-    except Exception:
-        raise InvalidType(f"times must be a list of numbers, got {shown(times)}") from None
-    if table.ndim > 1:
-        raise InvalidValue(f"times must be a list of numbers, got an array of {table.ndim} axes")
-    if table.ndim == 0:
-        return np.array([finite("times", table[()], "seconds")])
-    if table.dtype.kind in "iuf":
-        return table.astype(float)
-    return np.array([finite(f"times.{i}", time, "seconds") for i, time in enumerate(table)])
 
 
 def _frozen(array: NDArray[Any]) -> NDArray[Any]:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, shown, unmasked
+from stackbounce.errors import InvalidType, InvalidValue, all_real, shown
 from stackbounce.library_types import DataArray, Dataset
 from stackbounce.model import Drop
 from stackbounce.run.batch import solve
@@ -215,7 +215,7 @@ def _named(number: Number, value: Any) -> DataArray:
     own = identifier(number.path)
     if isinstance(value, tuple) and [isinstance(part, str) for part in value] == [True, False]:
         own, value = value
-    unmasked(number.path, value)
+    all_real(number.path, value)
     if isinstance(value, str) and {*value} & {*":,"}:
         value = _spaced(number, value)
     if isinstance(value, xr.DataArray):
@@ -240,7 +240,7 @@ def _named(number: Number, value: Any) -> DataArray:
         )
     if array.dtype.kind not in "iuf":
         raise InvalidType(f"{number.path} must be numbers, got {array.dtype}")
-    given = array.attrs.get("units", number.unit)
+    given = str(array.attrs.get("units") or number.unit)
     if given != number.unit:
         array = array * factor(given, number.unit, number.path)
     array = array.astype(float)

@@ -23,7 +23,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeAlias
 
-from stackbounce.errors import FileError, InvalidValue, shown
+from stackbounce.errors import FileError, InvalidValue, instance, shown, whole
 from stackbounce.library_types import Dataset
 from stackbounce.model import Drop
 from stackbounce.run.batch import Block, size
@@ -183,10 +183,10 @@ def write(
     >>> xr.open_zarr(path).collisions.values.ravel()
     array([1, 1, 1, 1, 1])
     """
+    instance("drop", drop, Drop)
     out, report = Path(out), progress or (lambda *_: None)
     files.check_name(out)
-    if block < 1:
-        raise InvalidValue(f"block must be a number of drops, 1 or above, got {block}")
+    whole("block", block, 1)
     axes = _read_axes(drop, values)
     first = sweep(drop, {path: (dim, axis[:1]) for path, (dim, axis) in axes.items()}, **options)
     form = Form(first, axes, block)

@@ -154,6 +154,7 @@ def best_masses(
         ratio = solve_drops(stacks).rebound_ratio.values[:, -1]
         return -np.where(np.isfinite(ratio), ratio, -np.inf)
 
+    lost(np.full((len(drop.balls) - 2, 1), ends[0]))  # scipy would hide what is wrong with contacts
     search: Any = {"updating": "deferred", "vectorized": True, "polish": False, "seed": _SEED}
     found = differential_evolution(
         lost,

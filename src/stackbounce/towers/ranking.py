@@ -8,9 +8,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import InvalidType, InvalidValue, listed, non_negative, placed, shown, whole
+from stackbounce.errors import (
+    InvalidType,
+    InvalidValue,
+    instance,
+    listed,
+    non_negative,
+    placed,
+    shown,
+    whole,
+)
+from stackbounce.files import shipped_table
 from stackbounce.library_types import Dataset
-from stackbounce.model import STANDARD_GRAVITY, Ball, ContactLaw, Drop, Hysteretic
+from stackbounce.model import STANDARD_GRAVITY, Ball, ContactLaw, Drop, Hysteretic, law_named
 from stackbounce.model.catalogue import BALLS, catalogue_ball
 from stackbounce.model.laws.series import between
 from stackbounce.run.calibration import calibrate
@@ -24,13 +34,7 @@ _HEIGHT = 1.0  # m
 _MOST = 100_000  # drops
 _AT_THE_END = 1e-3  # relative distance of a mass from an end of its range that counts as none
 _SWEPT = ("rebound_ratio", "energy_retained", "collisions", "status")
-_MEANINGS = {  # of the variables that a sweep does not have
-    "balls": "the balls of the stack, the lowest first",
-    "mass": "masses of the balls, the lowest first",
-    "place": "place in the order of the top ball's rebound ratio",
-    "height_ratio": "height to which the top ball goes over that of the drop",
-    "energy_share": "the top ball's kinetic energy over that of all balls before",
-}
+_MEANINGS = shipped_table(__package__, "meanings.toml")  # of variables that a sweep does not have
 
 
 class _Candidate(NamedTuple):
@@ -123,6 +127,7 @@ def highest(
     >>> ds.place.values[:3].tolist()
     [[1, 2], [2, 3], [3, 1]]
     """
+    instance("repeat", repeat, bool)
     if isinstance(balls, Drop):
         if count is not None or repeat:
             raise InvalidValue("a Drop is one stack: count and repeat are for a choice of balls")
@@ -159,6 +164,7 @@ def highest(
 
 def _list_candidates(balls: Any, law: type[ContactLaw], impact_speed: float) -> list[_Candidate]:
     """Return the balls for the stacks, each with its floor contact; see `highest`."""
+    law = law_named(law)
     if law.rigid:
         raise InvalidValue(
             f"law must be one with a stiffness, such as Spring, got {law.__name__}: what two rigid "

@@ -81,7 +81,7 @@ def columns_of(headings: list[str]) -> list[Column]:
         said = heading(f"{rest})" if rest.count("(") > rest.count(")") else rest)
         name, unit = said.name.casefold(), said.unit or (error[2] if error else "")
         bare = WORDS["mean"].sub("", name)
-        role, number = _role(bare, unit) if bare else ("reading", 0)
+        role, number = _role(bare, unit) if bare or index else ("reading", 0)
         ball = "" if role else _ball(bare)
         if ball:
             role = "rebound_ratio" if WORDS["ratio"].search(bare) else "rebound_height"

@@ -25,9 +25,11 @@ MEASURED = ("rebound_height", "rebound_speed", "restitution")  # of what was mea
 
 _RIGHT = "'drop height (cm)' and 'rebound height (cm)', or 'v (m/s)' and 'e'"
 _NUMBER = re.compile(r"[-+]?[\d.,]*\d(?:[eE][-+]?\d+)?\s*([^\W\d_]{1,3}|%|±.*|\+/-.*|\(.*)?")
+_WITH_UNIT = re.compile(r"[\d.,eE+-]+\s*([^\W\d_]{1,3}|%)")
 _DIGITS = re.compile(r"\d*\.?\d+(?:[eE][-+]?\d+)?")
 _SIZES = ((500.0, "mm"), (5.0, "cm"), (0.0, "m"))  # of the largest height, where no unit is told
 _THOUSANDS = re.compile(r"[1-9]\d{0,2}\.\d{3}")
+_WHOLE = re.compile(r"\d{1,3}(\.\d{3})?")  # a number of mm, read as one with thousands
 _FINE = 1e-5  # of the largest number: nobody reads in such steps, and what has them was computed
 _ENOUGH = 5  # numbers that all end in 0, or in 0 and 5, were not read more finely
 _SUCCESSIVE = 0.5  # of the logarithm of the first ratio of heights: bounces in turn fall by more
@@ -125,9 +127,11 @@ def _resolved(
                     "beside it does"
                 )
             notes.append(f"Column {column.text!r} is not used: its name tells nothing known here.")
+    _check_numbers(used)
     started = any(column.role in STARTS for column in used)
+    start = next((column.text for column in used if column.role == "height" and not started), "")
     for k, column in enumerate(used):
-        generic = column.role == "height" and not started
+        generic = column.role == "height" and (not started or column.text == start)
         if generic or (column.role == "bounces" and not column.number):
             used[k] = replace(column, role="drop_height")
         elif column.role in ("height", "bounces"):
@@ -138,6 +142,19 @@ def _resolved(
             used[k] = replace(column, role=role, number=0)
         started = started or used[k].role == "drop_height"
     return used, words
+
+
+def _check_numbers(columns: Sequence[Column]) -> None:
+    """Refuse two readings, or two bounces, of one number: they are not of the same ball."""
+    known = dict[tuple[str, int], Column]()
+    for column in columns:
+        first = known.setdefault((column.role, column.number), column)
+        alike = first.text == column.text and column.role != "readings"
+        if column.number and first is not column and not alike:
+            raise InvalidValue(
+                f"{first.text!r} and {column.text!r} have one number: give each ball its own rows, "
+                "and a column 'ball' for their names"
+            )
 
 
 class Numbers(NamedTuple):
@@ -181,8 +198,9 @@ def _numbers(column: Column, columns: Sequence[Column], body: Sequence[Row], usu
     written = column.unit or (of.unit if of is not column else "")
     if not written and unit == "m":
         written = usual
-    if written == "mm" and cells and all(map(_THOUSANDS.fullmatch, filter(None, cells))):
-        raise InvalidValue(f"{texts[0][1]}: {cells[0]} mm can be read in two ways: write no point")
+    grouped, where = next(((c, at) for c, at in texts if _THOUSANDS.fullmatch(c)), ("", ""))
+    if written == "mm" and grouped and all(map(_WHOLE.fullmatch, filter(None, cells))):
+        raise InvalidValue(f"{where}: {grouped} mm can be read in two ways: write no point")
     filled = [(_NUMBER.fullmatch(cell), where) for cell, where in texts if cell]
     bare = [where for found, where in filled if found and not found[1]]
     has_units = any(found and (found[1] or "")[:1].isalpha() for found, _ in filled)
@@ -197,10 +215,13 @@ def _numbers(column: Column, columns: Sequence[Column], body: Sequence[Row], usu
     if column.error:
         told = quantity_with_error(column.error, unit, column.text, written)
         errors = np.where(np.isnan(errors), told, errors)
-    read = (Decimal(found[0]) for cell in cells if (found := _DIGITS.search(cell)))
-    last = min((int(number.as_tuple().exponent) for number in read), default=0)
-    one = quantity(f"1 {written}".strip(), unit, column.text)
-    return Numbers(values, errors, _step(values, one * 10.0 ** max(last, -300)))
+    steps = {f"1 {written}"}  # a unit of the last digit of each cell
+    for cell in filter(None, cells):
+        last = Decimal(_DIGITS.findall(cell)[0]).as_tuple().exponent
+        own = found[1] if (found := _WITH_UNIT.fullmatch(cell)) else written
+        steps.add(f"1e{max(last, -300)} {own}")
+    digit = min(quantity(step.strip(), unit, column.text) for step in steps)
+    return Numbers(values, errors, _step(values, digit))
 
 
 def assumed_error(values: Array, step: float) -> tuple[float, str]:

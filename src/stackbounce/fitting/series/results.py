@@ -22,6 +22,7 @@ from stackbounce.model.laws import LAWS, law_named
 from stackbounce.shown import Shown, Table
 from stackbounce.version import __version__
 
+_ONCE = "stackbounce measure --heights '1, 0.64, 0.65 m' --repeated takes one drop height"
 PREFIX = "dataset:"
 """Begins the name of a published data set, in place of a file."""
 
@@ -136,8 +137,9 @@ def fit_series(
         table = read_table(source, errors, mass=mass, diameter=diameter)
         done = _compared(table.groups, laws, progress, table.notes)
         if not done.comparisons:
-            why = "; ".join(" ".join(own).strip() for own in done.left_out.items())
-            raise InvalidValue(f"{table.name}: {why}")
+            why = "; ".join(": ".join(filter(None, own)) for own in done.left_out.items())
+            once = f"; {_ONCE}" if "one value" in why else ""
+            raise InvalidValue(f"{table.name}: {why}{once}")
         return done
     if errors or mass or diameter:
         raise InvalidValue("a data set has errors, mass and diameter of its own")
@@ -196,7 +198,7 @@ def write(done: SeriesFit, out: Path) -> None:
         for found in done.comparisons
     }
     files = {f"figures/{_NO_WORD.sub('_', name)}.svg": svg for name, svg in figures.items()}
-    prepare_folder(out, [*_NAMES, *files])
+    prepare_folder(out := Path(out), [*_NAMES, *files])
     files["laws.csv"] = _csv(done).encode()
     files["laws.json"] = (json.dumps(done.as_dict(), indent=1) + "\n").encode()
     files["index.html"] = _page(done, figures).encode()

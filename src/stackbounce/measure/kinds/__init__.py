@@ -29,7 +29,7 @@ _KNOCKS = Kind(
     "knocks",
     "restitution of each bounce, its fall with speed",
     f"{__name__}.bounces.analysis",
-    options=("height", "measured_to", "gravity", *_IN_AIR),
+    options=("height", "measured_to", "contact_time", "gravity", *_IN_AIR),
     columns=(("knock_time",),),
     dimension="knock",
     longest_step=20.0,  # flights: 20 s are from a height of 500 m
@@ -57,7 +57,7 @@ _SOUND = Kind(
     "sound",
     "restitution of each bounce, its fall with speed",
     f"{__name__}.sound.kind",
-    options=("height", "measured_to", "gravity", *_IN_AIR),
+    options=("height", "measured_to", "contact_time", "gravity", *_IN_AIR),
     columns=(("time",), ("sound",)),
     longest_step=2.5e-3,  # 400 samples per second: slower ones are no sound
 )

@@ -95,11 +95,11 @@ def register(law: type[_Law]) -> type[_Law]:
 
 
 def law_named(name: object) -> type[ContactLaw]:
-    """Return the law of a name, such as ``"Spring"`` or ``"hunt-crossley"``.
+    """Return the law of a name, such as ``"Spring"`` or ``"hunt-crossley"``, or a class as it is.
 
     Parameters
     ----------
-    name : str
+    name : str or type
         A key of `LAWS` or `UNLISTED`; case, hyphens and underscores do not matter.
 
     Returns
@@ -117,6 +117,8 @@ def law_named(name: object) -> type[ContactLaw]:
     >>> law_named("spring").__name__, law_named("hunt-crossley").__name__
     ('Spring', 'HuntCrossley')
     """
+    if isinstance(name, type) and issubclass(name, ContactLaw):
+        return name
     word = name.casefold().translate(_JOINED) if isinstance(name, str) else ""
     for known, law in (LAWS | UNLISTED).items():
         if word == known.casefold():

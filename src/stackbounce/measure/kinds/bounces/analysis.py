@@ -6,15 +6,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive, shown, unmasked
-from stackbounce.measure.drag import Drag, speed_after_fall, with_error_of_drag
+from stackbounce.errors import InvalidType, InvalidValue, all_real, non_negative, positive, shown
+from stackbounce.measure.drag import Drag, drag_given, speed_after_fall, with_error_of_drag
 from stackbounce.measure.kinds.bounces.knocks import Knocks, missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import fit_line, laws_of
 from stackbounce.measure.kinds.bounces.result import Bounces
 from stackbounce.measure.kinds.bounces.scatter import meaning_of, scatter_of
-from stackbounce.measure.quantities import Number, known_to, measured, nominal
+from stackbounce.measure.quantities import Number, known_to, nominal
 from stackbounce.measure.samples import columns
-from stackbounce.measure.setup import Setup
+from stackbounce.measure.setup import Setup, told
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.units import checked, magnitude
@@ -26,7 +26,7 @@ _INSTANT = 1e-6  # s: no ball bounces twice in so short a time
 
 def analyse(data: Any, setup: Setup) -> Bounces:
     """Return the restitutions that times of bounces tell."""
-    return bounces(data, **setup.only("drop_height", "gravity", "drag"))
+    return bounces(data, **setup.only("drop_height", "gravity", "contact_time", "drag"))
 
 
 def bounces(
@@ -35,7 +35,7 @@ def bounces(
     drop_height: float | Number | None = None,
     gravity: float = STANDARD_GRAVITY,
     time_error: float | None = None,
-    contact_time: float = 0.0,
+    contact_time: float | Number | None = None,
     drag: Drag | None = None,
 ) -> Bounces:
     """Return the restitution of each bounce from the times of bounces.
@@ -56,7 +56,7 @@ def bounces(
     time_error : float, optional
         The error in s of each time, where they have none. Without any the errors follow the scatter
         of the restitutions about a straight line.
-    contact_time : float, optional
+    contact_time : float or ufloat, optional
         Of one bounce in s, subtracted from each interval to get the flight; the time of a bounce is
         the beginning of its contact.
     drag : Drag, optional
@@ -91,10 +91,10 @@ def bounces(
     """
     times = magnitude(times, "s", "times")
     gravity = checked(positive, "gravity", gravity, "m/s^2")
-    contact_time = checked(non_negative, "contact_time", contact_time, "seconds")
+    contact_time = told("contact_time", contact_time or 0.0, "seconds", non_negative)
     if drop_height is not None:
-        known = measured("drop_height", drop_height, "metres")
-        drop_height = known if known.std_dev > 0.0 else known.nominal_value
+        drop_height = told("drop_height", drop_height)
+    drag = drag_given(drag)
     if isinstance(times, Knocks) and times.against:
         raise InvalidValue(f"times must be those of a bouncing ball, got {times.against}")
     notes: list[str] = []
@@ -124,7 +124,7 @@ class _Fall(NamedTuple):
     missed: Sequence[int]
     height: Any
     gravity: float
-    contact_time: float
+    contact_time: Number | float
     drag: Drag | None
 
 
@@ -225,7 +225,7 @@ def _plain(times: Any) -> list[Any]:
         return list(np.trim_zeros(known[np.isfinite(known)], "b"))
     if isinstance(times, str | bytes):
         raise InvalidType(f"times must be a sequence of seconds, got {shown(times)}")
-    unmasked("times", times)
+    all_real("times", times)
     try:
         values = list(times)
         for time in values:
@@ -235,14 +235,14 @@ def _plain(times: Any) -> list[Any]:
     return values
 
 
-def _flights(moments: Sequence[Any], missed: Sequence[int], contact_time: float) -> list[Any]:
+def _flights(moments: Sequence[Any], missed: Sequence[int], contact_time: Any) -> list[Any]:
     flights: list[Any] = []
     for k, lost in enumerate(missed):
         flight = moments[k + 1] - moments[k] - contact_time
         if nominal(flight) <= 0.0:
             raise InvalidValue(
-                f"contact_time must be shorter than every interval, got {contact_time:g} s and an "
-                f"interval of {nominal(flight) + contact_time:g} s"
+                "contact_time must be shorter than every interval, got "
+                f"{nominal(contact_time):g} s and one of {nominal(flight + contact_time):g} s"
             )
         flights.append(None if lost else flight)
     known = [nominal(flight) for flight in flights if flight is not None]

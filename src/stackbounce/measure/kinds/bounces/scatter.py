@@ -12,6 +12,7 @@ from stackbounce.measure.statistics.regression import covariance_of, least_squar
 # Set by hand on the drops of `tests/synthetic/falls.py` with errors of the times or uneven floors.
 _CLEAR = 2.0  # of the log-likelihood, by which a cause is told
 _NOTABLE = 2e-3  # scatter of restitutions that is worth a note
+_ALTERNATES = -0.2  # the largest lag-1 autocorrelation that errors of the times leave, of 97 %
 
 
 class Scatter(NamedTuple):
@@ -65,7 +66,7 @@ def scatter_of(speeds: Sequence[Any], kept: Sequence[Any]) -> Scatter:
     off = values - design @ np.linalg.lstsq(design, values, rcond=None)[0]
     off /= np.diag(covariance) ** 0.25
     lag_one = float(off[1:] @ off[:-1]) / max(float(off @ off), 1e-300)
-    if timing > alone + _CLEAR:
+    if timing > alone + _CLEAR and lag_one < _ALTERNATES:
         return Scatter(size, lag_one, "timing", factor)
     if alone > timing + _CLEAR:
         return Scatter(size, lag_one, "floor or spin", factor)

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from stackbounce.errors import InvalidValue, positive
-from stackbounce.measure.drag import Drag, speed_after_fall
+from stackbounce.measure.drag import Drag, drag_given, speed_after_fall
 from stackbounce.measure.finding import Finding, rigid_contact
 from stackbounce.measure.messages import Message, OptionHint
 from stackbounce.measure.quantities import Number, Row, deviation, known_to, measured, nominal
@@ -150,7 +150,7 @@ def heights(
     """
     from uncertainties import ufloat
 
-    points = places(measured_to)
+    points, drag = places(measured_to), drag_given(drag)
     error = math.nan
     if height_error is not None:
         error = deviation("height", checked(positive, "height_error", height_error, "metres"))

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import Any
 
-from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.errors import InvalidValue, instance
 from stackbounce.library_types import Dataset
 from stackbounce.measure.kinds.press.cycle import result_of
 from stackbounce.measure.kinds.press.record import cycles, record_of
@@ -74,8 +74,7 @@ def press(data: Dataset | Any, *, tabulated: bool = False) -> Press:
     >>> found.parts()["contact"]["law"]
     'Hysteretic'
     """
-    if not isinstance(tabulated, bool):
-        raise InvalidType(f"tabulated must be True or False, got {shown(tabulated)}")
+    instance("tabulated", tabulated, bool)
     record = record_of(data)
     found = cycles(record)
     pressed = [k for k, cycle in enumerate(found) if len(cycle.loading)]

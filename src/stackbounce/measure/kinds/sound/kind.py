@@ -17,7 +17,8 @@ _OVER_TOLD = 1.2  # times the drop height that is told, which is known roughly
 
 def analyse(data: Any, setup: Setup) -> tuple[Finding, ...]:
     """Return the restitutions, or else the flights, that a sound tells, and its knocks."""
-    height, gravity, drag = setup.drop_height, setup.gravity, setup.drag
+    given = setup.only("drop_height", "gravity", "drag")
+    height, gravity, drag = given.values()
     highest = max(_OVER_TOLD * nominal(height or 0.0), _HIGHEST)
     heard = knocks(data, longest_flight=(8.0 * highest / gravity) ** 0.5)
     if heard.against:
@@ -25,6 +26,6 @@ def analyse(data: Any, setup: Setup) -> tuple[Finding, ...]:
     # A restitution needs two known flights in a row; the drop is one if its height is known.
     known = [height is not None, *(not lost for lost in heard.missed)]
     if any(before and after for before, after in pairwise(known)):
-        told = bounces(heard, drop_height=height, gravity=gravity, drag=drag)
+        told = bounces(heard, contact_time=setup.contact_time, **given)
         return told, replace(heard, times=told.times)  # whose errors the restitutions may correct
     return few_bounces(heard, gravity=gravity, drag=drag), heard
