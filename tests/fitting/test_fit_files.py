@@ -166,7 +166,7 @@ BESIDE = "rebound_ratios.1,error of rebound_ratios.1\n"
     [
         f"{HEAD}a,30,,1.61 ± 0.02\nb,63.5,2,1.55+/-0.03\n",
         "name;height (cm);gaps.0 (mm);rebound_ratios.1\na;30;;1,61 ± 0,02\nb;63,5;2;1,55 ± 0,03\n",
-        f'{HEAD}a,30,,"1,61 ± 0,02"\nb,"63,5",2,"1,55 ± 0,03"\n',
+        f'{HEAD}a,30,n/a,"1,61 ± 0,02"\nb,"63,5",2,"1,55 ± 0,03"\n',
         (
             "name\theight / m\tgaps.0\trebound_ratios.1\terror of rebound_ratios.1\n"
             "a\t0.3\t\t1.61\t0.02\n\n\nb\t635 mm\t2 mm\t1.55\t.03\n"

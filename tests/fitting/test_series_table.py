@@ -13,7 +13,10 @@ from stackbounce.fitting.series import fit_series, read_table
 from stackbounce.fitting.series.series import make_series
 from stackbounce.model.drop import STANDARD_GRAVITY
 
-REFUSED = tomllib.loads(Path(__file__).with_name("refused.toml").read_text("utf-8"))
+TABLES, REFUSED = (
+    tomllib.loads(Path(__file__).with_name(f"{name}.toml").read_text("utf-8"))
+    for name in ("tables", "refused")
+)
 HEIGHTS = Path(__file__).parents[2] / "docs" / "fit" / "heights.csv"
 
 
@@ -32,21 +35,7 @@ def speeds(*heights):
     return pytest.approx(np.sqrt(2.0 * STANDARD_GRAVITY * np.array(heights)), rel=1e-12)
 
 
-PAIRS = (  # heights of 1 m and 0.5 m, rebounds of 0.64 m and 0.33 m, in the ways of strangers
-    "drop height (cm),rebound height (cm)\n100,64\n50,33\n",
-    "Fallhöhe (cm);Rücksprunghöhe (cm)\n100,0;64,0\n50,0;33,0\n",
-    "Versuch vom 3. Mai\n\nFallhöhe;Sprunghöhe\n(m);(m)\n1,00;0,64\n0,50;0,33\n",
-    "hauteur de chute (m)\thauteur de rebond (m)\n1,00\t0,64\n0,50\t0,33\n",
-    "altura de caída;altura de rebote\n1 m;64 cm\n50 cm;330 mm\n",
-    "rebound_height_cm,drop_height_cm,trial\n64,100,1\n33,50,2\n",
-    "h0,h1\n1.00,0.64\n0.50,0.33\n",
-    "Height [mm],Height of bounce [mm],temperature\n1000,640,21\n500,330,21\n",
-    "drop height (cm),Average rebound height (cm)\n100,64\n,20\n50,33\n50,-\n",
-    "Lab 3;;;\ndrop height/m;rebound height/m;;mean\n1,00e+00;,64;;\n5,00E-01;,33;;\n",
-)
-
-
-@pytest.mark.parametrize("text", PAIRS)
+@pytest.mark.parametrize("text", TABLES["pairs"])
 def test_two_columns_of_heights_in_many_forms(table, text):
     series = make_series(table(text).groups[""])
     order = np.argsort(-series.speeds)
@@ -100,19 +89,11 @@ def test_words_are_groups_and_remarks_are_not(table):
     read = table("ball,drop height (cm),rebound (cm),remark\n" + rows)
     assert list(read.groups) == ["golf", "tennis"]
     assert "The words of column 'remark' are not used: no groups." in read.notes
+    alike = read_table(HEIGHTS, mass=0.058, diameter=0.066)
+    assert "The mass and diameter are taken for all of" in str(alike.notes)
 
 
-ERRORS = (  # one error of 1 cm at heights of 100 and 50 cm, told in many ways
-    "drop height (cm),rebound (cm),error\n100,64,1\n50,33,1\n",
-    "drop height (cm),rebound (cm),± (mm)\n100,64,10\n50,33,10\n",
-    "drop height (cm),rebound height (cm),rebound_height_error_cm\n100,64,1\n50,33,1\n",
-    "drop height (cm),rebound (± 1 cm)\n100,64\n50,33 cm\n",
-    "drop height (cm),rebound (cm ± 1)\n100,64\n50,33\n",
-    "drop height (cm),rebound (cm)\n100,64 ± 1\n50,33(1)\n",
-)
-
-
-@pytest.mark.parametrize("text", ERRORS)
+@pytest.mark.parametrize("text", TABLES["errors"])
 def test_errors_stand_in_columns_cells_or_headings(table, text):
     series = make_series(table(text).groups[""])
     expected = 0.01 * 0.5 / (series.values * [0.5, 1.0])
@@ -165,11 +146,11 @@ def test_what_is_wrong_is_said_with_row_and_column(table, text, message):
 
 def test_an_error_of_no_column_is_refused(table):
     with pytest.raises(InvalidValue, match="an error must name its column, got 'width'"):
-        table(PAIRS[0], "width = 2 mm")
+        table(TABLES["pairs"][0], "width = 2 mm")
 
 
 def test_a_fit_shows_itself_as_text_and_as_html(tmp_path):
-    (tmp_path / "heights.csv").write_text(PAIRS[0])
+    (tmp_path / "heights.csv").write_text(TABLES["pairs"][0])
     found = fit_series(tmp_path / "heights.csv", laws=["Rigid"], errors=["5 mm"])
     assert "heights.csv" in repr(found).splitlines()[0]
     assert "The drop heights are taken as exact" in repr(found)
@@ -213,7 +194,7 @@ def test_numbers_of_which_no_law_can_be_fitted(tmp_path, rows, message):
 
 def test_measure_and_fit_point_to_each_other(tmp_path, capsys):
     bounces, knocks = tmp_path / "heights.csv", tmp_path / "knocks.csv"
-    bounces.write_text(PAIRS[0])
+    bounces.write_text(TABLES["pairs"][0])
     knocks.write_text("knock time (s)\n0.0\n0.9\n1.62\n2.2\n")
     assert main(["measure", str(bounces)]) == 2
     assert f"stackbounce fit {bounces} fits it" in capsys.readouterr().err

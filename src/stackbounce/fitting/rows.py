@@ -7,7 +7,7 @@ from stackbounce.errors import FileError, InvalidValue, shown
 from stackbounce.files import content_of
 from stackbounce.measure.reading.limits import BYTES, COLUMNS, LINE, refuse_others
 from stackbounce.measure.reading.tables import from_xlsx
-from stackbounce.measure.reading.text import decode, split
+from stackbounce.measure.reading.text import SPACES, decode, split
 
 File = str | os.PathLike[str] | tuple[str, bytes]
 """A file, or its name and its content."""
@@ -19,6 +19,8 @@ _MARKED = re.compile(r"\d*(?:[.,]\d+)+")  # decimal mark, or marks between thous
 _MOST = 1000  # rows of a table
 _TWO = re.compile(rb"(?m)(?:^|\t)\d[^\t\n]*\t(?:[^\n]*\t)?\d")  # cells with numbers in one row
 _GROUPED = re.compile(r"[1-9]\d{0,2}(?:,\d{3})+")
+_SPACED = re.compile(rf"(?<=\d)[{SPACES}](?=\d{{3}}(?!\d))")
+_BOTH = re.compile(r"(?<![\d.,])[1-9]\d{0,2}([.,])\d{3}(?:\1\d{3})*(?=(?!\1)[.,]\d)")
 
 
 def rows_of(path: File) -> tuple[str, list[Row]]:
@@ -96,5 +98,10 @@ def _split(content: str) -> list[Row]:
             continue
         if text.count(delimiter) >= COLUMNS or len(rows) > _MOST:
             raise FileError(f"it has more than {COLUMNS} columns or {_MOST} drops")
-        rows.append((number, split(text, delimiter)))
+        rows.append((number, [_ungrouped(cell) for cell in split(text, delimiter)]))
     return rows
+
+
+def _ungrouped(cell: str) -> str:
+    """Return a cell without marks between thousands, where nothing else can be meant by them."""
+    return _BOTH.sub(lambda found: found[0].replace(found[1], ""), _SPACED.sub("", cell))

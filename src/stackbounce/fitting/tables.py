@@ -12,6 +12,7 @@ from stackbounce.fitting.quantities import find_quantity, read_with_error
 from stackbounce.fitting.rows import Row, decimal_comma, rows_of
 from stackbounce.measure.quantities import without_error
 from stackbounce.measure.reading.roles import heading
+from stackbounce.measure.reading.text import MISSING
 from stackbounce.model import Drop
 from stackbounce.run.paths import drop_at, numbers_of
 from stackbounce.run.quantities import QUANTITIES
@@ -114,7 +115,7 @@ def _drops(drop: Drop, rows: Sequence[Row], folder: Path) -> Asked:
             raise InvalidValue(f"row {line} has more cells than the heading, {len(columns)}")
         row: dict[str, dict[str, _Cell]] = {kind: {} for kind in _KINDS}
         for column, cell in zip(columns, cells, strict=False):
-            if cell and column.kind:
+            if cell.casefold() not in MISSING and column.kind:
                 text = cell.replace(",", ".") if comma and column.numeric else cell
                 unit = column.unit or units.get(column.name)  # an error has that of its number
                 text = f"{text} {unit}" if unit and _UNITLESS.fullmatch(text) else text

@@ -1,5 +1,6 @@
 """Option values from a user interface -> values as `read` and `analyse` take them."""
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -73,6 +74,10 @@ def _lengths(text: str, option: Option, called: str) -> list[Any]:
 
     Between semicolons a comma is a decimal one.
     """
+    if re.search(r"\d,\d", text) and re.search(r",\s", text) and not set(";.") & set(text):
+        raise InvalidValue(
+            f"{called} can be read in two ways, got {shown(text)}: put semicolons between them"
+        )
     listed = text.replace(",", ".").split(";") if ";" in text else text.split(",")
     words = [word.strip() for word in listed]
     units = [unit_of_both(word) for word in words]

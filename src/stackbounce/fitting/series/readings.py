@@ -48,7 +48,10 @@ def readings_of(rows: Sequence[Row]) -> tuple[DataFrame, str, list[str]]:
     head, body = headed(rows)
     sums = [line for line, cells in body if any(map(WORDS["summary"].fullmatch, cells))]
     notes += [f"Row {line} has means or sums: left out." for line in sums]
-    body = [row for row in body if row[0] not in sums]
+    last = max(k for k, (_, cells) in enumerate(body) if any(map(_NUMBER.fullmatch, cells)))
+    below = [line for line, _ in body[last + 1 :]]
+    notes += [f"Row {line} has no number: left out." for line in below if line not in sums]
+    body = [row for row in body[: last + 1] if row[0] not in sums]
     _carry_down(columns_of(head), body, notes)
     columns, words = _resolved(columns_of(head), body, notes)
     numbers = numbers_in(columns, body, notes)

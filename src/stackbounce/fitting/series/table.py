@@ -96,6 +96,8 @@ def read_table(
             data = _dataset(own, measured, told, notes)
             title = str(group) or Path(name).name
             groups[str(group)] = data.assign_attrs(name=title, title=title, ball=title, **known)
+    if known and len(groups) > 1:
+        notes.append(f"The {' and '.join(known)} are taken for all of {', '.join(groups)}.")
     return Table(Path(name).name, groups, tuple(dict.fromkeys(notes)))
 
 

@@ -14,12 +14,15 @@ HEAD = 200
 """Lines from which the layout of a table is recognised."""
 
 _DELIMITERS = "\t;, "
-MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "-", "--", "---", "null", "none", "*"])
+MISSING = frozenset(
+    ["", "nan", "na", "n/a", "#n/a", "-", "--", "---", "–", "—", "null", "none", "*", "#div/0!"]
+)
 """What stands in a cell without a number, in lower case."""
 _INFINITE = frozenset(["inf", "infinity", "∞", "1.#inf"])
 _EXPONENT = r"(?:[eE][+-]?[0-9]{1,4})?"
 _NUMBER = re.compile(rf"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+){_EXPONENT}")
-_SPACES = "\u00a0\u202f\u2009 '\u2019"  # between thousands
+SPACES = "\u00a0\u202f\u2009'\u2019"
+"""What stands between thousands besides points, commas and blanks."""
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1a\x1c-\x1f]")
 _CENTRAL = re.compile(r"[^\W\d_][¹³¿\x9a\x9c\x9e\x9f][^\W\d_]|\bÈ[a-z]")  # cp1250 as Latin-1
 _BINARY = "it is no text but a program's own bytes, which are not known here: export them as CSV"
@@ -134,14 +137,14 @@ def _plain(cell: str, decimal: str) -> str:
     other = "." if decimal == "," else ","
     if len(cell) > 60 or not _GROUPED[decimal].fullmatch(cell):
         return cell.replace(",", ".", 1) if decimal == "," and "." not in cell else ""
-    for mark in other + _SPACES:
+    for mark in other + SPACES + " ":
         cell = cell.replace(mark, "")
     return cell.replace(",", ".")
 
 
 _GROUPED = {
     decimal: re.compile(
-        rf"[+-]?[0-9]{{1,3}}(?:([{other}{_SPACES}])[0-9]{{3}})(?:\1[0-9]{{3}})*"
+        rf"[+-]?[0-9]{{1,3}}(?:([{other} {SPACES}])[0-9]{{3}})(?:\1[0-9]{{3}})*"
         rf"(?:{re.escape(decimal)}[0-9]*)?{_EXPONENT}"
     )
     for decimal, other in ((".", ","), (",", "."))
