@@ -21,8 +21,11 @@ problem       `FitProblem` and `fit`: from the arguments to the result
 comparison    `compare`: several models of the same data
 standard      the usual models of a stack
 files         a problem from a TOML file
+rows          the rows of a table with words in it
 tables        drops, and what was measured of each, from a CSV file
 question      a problem from texts, as typed beside a file
+series/       contact laws beside restitutions at several speeds
+cite          a paragraph on a fit for a paper, and what it cites
 ============= ====================================================================
 """
 

@@ -268,7 +268,7 @@ def fit(
     ------
     InvalidValue
         If a name is unknown, a number has no error, bounds are not possible, or there is more to
-        vary than was measured,
+        vary than was measured.
     InvalidType
         If something has the wrong type.
     Interrupted

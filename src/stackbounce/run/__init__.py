@@ -11,6 +11,7 @@ conditioning how far an error of the numbers of a drop grows
 calibration  the law that has a restitution and a contact time
 quantities   speeds, heights, times and energy of many drops, by name
 result       the `Result` of one drop
+sideways     how balls leave sideways that do not stand exactly above each other
 paths        the parameters of a drop by their paths, and of many drops as arrays
 ============ ===========================================================================
 """

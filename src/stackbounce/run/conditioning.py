@@ -27,7 +27,7 @@ def disturbed(numbers: Drops, error: float, seed: int) -> Drops:
     Parameters
     ----------
     numbers : Drops
-        As `parameters.drop_numbers` gives them.
+        As `paths.drop_numbers` gives them.
     error : float
         The standard deviation of the relative errors.
     seed : int

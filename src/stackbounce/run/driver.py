@@ -1,6 +1,6 @@
 """One drop: from a `Drop` to a `Result`.
 
-The parameters of the drop (`parameters.drop_numbers`) are written to this thread's `memory`. The
+The parameters of the drop (`paths.drop_numbers`) are written to this thread's `memory`. The
 kernel `engine.batch.run_drop` goes from event to event until the drop ends or the log is full, in
 one call for a stack of few balls. The log, in SI units, becomes a `Result`.
 """

@@ -75,7 +75,7 @@ def grid(drop: Drop, texts: Sequence[str]) -> dict[str, NDArray[np.float64]]:
 
 
 def _spaced(number: Number, written: str) -> NDArray[np.float64]:
-    """Return the values of a parameter that a text describes, see `axis`."""
+    """Return the values of a parameter that a text describes, see `grid`."""
     path, parts = number.path, written.split(":")
     if len(parts) == 1:
         return np.array([quantity(text, number.unit, path) for text in written.split(",")])
