@@ -1,4 +1,4 @@
-"""The model: balls, contact laws, drops, and the catalogue of the paper's balls.
+"""The model: balls, contact laws, drops, air, and the catalogue of balls.
 
 All are frozen dataclasses that are validated when they are made. All names of
 `stackbounce.model.laws` are here too.

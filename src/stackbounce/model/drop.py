@@ -201,7 +201,7 @@ class Drop(Shown):
 
     @property
     def rigid(self) -> bool:
-        """Return whether every contact is `Rigid`, so that the drop is a sequence of collisions."""
+        """Return whether every contact is rigid, so that the drop is a sequence of collisions."""
         return all(law.rigid for law in self.contacts if law is not None)
 
     @property

@@ -25,11 +25,11 @@ def restitution(
         Any contact law.
     mass : float or (float, float), optional
         The mass in kg of the ball on the floor, or the two masses of a pair (or their reduced mass
-        ``m1 m2/(m1 + m2)``); needed for `Dashpot`,
-        `StandardLinearSolid` and `Viscoelastic`.
+        ``m1 m2/(m1 + m2)``); needed for `Dashpot`, `StandardLinearSolid`, `Viscoelastic` and
+        `Tabulated`.
     impact_speed : float, optional
         The speed in m/s at which the two meet; needed for `RigidBySpeed`, `RigidLossBySpeed`,
-        `Viscoelastic` and `HuntCrossley`.
+        `Viscoelastic`, `HuntCrossley` and `Tabulated`.
 
     Returns
     -------

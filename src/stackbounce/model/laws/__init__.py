@@ -1,11 +1,12 @@
 """The contact laws: the force between two balls, or ball and floor, while they are compressed.
 
 Each law is a frozen dataclass in a file of its own or of its family, with all its formulas. A
-force never pulls: where the formula is negative, the force is 0. The formula is evaluated further,
-so that the force may become positive again. A contact ends when its force is zero for good. While
-the compression c is above 0, ``k c**(p + 1)/(p + 1)`` counts as stored energy.
-`StandardLinearSolid` alone has a state besides: a contact ends when its force is zero, with a
-surface that recovers.
+force never pulls, but for that of a `Bond`: where the formula is negative, the force is 0. The
+formula is evaluated further, so that the force may become positive again. A contact ends when its
+force is zero for good. Under `Dashpot`, `Viscoelastic` and `HuntCrossley`, as without loss,
+``k c**(p + 1)/(p + 1)`` counts as stored energy while the compression c is above 0. The surface of
+a `StandardLinearSolid` recovers after the end of a contact; no other law has a memory of earlier
+contacts.
 """
 
 # The laws are imported in the order in which people are shown them: each registers itself.
