@@ -44,7 +44,7 @@ def explore(drop: Drop | None = None, *, height: int = 640) -> ExplorerFrame:
 
     It computes in the browser, also in a notebook that was saved as HTML, and asks for nothing.
     What is changed there does not come back to Python; *Share* has it as lines of Python. A saved
-    notebook grows by 1.3 MB with each cell that shows the explorer.
+    notebook grows by 1.4 MB with each cell that shows the explorer.
 
     Parameters
     ----------
