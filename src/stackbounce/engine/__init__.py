@@ -5,6 +5,7 @@ kernels       marks kernels: plain Python that is compiled when the package is b
 tables        how a compiled kernel receives a record of arrays: by one address
 entries       the kernels that the compiled code offers
 native        loads the compiled code of this machine
+records       the records of arrays that a run takes besides its stack
 memory        the memory in which drops are run, and the kernels that run them
 one_ball      one collision of one ball with the floor
 codes         integer codes of statuses, phases and events
@@ -31,13 +32,16 @@ rest          when balls on finite contacts have come to rest under gravity
 simultaneous  the event loop of a stack with finite contacts
 log           the rows of the log of events
 work          what a run costs, by which it is limited
+ratios        rebound ratios and the retained energy
 batch         one drop, or many one after the other, in the arrays of one stack
 two_rigid     two rigid balls without gravity: many drops, fast
 two_springs   two balls on springs without gravity: many drops, fast
 pairs         two balls on other contacts: many drops, fast
 pair_alone    one contact of two such balls that presses alone: without steps
 pair_events   what happens to two such balls between steps
+pair_cycles   the curve that a contact with hysteresis of such balls follows
 pair_step     one step of many such drops at the same time
+pair_series   the same by a power series, where both contacts are linear
 sideways      how offsets of balls grow that do not stand exactly above each other
 lockstep      one step of many drops of two balls on springs at the same time
 elementary    exponential, logarithm, power, sine and cosine, the same bits on every system
