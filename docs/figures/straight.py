@@ -18,7 +18,7 @@ STACKS = [  # what is drawn, its color, and the drop
 EXACT = ([5.0, 10.0, 20.0], [8.27, 16.47, 32.53])  # mm and degrees, by tests/test_sideways.py
 PAIR = sb.stack("basketball", "tennis", height=0.63)
 STIFFER = [("as they are", UPPER, 1.0), ("10 times stiffer", FLOOR, 10.0)]
-STIFFER += [("100 times", GREEN, 100.0), ("without end", BLACK, 1e8)]
+STIFFER += [("100 times", GREEN, 100.0), ("infinitely", BLACK, 1e8)]
 
 
 def per_mm(drop, ball=-1):
