@@ -30,7 +30,7 @@ _FIT = {
     "vary": json.dumps([f"contacts.{i}.stiffness" for i in range(6)]),
     "measured": json.dumps({f"rebound_ratios.{i}": f"{i + 1} ± 0.01" for i in range(6)}),
 }
-_BEFORE = 2.0  # s, from the begin of a flood until others ask
+_BEFORE = 2.0  # s, from the beginning of a flood until others ask
 
 
 class _Kind(NamedTuple):

@@ -65,7 +65,7 @@ def place_pushes(pushes: Pushes, count: int, end: float) -> int:
 
 @kernel
 def carry_sideways(pushes: Pushes, levels: int, end: float) -> int:
-    """Set the offsets and sideways speeds at the end, from those at the begin; return 0.
+    """Set the offsets and sideways speeds at the end, from those at the start; return 0.
 
     The last of so many rows of ``pushes.end`` has them. The row before lacks one extrapolation.
     """

@@ -18,7 +18,7 @@ def drag(page, start, end):
     page.mouse.move(*start)
     page.mouse.down()
     page.mouse.move(start[0] + (end[0] - start[0]) / 4, start[1] + (end[1] - start[1]) / 4)
-    page.wait_for_timeout(150)  # the drop is shown from its begin, and measured there
+    page.wait_for_timeout(150)  # the drop is shown from its beginning, and measured there
     page.mouse.move(*end, steps=4)
     page.mouse.up()
 

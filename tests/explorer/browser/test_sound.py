@@ -1,4 +1,4 @@
-"""The sound of a drop: a knock at the begin of each contact, while the film plays."""
+"""The sound of a drop: a knock at the beginning of each contact, while the film plays."""
 
 import pytest
 

@@ -103,13 +103,13 @@ export class Clock {
     this.touch();
   }
 
-  /** Stop at the begin of the film. */
+  /** Stop at the beginning of the film. */
   rewind() {
     this.pause();
     this.seek(this.begin);
   }
 
-  /** Play the film from its begin. */
+  /** Play the film from its beginning. */
   replay() {
     this.rewind();
     this.play();

@@ -27,7 +27,7 @@ export function mountHands(root, store, clock, api) {
     says.hidden = !text;
   };
   const ballAt = (event) => event.target.closest?.("[data-ball]");
-  /** Begin to move a ball: the drop is shown from its begin, and measured once in the next frame. */
+  /** Begin to move a ball: the drop is shown from its beginning, and measured once in the next frame. */
   const begin = (group) => {
     clock.rewind();
     held.act = () => null; // until it is measured

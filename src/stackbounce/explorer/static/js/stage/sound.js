@@ -1,4 +1,4 @@
-/** A knock at the begin of each contact: as loud as its peak force, and as high as its contact time is short, two octaves up. */
+/** A knock at the beginning of each contact: as loud as its peak force, and as high as its contact time is short, two octaves up. */
 
 import { clamp } from "./shape.js";
 

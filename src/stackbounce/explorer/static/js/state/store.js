@@ -57,7 +57,7 @@ export const FIRST = {
   guess: null, // m that the highest ball was thought to rise, once the film has shown it; NaN where nobody guessed
   kept: null, // the result of a drop to compare with
   magnify: null, // how many times movement is shown larger, null to let the page choose
-  t: null, // s, where the cursor stands, null for the begin
+  t: null, // s, where the cursor stands, null for the beginning
   line: null, // {x, show}, null to let the page choose
   map: null,
   errors: {}, // of numbers of the drop, by path: SI numbers, or texts that the server reads
@@ -67,14 +67,14 @@ export const FIRST = {
   busy: false,
   error: null, // {detail, offline}
   notice: null, // one line about the page itself, such as a link that could not be read
-  replay: 0, // raised where a drop is to be shown from its begin
+  replay: 0, // raised where a drop is to be shown from its beginning
   visits: 0, // raised where the browser's Back is to lead to the drop before
   notes: [], // by contact: what became of it at the last change of balls or laws
   overlays: [],
   file: null, // that was dropped on the page, to be measured
 };
 
-/** Return what changes in a state that shows another drop from its begin: its impact, without errors. */
+/** Return what changes in a state that shows another drop from its beginning: its impact, without errors. */
 export function withExample({ replay, visits }, drop) {
   const shown = { until: null, t: null, guess: null };
   return { drop, errors: {}, notes: [], ...shown, replay: replay + 1, visits: visits + 1 };
