@@ -141,18 +141,20 @@ def sweep(
 
     Notes
     -----
-    Every drop is solved as by `simulate`, except two balls that are run to their end. Under linear
-    laws (`Spring`, `Dashpot`, `StandardLinearSolid`) they have faster engines, which differ by
-    round-off. Under `Hertz`, `PowerLaw`, `Viscoelastic`, `HuntCrossley` and `Hysteretic` they have
-    another one, which differs by about `rtol`, unless the other contact is a relaxing solid, or one
-    is `Hysteretic` and `rtol` below 1e-11; for a picture an `rtol` of 1e-4 is enough. All pass
-    drops near their limits of accuracy on to the general one.
+    Every drop is solved as by `simulate`, except two balls that come in together and are run to
+    their end, under these laws. Under `Rigid` without gravity they have an engine with the same
+    bits, and under linear laws (`Spring`, `Dashpot`, `StandardLinearSolid`) faster ones, which
+    differ by round-off. Under `Hertz`, `PowerLaw`, `Viscoelastic`, `HuntCrossley` and `Hysteretic`
+    they have another one, which differs by about `rtol`, unless the other contact is a relaxing
+    solid, or one is `Hysteretic` and `rtol` below 1e-11; for a picture an `rtol` of 1e-4 is enough.
+    All pass drops near their limits of accuracy on to the general one.
+
     The result of a drop depends on its own numbers only: it is the same bit for bit whatever the
     chunks, blocks or threads.
 
     Examples
     --------
-    Figure 2 of R. Cross, Am. J. Phys. 75, 1009 (2007), at two mass ratios:
+    Figure 4(a) of R. Cross, Am. J. Phys. 75, 1009 (2007), at two mass ratios:
 
     >>> import stackbounce as sb
     >>> balls, springs = [sb.Ball(1.0), sb.Ball(1.0)], [sb.Spring(1.0), sb.Spring(1.0)]
