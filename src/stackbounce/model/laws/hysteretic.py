@@ -46,7 +46,7 @@ class Hysteretic(ContactLaw):
     exponent : float, optional
         p of the loading curve, at least 1; 1, a linear spring, is the paper's choice.
     restitution : float, optional
-        e, at most 1, and not so small that n exceeds 1e6: 0.0015 or above for p = 1.
+        e, at most 1, and not so small that n exceeds 1e6: 0.00142 or above for p = 1.
     unloading_exponent : float, optional
         n of the unloading curve, from `exponent` to 1e6. Give one of this and `restitution`; the
         other is derived, and both can be read. Both can be given where they agree exactly, so that
