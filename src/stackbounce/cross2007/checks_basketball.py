@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from math import pi, sqrt
 
+from stackbounce.cross2007 import stacks
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Compute
 from stackbounce.cross2007.drops import (
@@ -12,13 +13,6 @@ from stackbounce.cross2007.drops import (
     rigid_pair,
     risen_height,
     spring_pair,
-)
-from stackbounce.cross2007.stacks import (
-    better_fit,
-    hollow_record,
-    other_fit,
-    spring_record,
-    stack_masses,
 )
 from stackbounce.model.drop import STANDARD_GRAVITY, Drop
 from stackbounce.run.result import Result
@@ -50,7 +44,7 @@ def _top(b: Bench) -> float:
 
 def _impulse(b: Bench) -> float:
     """Return the floor's impulse in the drop of Fig. 8, with Table II's rebound ratios."""
-    lower, upper = stack_masses(b)
+    lower, upper = stacks.stack_masses(b)
     speed = fallen_speed(b("fig8.drop_height"))
     kept = lower * b("tennis_on_basketball.lower") + upper * b("tennis_on_basketball.upper")
     return speed * (lower + upper + kept)
@@ -58,20 +52,22 @@ def _impulse(b: Bench) -> float:
 
 def _apart(b: Bench, restitution: float) -> Result:
     """Tennis ball on basketball as separate collisions."""
-    return b.simulate(rigid_pair(stack_masses(b), restitution, speed=b("stack.impact_speed")))
+    return b.simulate(
+        rigid_pair(stacks.stack_masses(b), restitution, speed=b("stack.impact_speed"))
+    )
 
 
 def _static_duration(b: Bench, compression: float) -> float:
     """The impact's duration with the static force over a compression in m as floor stiffness."""
     floor = b("static.force") / compression
     stiffnesses = floor, floor / b("static.stiffness_ratio")
-    drop = spring_pair(stack_masses(b), stiffnesses, speed=b("stack.impact_speed"))
+    drop = spring_pair(stacks.stack_masses(b), stiffnesses, speed=b("stack.impact_speed"))
     return float(b.simulate(drop).last_release[0])
 
 
 def _begins(b: Bench, share: float) -> float:
     """When the ball-ball force of Fig. 9 exceeds a share of its peak, in s."""
-    return force_above(b.simulate(better_fit(b)), 1, share)[0]
+    return force_above(b.simulate(stacks.better_fit(b)), 1, share)[0]
 
 
 COMPUTED: dict[str, Compute] = {
@@ -91,24 +87,24 @@ COMPUTED: dict[str, Compute] = {
     "III.static_ratio": lambda b: (_top(b) + b("static.tennis")) / _bottom(b),
     "III.static_stiffness": lambda b: b("static.force") / b("static.tennis"),
     "III.dynamic_stiffness": lambda b: b("tennis.mass") * (pi / b("tennis.contact_time")) ** 2,
-    "III.duration": lambda b: b.simulate(better_fit(b)).last_release[0],
-    "III.quiet": lambda b: b.simulate(spring_record(b, b("stack.gap"))).first_touch[1],
+    "III.duration": lambda b: b.simulate(stacks.better_fit(b)).last_release[0],
+    "III.quiet": lambda b: b.simulate(stacks.spring_record(b, b("stack.gap"))).first_touch[1],
     "III.lossless_lower": lambda b: _apart(b, b("stack.lossless")).rebound_speeds[0],
     "III.lossless_upper": lambda b: _apart(b, b("stack.lossless")).rebound_speeds[1],
     "III.lossy_lower": lambda b: _apart(b, b("stack.restitution")).rebound_speeds[0],
     "III.lossy_upper": lambda b: _apart(b, b("stack.restitution")).rebound_speeds[1],
     "III.separation": lambda b: b("stack.impact_speed") * b("stack.duration"),
     "III.static_duration": lambda b: _static_duration(b, b("static.basketball")),
-    "III.fig9_lower": lambda b: b.simulate(better_fit(b)).rebound_speeds[0],
-    "III.fig9_upper": lambda b: b.simulate(better_fit(b)).rebound_speeds[1],
+    "III.fig9_lower": lambda b: b.simulate(stacks.better_fit(b)).rebound_speeds[0],
+    "III.fig9_upper": lambda b: b.simulate(stacks.better_fit(b)).rebound_speeds[1],
     "III.loss_factor": lambda b: (
-        b("stack.upper_speed") / b.simulate(better_fit(b)).rebound_speeds[1]
+        b("stack.upper_speed") / b.simulate(stacks.better_fit(b)).rebound_speeds[1]
     ),
     "III.fig9_delay": lambda b: _begins(b, 0.03),
-    "III.other_duration": lambda b: b.simulate(other_fit(b)).last_release[0],
-    "III.other_speed": lambda b: b.simulate(other_fit(b)).rebound_speeds[0],
-    "III.other_height": lambda b: risen_height(b.simulate(other_fit(b)).rebound_speeds[0]),
-    "III.other_release": lambda b: b.simulate(other_fit(b)).last_release[1],
+    "III.other_duration": lambda b: b.simulate(stacks.other_fit(b)).last_release[0],
+    "III.other_speed": lambda b: b.simulate(stacks.other_fit(b)).rebound_speeds[0],
+    "III.other_height": lambda b: risen_height(b.simulate(stacks.other_fit(b)).rebound_speeds[0]),
+    "III.other_release": lambda b: b.simulate(stacks.other_fit(b)).last_release[1],
 }
 
 
@@ -129,9 +125,9 @@ READINGS: dict[str, tuple[Compute, ...]] = {
         lambda b: _top(b) / _bottom(b),
         lambda b: (_top(b) + b("static.tennis") / 2) / _bottom(b),
     ),
-    "III.duration": _ends(better_fit),
+    "III.duration": _ends(stacks.better_fit),
     "III.quiet": (
-        lambda b: b.simulate(hollow_record(b, b("stack.gap"))).first_touch[1],
+        lambda b: b.simulate(stacks.hollow_record(b, b("stack.gap"))).first_touch[1],
         lambda b: sqrt(
             2.0 * b("stack.gap") * b("basketball.mass") * b("stack.duration") / _impulse(b)
         ),
@@ -144,5 +140,5 @@ READINGS: dict[str, tuple[Compute, ...]] = {
         lambda b: _begins(b, 0.045),
         lambda b: _begins(b, 0.05),
     ),
-    "III.other_duration": _ends(other_fit),
+    "III.other_duration": _ends(stacks.other_fit),
 }

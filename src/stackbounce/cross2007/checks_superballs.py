@@ -9,22 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.cross2007 import stacks
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Compute
 from stackbounce.cross2007.drops import Two, bisect, peak_times, rigid_pair
-from stackbounce.cross2007.stacks import (
-    early_pair,
-    early_twins,
-    gap_for_delay,
-    heavier_b1,
-    late_pair,
-    parted_twins,
-    reversed_pair,
-    small_fit,
-    smallest_fit,
-    stiffen,
-    twin_pair,
-)
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import Hertz
 from stackbounce.run.collision import contact_time
@@ -76,7 +64,7 @@ def _with_ratio(b: Bench) -> Result:
 
 def _restitution_for_71(b: Bench) -> float:
     """Return the restitution with which B1 of 105 g bounces to the measured height on B2."""
-    masses = b("B2.mass"), heavier_b1(b)
+    masses = b("B2.mass"), stacks.heavier_b1(b)
 
     def excess(restitution: float) -> float:
         upper = float(b.simulate(rigid_pair(masses, restitution)).rebound_ratios[1])
@@ -111,7 +99,7 @@ def _split_twins(b: Bench, ratio: float) -> Result:
 
 def _delayed(b: Bench, drop: Drop) -> Drop:
     """The drop with the gap for the measured delay of 2 ms."""
-    return drop.replace(gaps=(gap_for_delay(b, drop, b("superballs.delay")),))
+    return drop.replace(gaps=(stacks.gap_for_delay(b, drop, b("superballs.delay")),))
 
 
 def _nearer(drop: Drop) -> Drop:
@@ -124,7 +112,7 @@ def _subpeaks(result: Result) -> int:
 
 
 def _one_mm_apart(b: Bench) -> Drop:
-    return reversed_pair(b, b("superballs.gap"))
+    return stacks.reversed_pair(b, b("superballs.gap"))
 
 
 _REVERSED: dict[str, tuple[str, int]] = {
@@ -141,7 +129,7 @@ def _reversed_height(restitution: str, ball: int) -> Compute:
 
 
 def _reversed_with_105(restitution: str, ball: int) -> Compute:
-    return lambda b: _heavy_on_light(b, heavier_b1(b), restitution).rebound_ratios[ball] ** 2
+    return lambda b: _heavy_on_light(b, stacks.heavier_b1(b), restitution).rebound_ratios[ball] ** 2
 
 
 COMPUTED: dict[str, Compute] = {
@@ -170,19 +158,21 @@ COMPUTED: dict[str, Compute] = {
     "IV.twin_upper": lambda b: _twins(b).rebound_ratios[1],
     "IV.twin_split_lower": lambda b: _split_twins(b, b("B1_on_B1.mass_ratio")).rebound_ratios[0],
     "IV.twin_split_upper": lambda b: _split_twins(b, b("B1_on_B1.mass_ratio")).rebound_ratios[1],
-    "IV.record_delay": lambda b: b.simulate(small_fit(b, b("B1.mass"))).first_touch[1],
-    "IV.record_gap": lambda b: gap_for_delay(b, small_fit(b, b("B1.mass")), b("superballs.delay")),
-    "IV.record_reversed_gap": lambda b: gap_for_delay(
-        b, reversed_pair(b, 0.0), b("superballs.delay")
+    "IV.record_delay": lambda b: b.simulate(stacks.small_fit(b, b("B1.mass"))).first_touch[1],
+    "IV.record_gap": lambda b: stacks.gap_for_delay(
+        b, stacks.small_fit(b, b("B1.mass")), b("superballs.delay")
     ),
-    "IV.record_duration": lambda b: max(b.simulate(small_fit(b, b("B1.mass"))).last_release),
+    "IV.record_reversed_gap": lambda b: stacks.gap_for_delay(
+        b, stacks.reversed_pair(b, 0.0), b("superballs.delay")
+    ),
+    "IV.record_duration": lambda b: max(b.simulate(stacks.small_fit(b, b("B1.mass"))).last_release),
     "IV.record_reversed_duration": lambda b: max(b.simulate(_one_mm_apart(b)).last_release),
-    "IV.record_B3_delay": lambda b: b.simulate(smallest_fit(b, b("B1.mass"))).first_touch[1],
-    "IV.record_peaks": lambda b: b.simulate(late_pair(b)).collisions[1],
-    "IV.record_merged": lambda b: b.simulate(early_pair(b)).collisions[1],
-    "IV.record_subpeaks": lambda b: _subpeaks(b.simulate(early_pair(b))),
-    "IV.record_twin_late_duration": lambda b: b.simulate(parted_twins(b)).last_release[0],
-    "IV.record_twin_duration": lambda b: b.simulate(early_twins(b)).last_release[0],
+    "IV.record_B3_delay": lambda b: b.simulate(stacks.smallest_fit(b, b("B1.mass"))).first_touch[1],
+    "IV.record_peaks": lambda b: b.simulate(stacks.late_pair(b)).collisions[1],
+    "IV.record_merged": lambda b: b.simulate(stacks.early_pair(b)).collisions[1],
+    "IV.record_subpeaks": lambda b: _subpeaks(b.simulate(stacks.early_pair(b))),
+    "IV.record_twin_late_duration": lambda b: b.simulate(stacks.parted_twins(b)).last_release[0],
+    "IV.record_twin_duration": lambda b: b.simulate(stacks.early_twins(b)).last_release[0],
 }
 
 
@@ -190,7 +180,7 @@ def _velocity_ratios(ball: int) -> tuple[Compute, ...]:
     """Return readings of a bounce height of B1 on B3 as the ratio of velocities."""
     return (
         lambda b: _heavy_on_small(b, b("B1.mass")).rebound_ratios[ball],
-        lambda b: _heavy_on_small(b, heavier_b1(b)).rebound_ratios[ball],
+        lambda b: _heavy_on_small(b, stacks.heavier_b1(b)).rebound_ratios[ball],
     )
 
 
@@ -199,17 +189,17 @@ READINGS: dict[str, tuple[Compute, ...]] = {
         lambda b: _hertz_times(b("steel.large_diameter") - 5e-5, b("steel.small_diameter") + 5e-5),
     ),
     "IV.apart_B2": (
-        lambda b: _light_on_heavy(b, heavier_b1(b)).rebound_ratios[1] ** 2,
+        lambda b: _light_on_heavy(b, stacks.heavier_b1(b)).rebound_ratios[1] ** 2,
         lambda b: _with_ratio(b).rebound_ratios[1] ** 2,
     ),
-    "IV.apart_B1": (lambda b: _light_on_heavy(b, heavier_b1(b)).rebound_ratios[0] ** 2,),
+    "IV.apart_B1": (lambda b: _light_on_heavy(b, stacks.heavier_b1(b)).rebound_ratios[0] ** 2,),
     **{name: (_reversed_with_105(*given),) for name, given in _REVERSED.items()},
     "IV.better_B1": (_reversed_with_105("fit.reversed_restitution", 1), _restitution_for_71),
     "IV.small_count": (
         lambda b: _while_meeting(_heavy_on_small(b, b("B1.mass")).events["contact"]),
-        lambda b: _while_meeting(_heavy_on_small(b, heavier_b1(b)).events["contact"]),
-        lambda b: _while_meeting(b.simulate(late_pair(b)).intervals["contact"]),
-        lambda b: sum(_heavy_on_small(b, heavier_b1(b)).collisions),
+        lambda b: _while_meeting(_heavy_on_small(b, stacks.heavier_b1(b)).events["contact"]),
+        lambda b: _while_meeting(b.simulate(stacks.late_pair(b)).intervals["contact"]),
+        lambda b: sum(_heavy_on_small(b, stacks.heavier_b1(b)).collisions),
         _fewest_collisions,
     ),
     "IV.small_B1": _velocity_ratios(1),
@@ -217,22 +207,26 @@ READINGS: dict[str, tuple[Compute, ...]] = {
     "IV.twin_split_lower": (lambda b: _split_twins(b, 1.0).rebound_ratios[0],),
     "IV.twin_split_upper": (lambda b: _split_twins(b, 1.0).rebound_ratios[1],),
     "IV.record_reversed_gap": (
-        lambda b: gap_for_delay(b, reversed_pair(b, 0.0), b("superballs.delay") - 0.5e-3),
+        lambda b: stacks.gap_for_delay(
+            b, stacks.reversed_pair(b, 0.0), b("superballs.delay") - 0.5e-3
+        ),
     ),
     "IV.record_reversed_duration": (
         lambda b: b.simulate(_one_mm_apart(b)).last_release[1],
-        lambda b: b.simulate(_delayed(b, reversed_pair(b, 0.0))).last_release[0],
-        lambda b: b.simulate(stiffen(_one_mm_apart(b))).last_release[0],
-        lambda b: max(b.simulate(stiffen(_one_mm_apart(b))).last_release),
-        lambda b: b.simulate(_delayed(b, stiffen(reversed_pair(b, 0.0)))).last_release[0],
+        lambda b: b.simulate(_delayed(b, stacks.reversed_pair(b, 0.0))).last_release[0],
+        lambda b: b.simulate(stacks.stiffen(_one_mm_apart(b))).last_release[0],
+        lambda b: max(b.simulate(stacks.stiffen(_one_mm_apart(b))).last_release),
+        lambda b: b.simulate(
+            _delayed(b, stacks.stiffen(stacks.reversed_pair(b, 0.0)))
+        ).last_release[0],
     ),
     "IV.record_B3_delay": (
-        lambda b: b.simulate(_nearer(smallest_fit(b, b("B1.mass")))).first_touch[1],
+        lambda b: b.simulate(_nearer(stacks.smallest_fit(b, b("B1.mass")))).first_touch[1],
     ),
     "IV.record_twin_late_duration": (
-        lambda b: b.simulate(stiffen(parted_twins(b))).last_release[0],
+        lambda b: b.simulate(stacks.stiffen(stacks.parted_twins(b))).last_release[0],
         lambda b: b.simulate(
-            twin_pair(b, gap_for_delay(b, twin_pair(b, 0.0), 3.8e-3))
+            stacks.twin_pair(b, stacks.gap_for_delay(b, stacks.twin_pair(b, 0.0), 3.8e-3))
         ).last_release[0],
     ),
 }
