@@ -8,7 +8,7 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue, StackbounceError, a_or_an, one_of, shown
 from stackbounce.explorer.answers.predictions import run_drop
-from stackbounce.fitting import Fit, Record, fit
+from stackbounce.fitting import Record, fit
 from stackbounce.fitting.files import convert_measured
 from stackbounce.fitting.series import fit_series
 from stackbounce.json_values import as_json
@@ -26,6 +26,7 @@ _Series = dict[str, Any]
 
 _POINTS = 500  # about so many points of a branch that a page draws
 _SHOWN = 4000  # most points of a curve that a page draws
+_OF_FIT = ("stackbounce", "chi_squared", "degrees_of_freedom", "probability", "residuals")
 _AFTER = 1.5  # part of a record that is kept, in durations of the simulated impact
 
 
@@ -137,17 +138,14 @@ def fit_record(
         else:
             data[what] = convert_measured(what, value, Path())
     done = fit(drop, data, list(vary))
+    known = done.as_dict()
     return as_json(
         {
-            "stackbounce": __version__,
             "drop": done.drop.to_mapping(),
-            "values": [_describe_value(done, path) for path in done.names],
-            "chi_squared": done.chi_squared,
-            "degrees_of_freedom": done.degrees_of_freedom,
-            "probability": done.probability,
+            "values": [{"path": path, **value} for path, value in known["values"].items()],
             "notes": [*done.notes, *done.undetermined],
-            "residuals": [residual._asdict() for residual in done.residuals],
             "series": [_align(record, done.drop) for record in done.records],
+            **{name: known[name] for name in _OF_FIT},
         }
     )
 
@@ -201,12 +199,6 @@ def _find_channel(drop: Drop, what: str, which: str, record: Measurement) -> Dat
         holds = a_or_an(record.evidence["holds"])
         raise InvalidValue(f"{what}: {record.source} holds no force over time, but {holds}")
     return own[one_of(which, own, f"{what} must be a channel, got {shown(which)}")]
-
-
-def _describe_value(done: Fit, path: str) -> dict[str, Any]:
-    value = done[path]
-    unit = done.units[path]
-    return {"path": path, "value": value.nominal_value, "error": value.std_dev, "unit": unit}
 
 
 def _align(record: Record, drop: Drop) -> _Series:
