@@ -27,10 +27,10 @@ class Kind:
         Where its analysis is, imported when it is needed: ``analyse(data, setup)`` goes from a
         Dataset to the result, or a tuple of results, and ``of_numbers(setup)`` to the result
         without a file. A kind has one of them or both.
-    options : tuple of str
+    options : sequence of str
         What its analysis takes of `Setup`. Other options have no effect on it.
-    columns : tuple of tuple of str
-        The columns that its file needs: one of each tuple, given by role or name. A file with these
+    columns : sequence of sequence of str
+        The columns that its file needs: one of each sequence, by role or name. A file with these
         columns is recognised, unless `recognised` decides.
     dimension : str
         Of the Dataset: ``"time"``, ``"track"`` for (time, track), or a name for plain rows.
@@ -39,7 +39,7 @@ class Kind:
         with longer ones are in milliseconds or in something smaller.
     recognised : callable, optional
         Whether columns are those of this kind.
-    starts_with : tuple of str
+    starts_with : sequence of str
         The options of which one is enough for `of_numbers`.
     typed : str
         What the numbers are called: ``"heights of bounces"``.
@@ -48,18 +48,18 @@ class Kind:
     --------
     >>> from stackbounce.measure.kinds import KINDS
     >>> KINDS["acceleration"].options
-    ('gravity',)
+    ['gravity']
     """
 
     name: str
     says: str
     module: str
-    options: tuple[str, ...] = ()
-    columns: tuple[tuple[str, ...], ...] = ()
+    options: Sequence[str] = ()
+    columns: Sequence[Sequence[str]] = ()
     dimension: str = "time"
     longest_step: float = 0.2
     recognised: "Callable[[Sequence[Column]], bool] | None" = None
-    starts_with: tuple[str, ...] = ()
+    starts_with: Sequence[str] = ()
     typed: str = ""
 
     def analyse(self, data: Dataset, setup: "Setup") -> "tuple[Finding, ...]":
