@@ -9,6 +9,7 @@ from numbers import Real
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from stackbounce.errors import InvalidType, InvalidValue, UnitError, all_real, finite, shown
+from stackbounce.files import shipped_table
 from stackbounce.library_types import UnitRegistry
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?"
@@ -21,36 +22,14 @@ _POWER = re.compile(r"(?<=[^\W\d_])(?=-\d)|(?<=[ms])(?=[23]\b)")  # m s-1, kg/m3
 _SIGNS = str.maketrans("⁻¹²³μ", "-123µ", "{}")  # m s⁻¹, s^{-1}, a Greek letter for micro
 _DOT = re.compile(r"(?<=[^\W\d_])\.(?=[^\W\d_])")  # m.s-1
 _UNIT = re.compile(rf"%|{_TERM}(?:\s*[*/·\s]\s*{_TERM}){{0,5}}")
-_KINDS = {
-    "": ("a pure number", "0.78"),
-    "kg": ("a mass", "150 g"),
-    "m": ("a length", "58 mm"),
-    "s": ("a time", "30 ms"),
-    "m/s": ("a speed", "3.53 m/s"),
-    "rad": ("an angle", "5 deg"),
-    "m/s**2": ("an acceleration", "9.81 m/s^2"),
-    "N/m": ("a stiffness", "20 kN/m"),
-    "N s/m": ("a damping", "7 N s/m"),
-    "s/m": ("a dissipation", "0.2 s/m"),
-    "Pa": ("a pressure", "210 GPa"),
-    "kg/m**3": ("a density", "1.2 kg/m^3"),
-}
+_TABLE = shipped_table(__package__, "units.toml")
+_KINDS = {unit: (kind, example) for unit, (kind, example) in _TABLE["kinds"].items()}
 
 WORDS = {"kilograms": "kg", "metres": "m", "seconds": "s", "newtons": "N", "pascals": "Pa"}
 """The unit of each of the words of messages."""
-_HANDY = {  # unit: (from this value on, its name, how many of it the unit has), largest first
-    "m": ((0.1, "m", 1.0), (1e-4, "mm", 1e3), (0.0, "µm", 1e6)),
-    "s": ((1.0, "s", 1.0), (1e-3, "ms", 1e3), (0.0, "µs", 1e6)),
-    "kg": ((1.0, "kg", 1.0), (1e-3, "g", 1e3), (0.0, "mg", 1e6)),
-}
 
-# The SI units that columns of measurements come in, and how programs write the commonest ones.
+# The SI units that columns of measurements come in.
 _SI = ("s", "m", "N", "V", "1", "m/s", "m/s^2", "kg", "J", "Pa", "Hz", "A", "N/m", "N s", "kg m/s")
-_WRITTEN_OUT = {
-    "S": "s", "sec": "s", "secs": "s", "second": "s", "seconds": "s", "Second": "s", "Seconds": "s",
-    "m/s/s": "m/s^2", "ms^-2": "m/s^2", "ms^-1": "m/s", "msec": "ms", "us": "µs",
-    "Volt": "V", "Volts": "V", "volt": "V", "volts": "V", "newton": "N", "Newton": "N", "lbs": "lb",
-}  # fmt: skip
 # What needs no pint, whose import takes a quarter of a second: decimal powers of the prefixes, and
 # of each unit the same and its powers of kg, m, s and A.
 _POWERS = {"G": 9, "M": 6, "k": 3, "": 0, "c": -2, "m": -3, "µ": -6, "u": -6, "n": -9}
@@ -353,7 +332,7 @@ def in_si(written: str, *, common: bool = False) -> tuple[float, str] | None:
     >>> in_si("m s-1"), in_si("m s⁻¹"), in_si("ms-2"), in_si("m/s²")
     ((1.0, 'm/s'), (1.0, 'm/s'), (1.0, 'm/s^2'), (1.0, 'm/s^2'))
     """
-    written = _WRITTEN_OUT.get(plain := _powers(written.strip()), plain)
+    written = _TABLE["written_out"].get(plain := _powers(written.strip()), plain)
     if written in _COMMON or common:
         return _COMMON.get(written)
     if not written or len(written) > 30 or _OTHERS.fullmatch(written):
@@ -393,10 +372,9 @@ def _message(name: str, value: object, unit: str) -> str:
     right = f'{kind} ({number} or a string such as "{example}")'
     if isinstance(value, str) and _WITH_ERROR.search(value):
         right = f'{kind} without an error here (predict takes one), such as "{example}"'
+    message = f"{name} must be {right}, got {shown(value)}"
     comma = isinstance(value, str) and _COMMA.match(value)
-    return f"{name} must be {right}, got {shown(value)}" + ", which needs a decimal point" * bool(
-        comma
-    )
+    return f"{message}, which needs a decimal point" if comma else message
 
 
 @functools.cache
@@ -425,7 +403,7 @@ def handy(most: float, unit: str) -> tuple[str, float]:
     >>> handy(0.002, "m"), handy(2500.0, "N/m")
     (('mm', 1000.0), ('N/m', 1.0))
     """
-    choices = _HANDY.get(unit, ()) if most > 0.0 else ()
+    choices = _TABLE["handy"].get(unit, ()) if most > 0.0 else ()
     return next(((name, by) for start, name, by in choices if most >= start), (unit, 1.0))
 
 
