@@ -112,8 +112,6 @@ def _scatter(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[f
 
 def _change(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[float, float]:
     rows = _polynomials(times, heights, flights, 4, _BENT)
-    if not rows:
-        return 0.0, math.inf
     bends = np.array([terms[2] for terms, *_ in rows])
     quartic = np.array([terms[4] for terms, *_ in rows])
     weights = 1.0 / np.array([error[4] for _, error, _ in rows]) ** 2
