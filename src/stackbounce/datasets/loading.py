@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.errors import one_of, shown
 from stackbounce.library_types import Dataset
 from stackbounce.units import in_si, quantity
 
@@ -152,11 +152,7 @@ def describe(name: str) -> Description:
     >>> describe("superball-knocks").doi
     '10.1119/1.4801369'
     """
-    known = _all()
-    if not isinstance(name, str) or name not in known:
-        hint = nearest(str(name), sorted(known))
-        raise InvalidValue(f"name must be that of a dataset, got {shown(name)}; {hint}")
-    return known[name]
+    return _all()[one_of(name, names(), f"name must be that of a dataset, got {shown(name)}")]
 
 
 def load(name: str) -> Dataset:
