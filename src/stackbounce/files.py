@@ -363,10 +363,7 @@ def _write_beside(part: Path, place: Path, content: bytes) -> None:
 def _mode_of(place: Path) -> int | None:
     """Return the permissions of a file, None if there is none; raise if it is write-protected."""
     try:
-        file = os.open(place, os.O_WRONLY)
+        with os.fdopen(os.open(place, os.O_WRONLY), "wb") as file:  # which truncates nothing
+            return stat.S_IMODE(os.fstat(file.fileno()).st_mode)
     except FileNotFoundError:
         return None
-    try:
-        return stat.S_IMODE(os.fstat(file).st_mode)
-    finally:
-        os.close(file)
