@@ -66,8 +66,7 @@ def peak_times(result: Result, contact: int, end: float) -> Array:
     """Return when a contact's force has its maxima, in s, up to `end`."""
     times = np.linspace(0.0, end, 2001)
     force = np.asarray(result.sample(times)["force"].isel(contact=contact))
-    peaks: Array = times[1:-1][(force[1:-1] > force[:-2]) & (force[1:-1] >= force[2:])]
-    return peaks
+    return np.asarray(times[1:-1][(force[1:-1] > force[:-2]) & (force[1:-1] >= force[2:])])
 
 
 def truncate(value: float, digits: int) -> float:

@@ -44,8 +44,7 @@ def peak_compression(k: float, p: float, mass: float, speed: float) -> float:
     0.1
     """
     share = 1.0 / (p + 1.0)
-    peak: float = (0.5 * (p + 1.0) * mass) ** share / k**share * speed ** (2.0 * share)
-    return peak
+    return float((0.5 * (p + 1.0) * mass) ** share / k**share * speed ** (2.0 * share))
 
 
 def measured_stiffness(given: Mapping[str, float], duration: float) -> float:
@@ -71,5 +70,4 @@ def measured_stiffness(given: Mapping[str, float], duration: float) -> float:
     """
     p, speed = given["exponent"], given["impact_speed"]
     peak = given["contact_time"] * speed / duration
-    k: float = 0.5 * (p + 1.0) * given["mass"] * (speed / peak) ** 2 / peak ** (p - 1.0)
-    return k
+    return float(0.5 * (p + 1.0) * given["mass"] * (speed / peak) ** 2 / peak ** (p - 1.0))

@@ -175,10 +175,8 @@ def heights(
 
 
 def _listed(values: Any) -> list[Any]:
-    try:
-        listed = [values] if isinstance(values, str | bytes) else list(values)
-    except TypeError:
-        listed = [values]
+    several = np.iterable(values) and not isinstance(values, str | bytes)
+    listed = list(values) if several else [values]
     if not listed:
         raise InvalidValue("at least one bounce height is needed, got none")
     return listed
