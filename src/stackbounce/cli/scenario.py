@@ -53,7 +53,7 @@ def read(what: Sequence[str], *, with_errors: bool = False, **options: Any) -> S
         if len(what) > 1:
             return _with(_from_files(what, changes), changes)
         return _with(_from_file(what[0], with_errors=with_errors), changes)
-    return _with(_from_catalogue(what, changes), changes)
+    return _with(_from_catalogue(what), changes)
 
 
 def change(drop: Drop, **options: Any) -> Drop:
@@ -115,10 +115,9 @@ def _joined(names: Sequence[str], laws: Sequence[ContactLaw]) -> list[ContactLaw
         raise InvalidValue(f"{error}; give all contacts with --contact") from error
 
 
-def _from_catalogue(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
+def _from_catalogue(names: Sequence[str]) -> Scenario:
     chosen = stacked(names)
-    given = {key: changes[key] for key in ("height", "impact_speed") if key in changes}
-    return Scenario(stack(*names, **given), chosen.contact_sources, chosen.gap_sources, "default")
+    return Scenario(stack(*names), chosen.contact_sources, chosen.gap_sources, "default")
 
 
 def _with(scenario: Scenario, changes: dict[str, Any]) -> Scenario:
