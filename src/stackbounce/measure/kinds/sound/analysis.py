@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, positive
+from stackbounce.errors import InvalidValue, counted, positive
 from stackbounce.measure.kinds.bounces.knocks import Dropped, Knocks
 from stackbounce.measure.kinds.sound.alignment import aligned
 from stackbounce.measure.kinds.sound.consistency import misjudgement
@@ -273,8 +273,7 @@ def _note_series(chain: Chain, rises: Rises, origin: float, notes: list[str]) ->
     )
     if len(times) < 4:
         notes.append(
-            f"Only {len(times)} knock{'s' * (len(times) != 1)}: too few to tell bounces from "
-            "other sounds."
+            f"Only {counted(len(times), 'knock')}: too few to tell bounces from other sounds."
         )
     sides = {"before": slice(0, chain.indices[0]), "after": slice(chain.indices[-1] + 1, None)}
     for side, left in sides.items():

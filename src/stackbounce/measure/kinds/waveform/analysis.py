@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from stackbounce.errors import InvalidValue
+from stackbounce.errors import InvalidValue, counted
 from stackbounce.library_types import Dataset
 from stackbounce.measure.kinds.waveform.baseline import first_guess, quiet_parts
 from stackbounce.measure.kinds.waveform.contact import Seen, measure_contact
@@ -271,7 +271,7 @@ def _notes(
         )
     if seen.short:
         notes.append(
-            f"{seen.short} peak{'s' * (seen.short > 1)} of one or two samples ignored: "
+            f"{counted(seen.short, 'peak')} of one or two samples ignored: "
             "if these are contacts, sample faster"
         )
     if any(contact.clipped for contact in contacts):

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from stackbounce.errors import InvalidValue, positive
+from stackbounce.errors import InvalidValue, counted, positive
 from stackbounce.library_types import Dataset
 from stackbounce.measure.finding import force_channels
 from stackbounce.measure.quantities import Array
@@ -93,8 +93,7 @@ def read_record(data: Dataset | Sequence[ArrayLike]) -> Record:
         notes.append(f"the time steps are uneven, from {steps.min():.3g} s to {steps.max():.3g} s")
     spiky = spikes(values)
     if spiky.any():
-        count = int(spiky.sum())
-        notes.append(f"{count} spike{'s' * (count > 1)} of one sample left out")
+        notes.append(f"{counted(int(spiky.sum()), 'spike')} of one sample left out")
         times, values = times[~spiky], values[~spiky]
     return Record(times, values, unit, step, resolution(values), tuple(notes))
 
