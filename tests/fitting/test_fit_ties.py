@@ -115,6 +115,7 @@ def test_a_function_of_python_is_a_tie():
         ({UPPER: "k"}, {"k": None}, "k needs bounds"),
         ({UPPER: f"k * {'9' * 400}"}, None, "cannot be read: it may have numbers up to 1e308"),
         ({UPPER: f"-{'9' * 400} + k"}, None, "cannot be read: it may have numbers up to 1e308"),
+        ({UPPER: "k()"}, None, "cannot be read: it may have numbers up to 1e308"),
         ({UPPER: "k"}, {"k": ("1 kN/m", "2 kN/m")}, "^k must be a pure number"),
     ],
 )

@@ -18,10 +18,7 @@ Formula: TypeAlias = Callable[[Values], Any]
 _LONGEST = 500  # characters
 _TOKEN = re.compile(r"(?a)(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|(?P<word>[A-Za-z_]\w*(?:\.\w+)*)")
 _CONSTANTS = {"pi": math.pi}
-_FUNCTIONS: dict[str, tuple[Any, int]] = {
-    "sqrt": (np.sqrt, 1), "exp": (np.exp, 1), "log": (np.log, 1),
-    "minimum": (np.minimum, 2), "maximum": (np.maximum, 2),
-}  # fmt: skip
+_FUNCTIONS = {name: getattr(np, name) for name in ("sqrt", "exp", "log", "minimum", "maximum")}
 _SIGNS: dict[type[ast.AST], Any] = {ast.UAdd: np.positive, ast.USub: np.negative}
 _OPERATIONS: dict[type[ast.AST], Any] = {
     ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply, ast.Div: np.divide,
@@ -78,7 +75,7 @@ def read_formula(text: object, known: Collection[str], path: str) -> tuple[Formu
         with np.errstate(all="ignore"):
             node = ast.parse(plain, mode="eval").body
             _evaluate(node, dict.fromkeys(names, 1.0) | _CONSTANTS)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+    except (SyntaxError, TypeError, ValueError, RecursionError, MemoryError):
         raise InvalidValue(
             f"tie: {path} = {shown(text)} cannot be read: it may have numbers up to 1e308, names, "
             f"+ - * / **, brackets, {', '.join(sorted(OWN_WORDS))}"
@@ -102,6 +99,6 @@ def _evaluate(node: ast.AST, values: Mapping[str, Any]) -> Any:
         case ast.BinOp(left, operation, right) if type(operation) in _OPERATIONS:
             ends = _evaluate(left, values), _evaluate(right, values)
             return _OPERATIONS[type(operation)](*ends)
-        case ast.Call(ast.Name(name), parts, []) if len(parts) == _FUNCTIONS.get(name, (0, 0))[1]:
-            return _FUNCTIONS[name][0](*[_evaluate(part, values) for part in parts])
+        case ast.Call(ast.Name(name), parts, []) if name in _FUNCTIONS:
+            return _FUNCTIONS[name](*[_evaluate(part, values) for part in parts])
     raise ValueError(f"no part of a formula: {type(node).__name__}")
