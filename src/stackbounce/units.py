@@ -44,8 +44,7 @@ _NAMED = {
 _NAMED |= {"%": (-2, (0, 0, 0, 0)), "1": (0, (0, 0, 0, 0))}
 # pint takes these for lengths on paper, and for grains, which are 65 mg
 _OTHERS = re.compile(r"px|pix|pixels?|dots?|grs?", re.IGNORECASE)
-_PREFIXES = {"k": 1e3, "": 1.0, "c": 1e-2, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
-_COMMON = {f"{p}{unit}": (size, unit) for p, size in _PREFIXES.items() for unit in "smNV"}
+_COMMON = {p + unit: (float(f"1e{_POWERS[p]}"), unit) for p in ("", *"kcmµn") for unit in "smNV"}
 _COMMON |= {unit: (1.0, unit) for unit in ("m/s", "m/s^2")}
 
 
