@@ -155,12 +155,15 @@ def test_a_table_of_bounces_tells_of_the_contact_laws(server):
 
 
 def test_typed_numbers_are_fitted(server, drop):
-    vary, measured = ["contacts.1.stiffness"], {"rebound_ratios.1": "1.64 ± 0.02"}
+    vary = ["contacts.0.stiffness", "contacts.1.stiffness"]  # only their ratio matters
+    measured = {"rebound_ratios.1": "1.64 ± 0.02", "rebound_ratios.0": "0.58 ± 0.02"}
     asked = {"drop": drop, "vary": vary, "measured": measured}
     asked = {name: json.dumps(value) for name, value in asked.items()}
     found = server.post("/api/fit", data=asked).json()
     expected = sb.fit(sb.Drop.from_mapping(drop), measured, vary)
-    assert found["values"][0]["value"] == expected["contacts.1.stiffness"].nominal_value
+    assert found["values"][1]["value"] == expected["contacts.1.stiffness"].nominal_value
+    assert found["notes"] == [*expected.notes]
+    assert len(set(expected.undetermined) & set(expected.notes)) == 1
     assert found["residuals"][0]["name"] == "rebound_ratios.1"
 
 

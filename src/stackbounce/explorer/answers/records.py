@@ -26,7 +26,7 @@ _Series = dict[str, Any]
 
 _POINTS = 500  # about so many points of a branch that a page draws
 _SHOWN = 4000  # most points of a curve that a page draws
-_OF_FIT = ("stackbounce", "chi_squared", "degrees_of_freedom", "probability", "residuals")
+_OF_FIT = ("stackbounce", "chi_squared", "degrees_of_freedom", "probability", "residuals", "notes")
 _AFTER = 1.5  # part of a record that is kept, in durations of the simulated impact
 
 
@@ -143,7 +143,6 @@ def fit_record(
         {
             "drop": done.drop.to_mapping(),
             "values": [{"path": path, **value} for path, value in known["values"].items()],
-            "notes": [*done.notes, *done.undetermined],
             "series": [_align(record, done.drop) for record in done.records],
             **{name: known[name] for name in _OF_FIT},
         }
