@@ -75,6 +75,8 @@ def content_of(path: object, most: int) -> tuple[str, bytearray]:
     name = os.fspath(path) if isinstance(path, str | os.PathLike) else None
     if not isinstance(name, str):
         raise InvalidType(f"path must be a string or a path, got {shown(path)}")
+    if "\n" in name:
+        raise FileError(f"path must be the name of a file, not what is in one, got {shown(name)}")
     try:
         mode = os.stat(name).st_mode  # noqa: PTH116  # Path("") is the folder one is in
         if stat.S_ISDIR(mode):
