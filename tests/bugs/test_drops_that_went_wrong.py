@@ -53,6 +53,18 @@ def test_a_damped_stack_comes_to_rest_where_it_swings_out(law):
     assert end.compression.values[:, 1] == pytest.approx(end.compression.values[:, 0], rel=1e-6)
 
 
+# --- whether a soft damped stack came to rest hung on round-off
+@pytest.mark.parametrize(
+    ("laws", "height"),
+    [([sb.Viscoelastic(4e4, 3e-3)], 3e-3), ([sb.Dashpot(2500, 3), sb.Dashpot(1000, 1)], 5e-3)],
+)
+def test_a_soft_damped_stack_comes_to_rest(laws, height):
+    balls = [sb.Ball(0.15), sb.Ball(0.057)][: len(laws)]
+    result = sb.simulate(sb.Drop(balls, laws, height=height, gravity=9.81), until=50.0)
+    assert result.status is sb.Status.SETTLED
+    assert result.end_time < 10.0
+
+
 # --- bugs of force curves: chords near the touch, steep curves, loading again
 @pytest.mark.parametrize("rtol", [1e-10, 1e-12, 1e-14])
 def test_faint_contact_under_a_weight(rtol):

@@ -139,6 +139,18 @@ def test_a_plate_under_its_own_weight_is_still():
     before = sb.simulate(drop, until=0.1).sample([0.0, 0.05, 0.1])
     assert before.force.values[0] == pytest.approx(2.0 * 9.81, rel=1e-12)
     assert np.abs(before.velocity.values[0]).max() < 1e-12
+    assert set(sb.simulate(drop, until=3.0).apexes["ball"].tolist()) == {1}
+
+
+def test_a_body_has_the_highest_point_of_its_centre():
+    laws = [sb.Spring(300.0), sb.Bond(900.0)]
+    drop = sb.Drop([sb.Ball(0.5), sb.Ball(0.7)], laws, height=1.0, gravity=9.81)
+    result = sb.simulate(drop, until=1.0)
+    times = np.linspace(0.0, 1.0, 20_001)
+    centre = np.average(result.sample(times).position.values, axis=0, weights=[0.5, 0.7])
+    assert result.apexes["ball"].tolist() == [0, 1]
+    assert result.apexes["height"] == pytest.approx(centre.max(), rel=1e-7)
+    assert result.apexes["time"] == pytest.approx(times[centre.argmax()], abs=5e-5)
 
 
 @pytest.mark.parametrize("until", [None, 0.1, 1.0])
@@ -160,6 +172,8 @@ def test_a_bond_has_no_gap_and_no_collision():
     for measure in (sb.restitution, sb.contact_time):
         with pytest.raises(errors.InvalidValue, match="got Bond, which never opens"):
             measure(sb.Bond(1.0), 1.0, 1.0)
+    with pytest.raises(errors.InvalidValue, match="that open: contact 1 is a Bond"):
+        sb.simulate(sb.Drop(balls, laws, impact_speed=1.0)).sideways()
     with pytest.raises(errors.InvalidValue, match="got Bond, which never opens"):
         sb.separate(sb.Drop(balls, laws, impact_speed=1.0))
 

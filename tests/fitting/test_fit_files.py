@@ -130,17 +130,7 @@ def test_what_is_wrong_in_a_file_is_one_line_with_its_name(write, old, new, expe
     assert expected in message
 
 
-@pytest.mark.parametrize(
-    ("drops", "expected"),
-    [
-        ("[[drops]]\nheight = 1\n", "drops.0.name must be a name of its own"),
-        ("[[drops]]\nname = 'B2 on B1'\nheight = 1\n", "got 'B2 on B1'"),
-        ("[[drops]]\nname='a'\nheight=1\n" * 2, "drops.1.name must be a name of its own"),
-        ("[[drops]]\nname='a'\nhight=1\n", "drops.0.hight is not a known key; did you mean height"),
-        ("[[drops]]\nname='a'\n", "a: impact_speed, height and velocities: exactly one"),
-        ("[drops]\nname='a'\n", "drops must be tables, each under [[drops]]"),
-    ],
-)
+@pytest.mark.parametrize(("drops", "expected"), REFUSED["drops"])
 def test_what_is_wrong_in_several_drops(write, drops, expected):
     message = refusal(ScenarioError, read_question, write(STACK + drops))
     assert "fit.toml: " in message
@@ -158,7 +148,6 @@ def test_a_record_without_a_force_is_refused(write):
 
 
 HEAD = "name,height (cm),gaps.0 (mm),rebound_ratios.1\n"
-BESIDE = "rebound_ratios.1,error of rebound_ratios.1\n"
 
 
 @pytest.mark.parametrize(
@@ -208,32 +197,7 @@ def test_a_table_has_counts_heights_and_forces(write, tmp_path):
     assert data["drop_2"]["force.0"].attrs["units"] == "V"
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("hight (cm),rebound_ratios.1\n1,2", "column 'hight (cm)' is neither a number of the drop"),
-        ("gaps.1,rebound_ratios.1\n1,2", "did you mean gaps.0?"),
-        ("error of rebound_ratios.0,rebound_ratios.1\n1,2", "has no column rebound_ratios.0"),
-        ("height,height (cm),rebound_ratios.1\n1,2,3", "column 'height' is there twice"),
-        ("height,gaps.0\n1,2", "it has no column of what was measured; known: rebound_ratios.0"),
-        ("rebound_ratios.1\n", "it has a heading but no drop below it"),
-        ("\n\n", "it has no heading"),
-        ("rebound_ratios.1\n1.64", "row 2, rebound_ratios.1 must be a number with its error"),
-        (f"{BESIDE}1.64 ± 0.01,0.02", "rebound_ratios.1 has an error in its cell and one beside"),
-        (f"{BESIDE}1.64,-1", "row 2, rebound_ratios.1's error must be a positive number, got -1"),
-        ("height,rebound_ratios.1\n1,1 ± 1\n\n2,x", "row 4, rebound_ratios.1 must be a pure"),
-        ("height (kg),rebound_ratios.1\n1,1 ± 1", "row 2, height (kg) must be a length"),
-        ("height,rebound_ratios.1\n1,", "row 2 has nothing that was measured"),
-        ("height,rebound_ratios.1\n1,1 ± 1,7", "row 2 has more cells than the heading, 2"),
-        ("name,rebound_ratios.1\na,1 ± 1\na,1 ± 1", "row 3, name must be a name of its own"),
-        ("height,rebound_ratios.1\n-1,1 ± 1", "row 2: height must be a positive number"),
-        ("name,rebound_ratios.1\nB2 on B1,1 ± 1", "row 2, name must be a name of its own"),
-        ("collisions.0\n1.5", "row 2, collisions.0 must be a whole number, got '1.5'"),
-        ("contacts.1.stiffness;collisions.0\n22,500;1", "row 2, contacts.1.stiffness: 22,500 can"),
-        ("height;gaps.0;collisions.0\n1,5;0.2;1", "row 2, height: 1,5 has a comma, but 0.2"),
-        ("force.0\ntable.xyz", "table.xyz cannot be read"),
-    ],
-)
+@pytest.mark.parametrize(("text", "expected"), REFUSED["rows"])
 def test_what_is_wrong_in_a_table_is_one_line_with_row_and_column(write, text, expected):
     path = write(text, "drops.csv")
     message = refusal((InvalidValue, FileError), read_drops, BASE, path)

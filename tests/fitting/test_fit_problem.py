@@ -51,7 +51,7 @@ def test_several_drops_stay_several():
 
 def test_drops_with_the_same_contacts_are_solved_together(monkeypatch):
     stack = sb.Drop([sb.Ball(0.6), sb.Ball(0.06)], [sb.Hertz(1e5)] * 2, height=1.0, gaps=[1e-3])
-    heavy, springs = [sb.Ball(0.7), sb.Ball(0.06)], [sb.Spring(1e4)] * 2
+    heavy, springs = [sb.Ball(0.7, 0.2), sb.Ball(0.06)], [sb.Spring(1e4)] * 2
     changes = {"gaps": [0.0]}, {"contacts": springs}, {"height": 0.3}, {"balls": heavy}
     drops = {f"d{k}": stack.replace(**change) for k, change in enumerate(changes)}
     vary, trials = {"contacts.1.stiffness": (1e4, 1e6)}, np.linspace(9.5, 13.5, 7)[:, None]

@@ -96,6 +96,15 @@ def test_ties_may_use_each_other_in_any_order():
     assert above.stiffness == pytest.approx(0.4 * law.stiffness, rel=1e-12)
 
 
+def test_a_diameter_that_one_drop_alone_has_changes_nothing():
+    sized = STACK.replace(balls=[sb.Ball(STACK.balls[0].mass, 0.2), *STACK.balls[1:]])
+    pairs = {"a": STACK, "b": sized}, {"a": STACK, "b": STACK}
+    done = [
+        sb.fit(two, dict.fromkeys(two, DATA), {"k": (500, 5000)}, tie={UPPER: "k"}) for two in pairs
+    ]
+    assert done[0].best == done[1].best
+
+
 def test_a_function_of_python_is_a_tie():
     vary = {"contacts.0.stiffness": (500.0, 5000.0)}
     found = fitted({UPPER: lambda values: 0.4 * values["contacts.0.stiffness"]}, vary)

@@ -186,6 +186,7 @@ def test_many_drops_of_several_kinds_keep_their_order():
         pair(1.0, 0.7, SPRINGS),
         pair(1.0, 0.5, [sb.Hysteretic(1.0, unloading_exponent=3.0), sb.Spring(1.0)]),
         pair(1.0, 0.5, [sb.Hysteretic(1.0, restitution=0.5), sb.Spring(1.0)]),
+        *(pair(1.0, 0.5, [sb.Tabulated([0, 9], [0, k]), sb.Spring(1.0)]) for k in (9.0, 18.0)),
     ]
     for row, drop in zip(solve_drops(drops).rebound_ratio.values, drops, strict=True):
         assert row == pytest.approx(sb.simulate(drop).rebound_ratios, abs=1e-12)

@@ -84,7 +84,10 @@ def is_bound(stack: Stack) -> bool:
             rest = static_compression(stack, i, weight)
             at_rest = potential(stack, i, rest)
             opening = weight * rest - at_rest
-            excess += max(0.0, potential(stack, i, c) - at_rest - weight * (c - rest))
+            above = max(0.0, potential(stack, i, c) - at_rest - weight * (c - rest))
+            # near rest the difference is lost in round-off; the potential is convex
+            most = abs(force(stack, i, c, 0.0, c) - weight) * abs(c - rest)
+            excess += min(above, most)
             excess += arm_energy(stack, i, c, stack.creep[i])
         if stack.bonded[i] == 0:
             barrier = min(barrier, opening / stack.gain_slope[i] if creeps(stack, i) else opening)

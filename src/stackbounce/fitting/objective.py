@@ -269,7 +269,11 @@ class Objective:
         for first in dict.fromkeys(self._kinds.values()):
             given = [self._given[key] for key, other in self._kinds.items() if other == first]
             numbers = numbers_of(self.drops[first]).items()
-            found[first] = [n for path, n in numbers if len({own[path] for own in given}) > 1]
+            # nan is a ball's size or material that is not given, which does not affect a run
+            rows = [(number, {own[path] for own in given}) for path, number in numbers]
+            found[first] = [
+                number for number, row in rows if len(row) > 1 and not np.isnan([*row]).any()
+            ]
         return found
 
     def solve(self, keys: Collection[str], x: Array) -> dict[str, dict[str, Array]]:

@@ -329,24 +329,27 @@ class Result(Shown):
     def apexes(self) -> NDArray[Any]:
         """A row per highest point of a flight, in order: ball, time (s), height (m).
 
-        The height is the ball's position. Only gravity makes an apex; one that a run stopped before
-        is not listed.
+        The height is the ball's position, that of the centre for balls with bonds. Only gravity
+        makes an apex; one that a run stopped before is not listed.
         """
         gravity = self.drop.gravity
         if gravity == 0.0:
             return _frozen(np.empty(0, dtype=APEX))
         last = self.end_time if self.status in STOPPED else math.inf
-        rising = [
-            (start + velocity / gravity, ball, start, 0.5 * velocity**2 / gravity)
-            for ball, start, velocity, end in self._flights()
-            if velocity > 0.0 and start + velocity / gravity < end
-        ]
-        rising = sorted(row for row in rising if row[0] <= last)
-        positions = self.sampled([start for _, _, start, _ in rising])["position"]
-        rows = [
-            (ball, top, positions[ball, row] + rise)
-            for row, (top, ball, _, rise) in enumerate(rising)
-        ]
+        flights, rows = list(self._flights()), []
+        begun = self.sampled([start for _, start, _, _ in flights])
+        masses = np.array([ball.mass for ball in self.drop.balls])
+        for flight, (ball, start, velocity, end) in enumerate(flights):
+            own, position = self._bodies == self._bodies[ball], begun["position"][ball, flight]
+            if own.sum() > 1:
+                position, velocity = (
+                    np.average(begun[name][own, flight], weights=masses[own])
+                    for name in ("position", "velocity")
+                )
+            top = start + velocity / gravity
+            if velocity > 0.0 and top < end and top <= last:
+                rows.append((ball, top, position + 0.5 * velocity**2 / gravity))
+        rows.sort(key=lambda row: (row[1], row[0]))
         return _frozen(np.array(rows, dtype=APEX))
 
     def sideways(
@@ -369,9 +372,10 @@ class Result(Shown):
         xarray.Dataset
             By ball: `sideways_speed` (m/s), `angle` (rad, off the vertical) and `offset` (m) at the
             end of the run; `offset_at_top` and `landing` (m) where it flies on to its highest point
-            and comes down to where it lay, nan where it does not. The attribute `remark` says where
-            first order ends, and `error` estimates that of the sideways speeds, over the largest: a
-            run of hundreds of contacts may have one above 1e-9. Without arguments by (ball, moved):
+            and comes down to its height in a stack without gaps, nan where it does not. The
+            attribute `remark` says where first order ends, and `error` estimates that of the
+            sideways speeds, over the largest: a run of hundreds of contacts may have one above
+            1e-9. Without arguments by (ball, moved):
             `transfer` (1/s), the sideways speed per offset of the ball that was moved, and
             `amplification`, the offset. ``np.linalg.svd(found.transfer)`` has the worst combination
             of offsets.
@@ -379,9 +383,10 @@ class Result(Shown):
         Raises
         ------
         InvalidValue
-            If a ball has no diameter, or a number makes no sense; if the run is INVALID, met a
-            limit, came to rest or had infinitely many collisions; if a compression exceeds the sum
-            of two radii; if the sideways motion grows too fast to be followed.
+            If a ball has no diameter, a contact is a `Bond`, or a number makes no sense; if the run
+            is INVALID, met a limit, came to rest or had infinitely many collisions; if a
+            compression exceeds the sum of two radii; if the sideways motion grows too fast to be
+            followed.
         InvalidType
             If an argument has the wrong type.
 
@@ -558,13 +563,23 @@ class Result(Shown):
             raise InvalidValue(f"times must be seconds from 0{end}, got {bad[0]:g}")
         return wanted
 
-    def _flights(self) -> Iterator[tuple[int, float, float, float]]:
-        """Yield the flights of all balls: ball, start, velocity then, end.
+    @functools.cached_property
+    def _bodies(self) -> NDArray[np.intp]:
+        """Return the body of each ball, by its lowest ball: bonds join balls to bodies."""
+        bonds = [law is not None and law.pulls for law in self.drop.contacts]
+        return np.maximum.accumulate(np.where(bonds, 0, np.arange(len(bonds))))
 
-        A ball is in flight while the contacts below and above it are open.
+    def _flights(self) -> Iterator[tuple[int, float, float, float]]:
+        """Yield the flights of all balls: ball, start, velocity of one of its body then, end.
+
+        A body is in flight while all its contacts are open; one that is bonded to the floor never.
         """
         count = len(self.drop.balls)
+        bodies = self._bodies.tolist()
+        members = [[ball for ball in range(count) if bodies[ball] == body] for body in bodies]
         closed: list[set[int]] = [set() for _ in range(count)]
+        if (floor := self.drop.contacts[0]) is not None and floor.pulls:
+            closed[0].add(0)
         under_way = [(0.0, velocity) for velocity in self.drop.start_velocities]
         for row in self._rows[np.isfinite(self._rows[:, codes.TIME])].tolist():
             time, contact, kind = row[codes.TIME], int(row[codes.CONTACT]), row[codes.KIND]
@@ -575,16 +590,17 @@ class Result(Shown):
             for ball, velocity in sides:
                 if ball < 0:
                     continue
-                if not closed[ball]:
-                    yield (ball, *under_way[ball], time)
+                body = bodies[ball]
+                if not closed[body]:
+                    yield from ((member, *under_way[body], time) for member in members[body])
                 if kind == codes.TOUCH:
-                    closed[ball].add(contact)
+                    closed[body].add(contact)
                     continue
-                closed[ball].discard(contact)
-                under_way[ball] = (time, velocity)
-        for ball in range(count):
-            if not closed[ball]:
-                yield (ball, *under_way[ball], math.inf)
+                closed[body].discard(contact)
+                under_way[body] = (time, velocity)
+        for ball, body in enumerate(bodies):
+            if not closed[body]:
+                yield (ball, *under_way[body], math.inf)
 
 
 def heights_of(velocities: Any, gravity: Any) -> Array:

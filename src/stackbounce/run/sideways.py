@@ -101,6 +101,9 @@ def _carried(result: "Result", begun: _Array) -> tuple[_Array, _Array, float]:
     estimate of the error of the speeds, over the largest.
     """
     balls, rows = result.drop.balls, result._rows
+    for i, law in enumerate(result.drop.contacts):
+        if law is not None and law.pulls:
+            raise InvalidValue(f"sideways motion needs contacts that open: contact {i} is a Bond")
     for i, ball in enumerate(balls):
         if ball.diameter is None:
             raise InvalidValue(f"sideways motion needs each ball's diameter: ball {i} has none")

@@ -55,8 +55,7 @@ def solve_drops(drops: Sequence[Drop], gaps: Sequence[float] | None = None) -> D
 
     kinds: dict[Any, list[int]] = {}
     for i, drop in enumerate(drops):
-        kind = tuple((type(law), contact_numbers(law)[0]) for law in drop.contacts)
-        kinds.setdefault(kind, []).append(i)
+        kinds.setdefault(tuple(map(_kind, drop.contacts)), []).append(i)
     parts = []
     for places in kinds.values():
         own = [drops[i] for i in places]
@@ -68,6 +67,13 @@ def solve_drops(drops: Sequence[Drop], gaps: Sequence[float] | None = None) -> D
         parts.append(swept.assign_coords(stack=places))
     how: Any = {"data_vars": "all", "coords": "minimal", "compat": "override", "join": "outer"}
     return xr.concat(parts, "stack", **how).sortby("stack")
+
+
+def _kind(law: ContactLaw | None) -> tuple[int, str]:
+    """Return the form of a contact and, as a text, what of it a sweep cannot vary."""
+    plain, numbers = (law.to_mapping(), law.units()) if law else ({}, {})
+    fixed = {name: value for name, value in plain.items() if name not in numbers}
+    return contact_numbers(law)[0], repr(fixed)
 
 
 def _varied(drops: Sequence[Drop]) -> dict[str, NDArray[np.float64]]:
