@@ -84,6 +84,20 @@ def test_numbered_columns_of_equal_heights_are_readings(table):
     assert "'rebound 1 (cm)', 'rebound 2 (cm)' are taken as repeated readings" in read.notes[0]
 
 
+def test_means_and_deviations_of_the_readings_are_left_out(table):
+    first, *others = (make_series(table(text).groups[""]) for text in TABLES["means"])
+    for other in others:
+        assert other.values == pytest.approx(first.values, rel=1e-12)
+        assert other.covariance() == pytest.approx(first.covariance(), rel=1e-12)
+    assert first.freedom() < 4.0
+
+
+def test_trailing_zeros_are_not_read(table):
+    rows = [f"{10 * k / 100:.4f},{round(6.4 * k) / 100:.4f}" for k in range(3, 9)]
+    read = table("h0 (m),h1 (m)\n" + "\n".join(rows) + "\n")
+    assert read.groups[""].rebound_height.assumed_error == pytest.approx(0.005)
+
+
 def test_words_are_groups_and_remarks_are_not(table):
     rows = "golf,100,70,a\ngolf,50,36,b\ntennis,100,53,c\n"
     read = table("ball,drop height (cm),rebound (cm),remark\n" + rows)

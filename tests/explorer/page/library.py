@@ -12,6 +12,7 @@ from stackbounce.plots.impact import choose_window, sample_with_approach
 from stackbounce.run.batch import solve
 from stackbounce.run.options import run_options
 from stackbounce.run.paths import drop_at, number_at, numbers_of
+from stackbounce.run.result import heights_of
 
 RATIOS, OUTCOMES = WORDS["ratios"], WORDS["outcomes"]
 FLOOR = sb.Rigid(0.8)  # in place of none
@@ -60,7 +61,7 @@ def played(mapping, until, times, events=LIMITS.events):
     answer = {
         "drop": drop.to_mapping(),
         "reference_speed": drop.reference_speed,
-        **numbers(result),
+        **numbers(result, drop),
         "intervals": result.intervals,
         "impact": [0.0, max(ends[np.isfinite(ends)], default=0.0)],
         "frames": frames(result, times),
@@ -69,9 +70,9 @@ def played(mapping, until, times, events=LIMITS.events):
     return plain(answer)
 
 
-def numbers(result):
-    speeds = result.rebound_speeds
-    heights = speeds * np.abs(speeds) / (2.0 * sb.model.STANDARD_GRAVITY)
+def numbers(result, drop):
+    """Return what came out of a run, with heights by the gravity of a drop."""
+    heights = heights_of(result.rebound_speeds, drop.gravity)
     found = result.to_mapping() | {"rebound_heights": heights}
     del found["advice"]  # the page has words of its own
     return found
@@ -102,7 +103,7 @@ def separate(drop, until, times, events):
     except StackbounceError as error:
         return {"error": str(error)}
     restitutions = [law and law.restitution for law in textbook.contacts]
-    return numbers(result) | {"restitutions": restitutions, "position": place}
+    return numbers(result, drop) | {"restitutions": restitutions, "position": place}
 
 
 def table(drop):
@@ -148,7 +149,7 @@ def at(mapping, path, value):
     return drop_at(drop, {number_at(drop, path): value})
 
 
-def outcome(drop, show, index, event_limit):
+def outcome(drop, show, index, event_limit, gravity=None):
     """Return what the library finds of a drop; None where it does not come to its end."""
     out = solve(drop, {}, (1,), run_options(drop, None, MAP_RTOL, event_limit))
     if out.status[0] > sb.Status.COLLAPSED:
@@ -160,7 +161,7 @@ def outcome(drop, show, index, event_limit):
     if show == "rebound_ratio":
         return finite(out.rebound_ratio[0, index])
     speed = out.rebound_ratio[0, index] * max(map(abs, drop.start_velocities))
-    return finite(speed * abs(speed) / (2.0 * sb.model.STANDARD_GRAVITY))
+    return finite(heights_of(speed, drop.gravity if gravity is None else gravity))
 
 
 def finite(value):

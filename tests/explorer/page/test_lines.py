@@ -40,7 +40,7 @@ def random_lines(seed, count):
 
 def textbook(drop, show, index):
     try:
-        return outcome(sb.separate(drop), show, index, EVENTS)
+        return outcome(sb.separate(drop), show, index, EVENTS, drop.gravity)
     except StackbounceError:
         return None
 

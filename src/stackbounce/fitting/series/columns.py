@@ -46,6 +46,8 @@ class Column:
         The error of all its numbers, as ``± 0.5 cm`` in the heading tells it; empty for none.
     ball : str
         The ball of the catalogue that its heading names; empty if it names none.
+    mean : bool
+        Whether its heading says that it holds means.
     """
 
     index: int
@@ -55,6 +57,7 @@ class Column:
     number: int = 0
     error: str = ""
     ball: str = ""
+    mean: bool = False
 
 
 def columns_of(headings: list[str]) -> list[Column]:
@@ -85,7 +88,7 @@ def columns_of(headings: list[str]) -> list[Column]:
         ball = "" if role else _ball(bare)
         if ball:
             role = "rebound_ratio" if WORDS["ratio"].search(bare) else "rebound_height"
-        found.append(Column(index, text, role, unit, number, told, ball))
+        found.append(Column(index, text, role, unit, number, told, ball, bare != name))
     return found
 
 
@@ -132,7 +135,8 @@ def _error(index: int, text: str, before: list[Column]) -> Column:
     bare = " ".join(WORDS["filler"].sub(" ", whole).split())
     whose = next((c.index for c in reversed(before) if bare and _same(bare, c)), None)
     if whose is None:
-        whose = next((c.index for c in reversed(before) if c.role not in ("", "error")), -1)
+        left = (c.index for c in reversed(before) if c.mean or c.role not in ("", "error"))
+        whose = next(left, -1)
     if said.unit == "%" and not any(c.index == whose and c.unit == "%" for c in before):
         raise InvalidValue(f"column {text!r} must have errors in the unit of what they belong to")
     return Column(index, text, "error", said.unit, whose)

@@ -237,7 +237,7 @@ def assumed_error(values: Array, step: float) -> tuple[float, str]:
 def _step(values: Array, digit: float) -> float:
     """Return the step in which numbers were read: a unit of the last digit, or 5 or 10 of them."""
     there = values[np.isfinite(values)] / digit
-    for count in (10.0, 5.0):
+    for count in (1000.0, 500.0, 100.0, 50.0, 10.0, 5.0):  # also of zeros that a program wrote
         if len(there) >= _ENOUGH and np.all(np.abs(there - count * np.rint(there / count)) < 0.01):
             return count * digit
     return digit
@@ -271,6 +271,7 @@ def _by_drop(
     if not measured:
         raise InvalidValue(f"no column is what was measured after a bounce: {_listed(columns)}")
     read = sorted((c for c in columns if c.role == measured), key=lambda column: column.number)
+    read = [column for column in read if not column.mean] or read
     kind = "" if measured == "restitution" else measured.removeprefix("rebound")
     start = next((column for column in starts if column.role.endswith(kind)), None)
     if start is None:

@@ -136,7 +136,8 @@ def _cycle(record: Record, start: int, peak: int, end: int) -> Cycle:
     reach = max(_HELD_WITHIN * float(np.ptp(record.compression)), 4.0 * record.jitter)
     near = np.flatnonzero(path >= record.compression[peak] - reach) + start
     first, last = int(near[0]), int(near[-1])
-    step = float(np.median(np.abs(np.diff(path))))
+    steps = np.abs(np.diff(path))
+    step = float(np.median(steps)) or float(np.mean(steps))  # of a scale that shows coarse steps
     # points near the peak of a press that never stands still
     ramp = 2.0 * reach / step + 3.0 if step > 0.0 else 3.0
     if last - first + 1 > max(2.0 * ramp, _LEAST_POINTS - 1):

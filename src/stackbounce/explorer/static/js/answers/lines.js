@@ -57,7 +57,7 @@ export class LineJob {
     const own = this.points.solve(from, count);
     const textbook = this.solveSeparate(from, count);
     for (let k = 0; k < count; k += 1) {
-      const of = (outcomes, row) => this.curves.map(({ name, index }) => (outcomes ? outcomes.value(row, name, index) : null));
+      const of = (outcomes, row) => this.curves.map(({ name, index }) => (outcomes ? outcomes.value(row, name, index, own.pull(k)) : null));
       const met = this.drop.balls.map((_, i) => own.value(k, "collisions", i)).join();
       this.rows.set(places[from + k], { own: of(own, k), textbook: of(...textbook[k]), met, open: !own.finished(k) });
     }

@@ -35,7 +35,7 @@ export function playDrop(mapping, until_, frames, eventLimit) {
   return {
     drop: drop.toMapping(),
     reference_speed: drop.speed,
-    ...numbers(result),
+    ...numbers(result, drop.pull),
     intervals: result.intervals.map((interval) => plain(interval)),
     impact: [0, Math.max(0, ...ends)],
     frames: { time: times, ...sampleWithEnergy(result, times) },
@@ -61,13 +61,13 @@ function plain(values) {
   return Object.fromEntries(Object.entries(values).map(([name, value]) => [name, finite(value)]));
 }
 
-function numbers(result) {
+function numbers(result, pull) {
   const { speeds, drop } = result;
   return {
     status: result.status,
     rebound_speeds: plain(speeds),
     rebound_ratios: plain(speeds.map((speed) => speed / drop.speed)),
-    rebound_heights: plain(speeds.map((speed) => (speed * Math.abs(speed)) / (2 * known.gravity))),
+    rebound_heights: plain(speeds.map((speed) => (speed * Math.abs(speed)) / (2 * pull))),
     collisions: result.collisions,
     first_touch: plain(result.perContact("start", Math.min)),
     last_release: plain(result.perContact("end", Math.max)),
@@ -154,7 +154,7 @@ function playSeparate(drop, until, times, eventLimit) {
     const reached = result.stopped ? result.end : Infinity;
     const { position } = sampleWithApproach(result, times.map((time) => Math.min(time, reached)));
     return {
-      ...numbers(result),
+      ...numbers(result, drop.pull),
       restitutions: textbook.contacts.map((law) => law && law.restitution),
       position,
     };

@@ -193,12 +193,17 @@ class Outcomes {
   }
 
   /** Return an outcome of a drop, such as rebound_ratio of ball 1; null where it did not end or there is none. */
-  value(row, name, index) {
-    const value = this.finished(row) ? this.select(row, name, index) : NaN;
+  value(row, name, index, pull = this.pull(row)) {
+    const value = this.finished(row) ? this.select(row, name, index, pull) : NaN;
     return Number.isFinite(value) ? value : null;
   }
 
-  select(row, name, index) {
+  /** Return the acceleration in m/s² of a drop's flights. */
+  pull(row) {
+    return this.drops.gravity[row] || known.gravity;
+  }
+
+  select(row, name, index, pull) {
     const { found, drops, balls } = this;
     if (name === "energy_retained") return found.energy_retained[row];
     const place = row * balls + index;
@@ -207,6 +212,6 @@ class Outcomes {
     if (name === "rebound_ratio") return ratio;
     const reference = drops.velocity.subarray(row * balls, (row + 1) * balls).reduce((most, one) => Math.max(most, Math.abs(one)), 0);
     const speed = ratio * reference;
-    return (speed * Math.abs(speed)) / (2 * known.gravity);
+    return (speed * Math.abs(speed)) / (2 * pull);
   }
 }

@@ -40,5 +40,5 @@ export function bounce(law, mass, speed) {
   for (let at = 0; at < run.log.length; at += layout.sizes.log_columns) {
     if (run.log[at + log.KIND] === events.RELEASE) end = Math.max(end, run.log[at + log.TIME]);
   }
-  return [run.velocity[0] / speed, end];
+  return [Math.min(run.velocity[0] / speed, 1), end]; // no more but for round-off
 }

@@ -114,16 +114,17 @@ function mountSwitches(root, store) {
   show(store.get());
 }
 
-let before = 0; // m/s², gravity during the impact, when a whole drop was asked for
+let before; // m/s², gravity during the impact, when a whole drop was asked for
 
 /** Return the patch that shows falls, bounces and flights: long enough for the highest ball to come down. */
 function whole({ drop, result }) {
   const fastest = Math.max(1, ...(result?.rebound_speeds ?? []).filter(Number.isFinite));
-  const until = Math.min(Math.ceil((2.4 * fastest) / GRAVITY), 8);
+  const gravity = drop.gravity || GRAVITY;
+  const until = Math.min(Math.ceil((2.4 * fastest) / gravity), 8);
   before = drop.gravity;
-  return { until, t: null, drop: { ...drop, gravity: GRAVITY } };
+  return { until, t: null, drop: { ...drop, gravity } };
 }
 
 function alone({ drop }) {
-  return { until: null, t: null, drop: { ...drop, gravity: before } };
+  return { until: null, t: null, drop: { ...drop, gravity: before ?? drop.gravity } };
 }
