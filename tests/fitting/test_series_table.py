@@ -43,16 +43,7 @@ def test_two_columns_of_heights_in_many_forms(table, text):
     assert series.values[order] == pytest.approx([0.8, 0.66**0.5], rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "v (m/s),e\n2,0.80\n3,0.75\n",
-        "impact speed (m/s);COR\n2;0,80\n3;0,75\n",
-        "v_in,v_out\n2,1.60\n3,2.25\n",
-        "v / m s^-1,e\n2,0.80\n3,0.75\n",
-        "v (m.s-1),drop height (cm),e\n2,9,0.80\nMittelwert,7,0.77\n3,9,0.75\n",
-    ],
-)
+@pytest.mark.parametrize("text", TABLES["speeds"])
 def test_speeds_and_restitutions(table, text):
     series = make_series(table(text).groups[""])
     assert series.speeds == pytest.approx([2.0, 3.0])
@@ -103,6 +94,8 @@ def test_words_are_groups_and_remarks_are_not(table):
     read = table("ball,drop height (cm),rebound (cm),remark\n" + rows)
     assert list(read.groups) == ["golf", "tennis"]
     assert "The words of column 'remark' are not used: no groups." in read.notes
+    masses = table("mass (g),h0 (cm),h1 (cm)\n57,50,32\n57,100,64\n46,50,40\n46,100,80\n")
+    assert list(masses.groups) == ["57", "46"]
     alike = read_table(HEIGHTS, mass=0.058, diameter=0.066)
     assert "The mass and diameter are taken for all of" in str(alike.notes)
 

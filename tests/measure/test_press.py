@@ -78,7 +78,17 @@ def test_a_force_that_is_never_zero():
     found = press(data.where(data.compression > 1.5e-3, drop=True))
     assert near(found.exponent, 1.3)
     assert near(found.work_in, 4e4 * 5e-3**2.3 / 2.3)
-    assert any("no points before the contact" in note for note in found.notes)
+    assert any("too few points before the contact" in note for note in found.notes)
+
+
+def test_short_slack_tells_the_zero_and_coarse_compressions_keep_their_peak():
+    found = press(press_record(BALL, peak=5e-3, slack=5e-4, noise=0.4, offset=2.0))
+    assert near(found.exponent, 1.3)
+    assert near(found.zero, 2.0)
+    coarse = press_record(BALL, peak=5e-3, points=401)
+    found = press(coarse.assign(compression=np.round(coarse.compression, 4)))
+    assert near(found.restitution, 0.78)
+    assert found.peak_compression.nominal_value == pytest.approx(5e-3, abs=5e-5)
 
 
 @pytest.mark.parametrize("hold", [60, 0])

@@ -92,6 +92,18 @@ def columns_of(headings: list[str]) -> list[Column]:
     return found
 
 
+def check_balls(columns: list[Column]) -> None:
+    """Refuse a column of lengths beside one of a ball if it names none itself."""
+    beside = next((column.text for column in columns if column.ball), "")
+    for column in columns:
+        known = in_si(column.unit) if beside and column.unit and not column.role else None
+        if known and known[1] == "m":
+            raise InvalidValue(
+                f"column {column.text!r} must name a ball of the catalogue, as {beside!r} beside "
+                "it does"
+            )
+
+
 def _ball(name: str) -> str:
     """Return the ball of the catalogue that a name begins with; empty if there is none."""
     plain = name.replace("-", " ")

@@ -12,13 +12,13 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue
 from stackbounce.fitting.rows import Row, decimal_comma
-from stackbounce.fitting.series.columns import UNITS, WORDS, Column, columns_of
+from stackbounce.fitting.series.columns import UNITS, WORDS, Column, check_balls, columns_of
 from stackbounce.library_types import DataFrame
 from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.measure.reading.roles import is_unit
 from stackbounce.measure.reading.text import MISSING
 from stackbounce.run.quantities import Array
-from stackbounce.units import handy_text, in_si, quantity
+from stackbounce.units import handy_text, quantity
 
 STARTS = ("drop_height", "impact_speed")  # roles of what was before a bounce
 MEASURED = ("rebound_height", "rebound_speed", "restitution")  # of what was measured after it
@@ -106,6 +106,7 @@ def _resolved(
     columns: Sequence[Column], body: Sequence[Row], notes: list[str]
 ) -> tuple[list[Column], list[int]]:
     """Return the columns that are used, and the places of those whose words are groups."""
+    check_balls([*columns])
     used: list[Column] = []
     words: list[int] = []
     for column in columns:
@@ -119,16 +120,14 @@ def _resolved(
                 notes.append(f"The words of column {column.text!r} are not used: no groups.")
             else:
                 words.append(column.index)
+        elif column.role in ("mass", "diameter"):
+            if len(cells) >= 2 * len(set(cells)) > 2:  # they tell balls apart
+                words.append(column.index)
+            else:
+                notes.append(f"Column {column.text!r} is not used: an option tells it.")
         elif column.role not in ("", "reading") and column.number >= 0:
             used.append(column)
         elif cells and not column.role:
-            beside = next((other.text for other in columns if other.ball), "")
-            known = in_si(column.unit) if beside and column.unit else None
-            if known and known[1] == "m":
-                raise InvalidValue(
-                    f"column {column.text!r} must name a ball of the catalogue, as {beside!r} "
-                    "beside it does"
-                )
             notes.append(f"Column {column.text!r} is not used: its name tells nothing known here.")
     _check_numbers(used)
     started = any(column.role in STARTS for column in used)

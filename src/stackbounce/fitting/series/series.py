@@ -17,7 +17,7 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.run.quantities import Array
 
 _AIR_DENSITY = 1.2  # kg/m**3
-_DRAG_COEFFICIENT, _DRAG_ERROR = 0.45, 0.05
+DRAG_COEFFICIENT, _DRAG_ERROR = 0.45, 0.05
 """Of a sphere, at the Reynolds numbers of falling balls, about 10**3 to 10**5: 0.4 to 0.5."""
 
 Scatter = tuple[Array, float]  # a covariance from the scatter of readings, degrees of freedom
@@ -142,7 +142,7 @@ def make_series(data: Dataset, *, air: bool = True) -> Series:
     drag = _drag_of_ball(data) if air else 0.0
     found = _points(drag, data)
     if drag:  # it is not known well, and changes all values together
-        more = 1.0 + _DRAG_ERROR / _DRAG_COEFFICIENT
+        more = 1.0 + _DRAG_ERROR / DRAG_COEFFICIENT
         shift = _points(more * drag, data).values - found.values
         found = found._replace(assumed=found.assumed + np.outer(shift, shift))
     about = {key: data.attrs[key] for key in ("name", "title", "ball")}
@@ -171,12 +171,18 @@ def _drag_of_ball(data: Dataset) -> float:
     """Return the drag of a dataset's ball in 1/m; 0 if its mass or its diameter is not known."""
     if not {"mass", "diameter"} <= set(data.attrs):
         return 0.0
-    sphere = in_air.sphere_drag(_AIR_DENSITY, _DRAG_COEFFICIENT, data.attrs["diameter"])
+    sphere = in_air.sphere_drag(_AIR_DENSITY, DRAG_COEFFICIENT, data.attrs["diameter"])
     return sphere / float(data.attrs["mass"])
 
 
 def _each(formula: Callable[[float, float, float], float], drag: float, values: Array) -> Array:
-    return np.asarray(np.vectorize(formula, otypes=[float])(drag, values, STANDARD_GRAVITY))
+    try:
+        return np.asarray(np.vectorize(formula, otypes=[float])(drag, values, STANDARD_GRAVITY))
+    except ArithmeticError as error:
+        raise InvalidValue(
+            "mass and diameter must be those of a ball that can fly so far, got "
+            f"{drag:.3g} 1/m of drag: its speed would be out of all range"
+        ) from error
 
 
 def _speeds_of_flight(drag: float, time: Array) -> tuple[Array, Array]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from stackbounce.errors import FileError, InvalidValue, counted, placed
 from stackbounce.fitting.rows import Row, rows_of
-from stackbounce.fitting.series.columns import UNITS, Column, columns_of
+from stackbounce.fitting.series.columns import UNITS, Column, check_balls, columns_of
 from stackbounce.fitting.series.readings import Numbers, assumed_error, headed, numbers_in
 from stackbounce.fitting.series.table import told_errors
 from stackbounce.fitting.tables import drop_of
@@ -68,7 +68,8 @@ def read_stack(path: str | os.PathLike[str], errors: Sequence[str] = ()) -> Stac
     except (FileError, InvalidValue):  # `read_table` says why
         return None
     used = (*_FALLS, "gap", "error", "rebound_height", "rebound_ratio")
-    columns = [column for column in columns_of(head) if column.role in used]
+    known = columns_of(head)
+    columns = [column for column in known if column.role in used]
     named = {
         column.ball: catalogue_ball(column.ball).ball.mass for column in columns if column.ball
     }
@@ -76,6 +77,7 @@ def read_stack(path: str | os.PathLike[str], errors: Sequence[str] = ()) -> Stac
         return None
     balls = sorted(named, key=lambda ball: -named[ball])
     with placed(f"{name}: "):
+        check_balls(known)
         return _drops(columns, body, told_errors(errors), balls)
 
 
@@ -95,6 +97,9 @@ def _drops(
     }
     places = np.stack([numbers[index].values for index in paths])
     measured = sorted((c for c in columns if c.ball), key=lambda c: balls.index(c.ball))
+    heights = start.role == "drop_height" and all(c.role == "rebound_height" for c in measured)
+    if heights and all(np.nanmax(numbers[c.index].values / places[0]) < 1.0 for c in measured):
+        notes[0] += " Were they dropped alone, give each its own rows, and a column 'ball'."
     errors = {c.index: _errors(c, numbers[c.index], told, places, notes) for c in measured}
     drops: dict[str, Drop] = {}
     data: dict[str, dict[str, tuple[float, float]]] = {}

@@ -11,7 +11,7 @@ from stackbounce.errors import InvalidValue, counted, nearest, placed, positive,
 from stackbounce.fitting.rows import File, rows_of
 from stackbounce.fitting.series.columns import UNITS, role_of
 from stackbounce.fitting.series.readings import MEASURED, STARTS, assumed_error, readings_of
-from stackbounce.fitting.series.series import pooled_variance
+from stackbounce.fitting.series.series import DRAG_COEFFICIENT, pooled_variance
 from stackbounce.library_types import DataFrame, Dataset
 from stackbounce.measure.reading.dataset import dataset_of
 from stackbounce.run.quantities import Array
@@ -96,6 +96,8 @@ def read_table(
             data = _dataset(own, measured, told, notes)
             title = str(group) or Path(name).name
             groups[str(group)] = data.assign_attrs(name=title, title=title, ball=title, **known)
+    if len(known) == 2:
+        notes.append(f"The drag of the air is corrected, with a coefficient of {DRAG_COEFFICIENT}.")
     if known and len(groups) > 1:
         notes.append(f"The {' and '.join(known)} are taken for all of {', '.join(groups)}.")
     return Table(Path(name).name, groups, tuple(dict.fromkeys(notes)))

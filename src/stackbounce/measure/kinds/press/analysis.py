@@ -92,7 +92,7 @@ def _notes(found: Press) -> list[str]:
     notes = []
     if found.zero.nominal_value == 0.0 and found.zero.std_dev == 0.0:
         notes.append(
-            "There are no points before the contact: the zero of the force was assumed to be "
+            "There are too few points before the contact: the zero of the force was assumed to be "
             "right, and the contact follows from the curve."
         )
     if found.exponent.nominal_value < 1.0 - _CLEAR * found.exponent.std_dev:

@@ -1,5 +1,6 @@
 """One cycle of a press record: its fits and works, with the covariance of all numbers."""
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,7 +18,7 @@ _MOST_POINTS = 4000  # of a branch; a longer one is averaged in groups
 _SLACK_MARGIN = 0.03  # of the peak compression: slack points are further from the contact
 _LEAST_SLACK = 5  # points of slack from which the zero of the force is found
 _TAIL = 0.05  # of the points in contact: their mean residual corrects the peak force
-_LARGEST_POWER = 700.0  # logarithm of the stiffness's C**p, whose size a float can hold
+_LARGEST_POWER = 350.0  # logarithm of the stiffness's C**p, whose square a float can hold
 _AVERAGED = 0.1  # of a branch, over which its residuals are averaged to see a misfit
 _SMALL_MISFIT = 0.01  # of the peak force, below which a misfit does not matter
 _LEAST_CORRELATED = 8  # points of a branch, whose residuals can tell a misfit as autocorrelation
@@ -25,6 +26,8 @@ _CLEAR_MISFIT = 2.5  # times what noise makes of it: up to it, the curve fits
 
 _FIRST_EXPONENTS = (0.7, 1.0, 1.5, 2.0, 3.0)  # of the grid on which the fit's start is sought
 _FIRST_CONTACTS = 48  # places of the contact on the same grid
+# around it: of the contact, over the range of the compression, and the logarithm of the exponent
+_NEAR = (-0.6, math.log(0.6)), (0.95, math.log(4.0))
 _GRID_POINTS = 300  # of the curve that are compared on that grid, for speed
 _LARGEST_LOG = 20.0  # of a parameter, so that no power overflows
 
@@ -275,7 +278,24 @@ def _rough_contact(x: Array, y: Array) -> tuple[float, float]:
         i = int(rest.argmin())
         if rest[i] < best[0]:
             best = (float(rest[i]), float(places[i]), p)
-    return best[1], best[2]
+    return _refined_contact(x, y, best[1], best[2])
+
+
+def _refined_contact(x: Array, y: Array, contact: float, exponent: float) -> tuple[float, float]:
+    """Return the contact and the exponent that fit best, near rough ones."""
+    from scipy.optimize import least_squares
+
+    start, span = float(x.min()), float(np.ptp(x))
+    places, heights = (x - start) / span, (y - y.mean()) / np.ptp(y)
+
+    def rest(unknown: Array) -> Array:
+        rise = _power(places - unknown[0], math.exp(unknown[1]))
+        basis = np.column_stack([np.ones_like(rise), rise])
+        return np.asarray(heights - basis @ np.linalg.lstsq(basis, heights)[0])
+
+    first = (contact - start) / span, math.log(exponent)
+    found = least_squares(rest, first, bounds=_NEAR, x_scale=0.1)
+    return start + span * float(found.x[0]), math.exp(found.x[1])
 
 
 def _power_law(x: Array, peak: float, values: Array) -> tuple[Array, Array]:
