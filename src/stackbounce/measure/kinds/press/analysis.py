@@ -70,7 +70,7 @@ def press(data: Dataset | Any, *, tabulated: bool = False) -> Press:
     >>> force += np.random.default_rng(1).normal(0.0, 0.1, 401)
     >>> found = press(xr.Dataset({"force": ("point", force), "compression": ("point", c)}))
     >>> print(f"exponent {found.exponent:.1uS}, restitution {found.restitution:.1uS}")
-    exponent 1.299(3), restitution 0.7799(6)
+    exponent 1.300(3), restitution 0.7797(5)
     >>> found.parts()["contact"]["law"]
     'Hysteretic'
     """

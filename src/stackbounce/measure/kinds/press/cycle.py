@@ -291,7 +291,7 @@ def _refined_contact(x: Array, y: Array, contact: float, exponent: float) -> tup
     def rest(unknown: Array) -> Array:
         rise = _power(places - unknown[0], math.exp(unknown[1]))
         basis = np.column_stack([np.ones_like(rise), rise])
-        return np.asarray(heights - basis @ np.linalg.lstsq(basis, heights)[0])
+        return np.asarray(heights - basis @ np.linalg.lstsq(basis, heights, rcond=None)[0])
 
     first = (contact - start) / span, math.log(exponent)
     found = least_squares(rest, first, bounds=_NEAR, x_scale=0.1)
