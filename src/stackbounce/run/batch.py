@@ -11,10 +11,12 @@ import functools
 import itertools
 import math
 import os
-import threading
+import time
+from _thread import start_new_thread
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
+from contextlib import suppress
 from itertools import accumulate
+from queue import Empty, SimpleQueue
 from typing import TypeAlias
 
 import numpy as np
@@ -42,6 +44,7 @@ Block: TypeAlias = tuple[slice, ...]
 _BLOCKS = range(1024, 16384)  # drops in a block: enough for the lanes, few enough for the caches
 _EACH = 8  # blocks per thread of a large grid, so that all threads end at about the same time
 
+_SOON = 1e-3  # s: how often it looks whether threads that were told to stop have done so
 _LOOK = 0.1  # s: how often the main thread looks for an interruption; Windows needs that
 
 _Pause: TypeAlias = Callable[[], None]
@@ -124,10 +127,10 @@ def solve(
     wide = {number: np.broadcast_to(values, shape) for number, values in rows.items()}
     threads = os.cpu_count() or 1
     most = min(max(count // (_EACH * threads), _BLOCKS.start), _BLOCKS.stop)
-    out, stop = new_outcomes(count, balls), threading.Event()
+    out, stopped = new_outcomes(count, balls), False
 
     def pause() -> None:
-        if stop.is_set():
+        if stopped:
             raise _StoppedError
 
     def work(todo: Iterable[tuple[Block, int]]) -> None:
@@ -147,16 +150,34 @@ def solve(
     if len(cut) == 1:
         work(todo)
         return out
-    pool = ThreadPoolExecutor(threads)
+    begun: list[None] = []
+    ended: list[BaseException | None] = []
+    wake: SimpleQueue[None] = SimpleQueue()
+
+    def work_on() -> None:  # each thread takes the next block
+        begun.append(None)
+        error = None
+        try:
+            work(todo)
+        except BaseException as raised:
+            error = raised
+        ended.append(error)
+        wake.put(None)
+
+    # No futures, threads or events of the library: an interruption of the main thread while it
+    # holds a lock of theirs would leave that closed, and the thread that needs it waiting for ever.
     try:
-        jobs = {pool.submit(work, todo) for _ in range(threads)}  # each takes the next block
-        while jobs:
-            done, jobs = wait(jobs, _LOOK, FIRST_EXCEPTION)
-            for job in done:
-                job.result()
+        for _ in range(threads):
+            start_new_thread(work_on, ())
+        while len(ended) < threads:
+            with suppress(Empty):
+                wake.get(timeout=_LOOK)
+            for error in filter(None, ended):
+                raise error
     finally:
-        stop.set()
-        pool.shutdown()
+        stopped = True
+        while len(ended) < len(begun):
+            time.sleep(_SOON)
     return out
 
 
