@@ -278,7 +278,10 @@ def _rough_contact(x: Array, y: Array) -> tuple[float, float]:
         i = int(rest.argmin())
         if rest[i] < best[0]:
             best = (float(rest[i]), float(places[i]), p)
-    return _refined_contact(x, y, best[1], best[2])
+    _, contact, exponent = best
+    if exponent < 1.0:  # a curve that bends down is no power law from the contact on
+        return contact, exponent
+    return _refined_contact(x, y, contact, exponent)
 
 
 def _refined_contact(x: Array, y: Array, contact: float, exponent: float) -> tuple[float, float]:
