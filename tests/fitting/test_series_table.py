@@ -90,9 +90,9 @@ def test_trailing_zeros_are_not_read(table):
 
 
 def test_words_are_groups_and_remarks_are_not(table):
-    rows = "golf,100,70,a\ngolf,50,36,b\ntennis,100,53,c\n"
+    rows = "golf,100,70,a\ngolf,50,36,b\nMax,100,53,c\n"  # a name, no maximum
     read = table("ball,drop height (cm),rebound (cm),remark\n" + rows)
-    assert list(read.groups) == ["golf", "tennis"]
+    assert list(read.groups) == ["golf", "Max"]
     assert "The words of column 'remark' are not used: no groups." in read.notes
     masses = table("mass (g),h0 (cm),h1 (cm)\n57,50,32\n57,100,64\n46,50,40\n46,100,80\n")
     assert list(masses.groups) == ["57", "46"]

@@ -336,7 +336,7 @@ class Result(Shown):
         if gravity == 0.0:
             return _frozen(np.empty(0, dtype=APEX))
         last = self.end_time if self.status in STOPPED else math.inf
-        flights, rows = list(self._flights()), []
+        flights, rows = [flight for flight in self._flights() if flight[1] <= last], []
         begun = self.sampled([start for _, start, _, _ in flights])
         masses = np.array([ball.mass for ball in self.drop.balls])
         for flight, (ball, start, velocity, end) in enumerate(flights):

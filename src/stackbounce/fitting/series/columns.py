@@ -1,6 +1,7 @@
 """Which column of a table of bounces holds what, by its heading."""
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from stackbounce.errors import InvalidValue
@@ -92,7 +93,7 @@ def columns_of(headings: list[str]) -> list[Column]:
     return found
 
 
-def check_balls(columns: list[Column]) -> None:
+def check_balls(columns: Sequence[Column]) -> None:
     """Refuse a column of lengths beside one of a ball if it names none itself."""
     beside = next((column.text for column in columns if column.ball), "")
     for column in columns:

@@ -2,6 +2,7 @@
 
 import math
 import re
+import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 from decimal import Decimal
@@ -106,7 +107,7 @@ def _resolved(
     columns: Sequence[Column], body: Sequence[Row], notes: list[str]
 ) -> tuple[list[Column], list[int]]:
     """Return the columns that are used, and the places of those whose words are groups."""
-    check_balls([*columns])
+    check_balls(columns)
     used: list[Column] = []
     words: list[int] = []
     for column in columns:
@@ -310,9 +311,9 @@ def _in_turn(read: Sequence[Column], numbers: dict[int, Numbers], start: Column)
     """
     if len(read) < 2 or read[0].role != "rebound_height":
         return False
-    with np.errstate(all="ignore"):
+    with warnings.catch_warnings(action="ignore"):  # of columns without a row in common
         heights = [np.log(numbers[column.index].values) for column in (start, *read[:2])]
-    first, second = (np.nanmedian(heights[k + 1] - heights[k]) for k in (0, 1))
+        first, second = (np.nanmedian(heights[k + 1] - heights[k]) for k in (0, 1))
     return bool(second < _SUCCESSIVE * first)
 
 

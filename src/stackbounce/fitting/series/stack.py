@@ -98,7 +98,7 @@ def _drops(
     places = np.stack([numbers[index].values for index in paths])
     measured = sorted((c for c in columns if c.ball), key=lambda c: balls.index(c.ball))
     heights = start.role == "drop_height" and all(c.role == "rebound_height" for c in measured)
-    if heights and all(np.nanmax(numbers[c.index].values / places[0]) < 1.0 for c in measured):
+    if heights and not any((numbers[c.index].values >= places[0]).any() for c in measured):
         notes[0] += " Were they dropped alone, give each its own rows, and a column 'ball'."
     errors = {c.index: _errors(c, numbers[c.index], told, places, notes) for c in measured}
     drops: dict[str, Drop] = {}
